@@ -1,9 +1,9 @@
-//! Time of the explorer from a key to the frame with its effect, at 2^20 springs, and bytes written by its animation.
-//! The program itself is measured, in a pseudo-terminal of 120 x 40.
+//! Time of the explorer from a key to the frame with its effect, at 2^20 springs, and bytes written
+//! by its animation. The program itself is measured, in a pseudo-terminal of 120 x 40.
 //!
-//! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and plays no loop to its
-//! end, `-- --runs 100` sets the number of repetitions. Without `--bench`, as started by `cargo test --benches`, it
-//! only checks that it runs, on a small scene.
+//! `cargo bench --bench latency` prints the tables; `-- --quick` repeats each key less often and
+//! plays no loop to its end, `-- --runs 100` sets the number of repetitions. Without `--bench`, as
+//! started by `cargo test --benches`, it only checks that it runs, on a small scene.
 
 #[cfg(unix)]
 #[path = "../tests/common/terminal.rs"]
@@ -28,8 +28,8 @@ mod measure {
     const SPRINGS: &str = "million-springs";
     const SMALL: &str = "pressure-sensitive";
 
-    /// Longest times, in milliseconds: a visible reaction to a key; a change that keeps the line; one that makes it
-    /// anew.
+    /// Longest times, in milliseconds: a visible reaction to a key; a change that keeps the line;
+    /// one that makes it anew.
     const ECHO: f64 = 16.0;
     const EDIT: f64 = 50.0;
     const NEW_LINE: f64 = 150.0;
@@ -48,7 +48,8 @@ mod measure {
         what: &'static str,
         /// Its row in the list.
         row: &'static str,
-        /// Keys of the edit, in turn: the scene walks there and back and seldom meets an earlier one.
+        /// Keys of the edit, in turn: the scene walks there and back and seldom meets an earlier
+        /// one.
         keys: [&'static str; 2],
         bar: f64,
     }
@@ -185,7 +186,8 @@ mod measure {
         times
     }
 
-    /// Times from a digit of a value to the frame with it, ms, while curves of the values typed so far are computed.
+    /// Times from a digit of a value to the frame with it, ms, while curves of the values typed so
+    /// far are computed.
     fn digits(terminal: &mut Terminal, runs: usize) -> Vec<f64> {
         select(terminal, "work of adhesion");
         let mut times = Vec::new();
@@ -205,7 +207,8 @@ mod measure {
         times
     }
 
-    /// Times from a key of an edit to the first frame after it, and to the one with the new loop, ms.
+    /// Times from a key of an edit to the first frame after it, and to the one with the new loop,
+    /// ms.
     fn edits(terminal: &mut Terminal, case: &Case, runs: usize) -> (Vec<f64>, Vec<f64>) {
         if case.row == WORK {
             select(terminal, "adhesion");
@@ -260,7 +263,8 @@ mod measure {
         rows.iter().any(|row| row.contains("computing"))
     }
 
-    /// Adhesion force of the shown profile and adhesion coefficient in the status line, one of which each edit changes.
+    /// Adhesion force of the shown profile and adhesion coefficient in the status line, one of
+    /// which each edit changes.
     fn headline(rows: &[String]) -> Option<[String; 2]> {
         let row = rows
             .iter()

@@ -1,8 +1,9 @@
-//! Time and memory of whole processes: `asperity run` on the scene of a million springs, with fewer and with more.
+//! Time and memory of whole processes: `asperity run` on the scene of a million springs, with fewer
+//! and with more.
 //!
-//! `cargo bench --bench process` prints the table. After `--`: `--largest 26` ends at 2^26 springs (by default 2^24),
-//! and `--runs 9` sets the number of repetitions, of which the shortest counts. Without `--bench`, as started by `cargo
-//! test --benches`, it only checks that it runs.
+//! `cargo bench --bench process` prints the table. After `--`: `--largest 26` ends at 2^26 springs
+//! (by default 2^24), and `--runs 9` sets the number of repetitions, of which the shortest counts.
+//! Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
 
 #[cfg(target_os = "linux")]
 #[path = "../tests/common/peak.rs"]

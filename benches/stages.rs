@@ -1,11 +1,12 @@
-//! Cost of each stage of an exact loop, and of a whole edit of a scene: in milliseconds, in nanoseconds for each
-//! spring, and in units of one real Fourier transform of the same length measured in the same run, which makes runs on
-//! different machines comparable.
+//! Cost of each stage of an exact loop, and of a whole edit of a scene: in milliseconds, in
+//! nanoseconds for each spring, and in units of one real Fourier transform of the same length
+//! measured in the same run, which makes runs on different machines comparable.
 //!
-//! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs, `--smallest 20` begins
-//! at 2^20, `--largest 18` stops at 2^18, and `--runs 9` sets the number of repetitions, of which the shortest counts;
-//! `--hurst 0.2` and `--kappa 100` take other lines and another adhesion, with ten times this κ beside it. Without
-//! `--bench`, as started by `cargo test --benches`, it only checks that it runs.
+//! `cargo bench --bench stages` prints the table. After `--`: `--quick` stops at 2^16 springs,
+//! `--smallest 20` begins at 2^20, `--largest 18` stops at 2^18, and `--runs 9` sets the number of
+//! repetitions, of which the shortest counts; `--hurst 0.2` and `--kappa 100` take other lines and
+//! another adhesion, with ten times this κ beside it. Without `--bench`, as started by
+//! `cargo test --benches`, it only checks that it runs.
 
 use asperity::contact::ClosedForm;
 use asperity::contact::motion::{Body, ContactTree, Leg, MovingBody};
@@ -30,8 +31,8 @@ const LENGTH: f64 = 1.0e-3;
 const EFFECTIVE_MODULUS: f64 = 2.0e6;
 const RMS_HEIGHT: f64 = 5.0e-7;
 const HURST: f64 = 0.7;
-/// Under this κ, lines as finely rough as these snap into full contact; under ten times as much, part of them stays
-/// free, and springs attach and detach a few at a time.
+/// Under this κ, lines as finely rough as these snap into full contact; under ten times as much,
+/// part of them stays free, and springs attach and detach a few at a time.
 const KAPPA: f64 = 2.0;
 /// Both kinds of edges.
 const EDGES: [Edges; 2] = [Edges::Grid, Edges::SubCell];
@@ -213,7 +214,8 @@ struct Timed {
     work: Work,
 }
 
-/// Measures all stages in turn, round after round: other load of the machine then affects all of them alike.
+/// Measures all stages in turn, round after round: other load of the machine then affects all of
+/// them alike.
 fn measure(rough: &Rough, runs: usize) -> Measured {
     let gaps = &rough.line.gaps;
     let mut transform = Transform::planned(rough.points);
@@ -230,7 +232,8 @@ fn measure(rough: &Rough, runs: usize) -> Measured {
     };
     let mut lines = Lines::default();
     lines.seconds(rough, 0);
-    // The memory of the tree is kept from run to run, like the buffers of the transform and as in a simulation.
+    // The memory of the tree is kept from run to run, like the buffers of the transform and as in a
+    // simulation.
     let mut tree = ContactTree::default();
     for run in 0..runs {
         // The unit is a transform with its memory in the caches as far as it fits.
@@ -293,13 +296,13 @@ impl Lines {
     }
 }
 
-/// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with the legs
-/// kept.
+/// A simulation whose scene is edited as in the explorer: with the histogram of heights, and with
+/// the legs kept.
 struct Edits {
     simulation: Simulation,
     legs: Vec<Leg>,
-    /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for another seed
-    /// under each κ.
+    /// Shortest seconds from an edit to the outcome: under each κ with the line kept, and for
+    /// another seed under each κ.
     kappa: [f64; 2],
     seed: [f64; 2],
 }

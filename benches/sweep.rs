@@ -1,9 +1,10 @@
-//! Cost of a parameter study: cells that share their line against cells one by one, two jobs against one, and a great
-//! many small cells, all in one run. Costs are also given in real Fourier transforms of as many points, measured
-//! beside.
+//! Cost of a parameter study: cells that share their line against cells one by one, two jobs
+//! against one, and a great many small cells, all in one run. Costs are also given in real Fourier
+//! transforms of as many points, measured beside.
 //!
-//! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`: `--quick` takes fewer lines
-//! and cells. Without `--bench`, as started by `cargo test --benches`, it only checks that it runs.
+//! `cargo bench --bench sweep` prints the figures and fails if a bar is missed. After `--`:
+//! `--quick` takes fewer lines and cells. Without `--bench`, as started by `cargo test --benches`,
+//! it only checks that it runs.
 
 use asperity::contact::Move;
 use asperity::scene::Simulation;
@@ -183,7 +184,8 @@ fn small(cells: u64) -> Plan {
     Plan::parse(&text, "small", &Changes::default()).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// Cost, s: by the clock, and of the processors. The second hardly depends on other load of the machine.
+/// Cost, s: by the clock, and of the processors. The second hardly depends on other load of the
+/// machine.
 #[derive(Clone, Copy)]
 struct Cost {
     clock: f64,
@@ -231,8 +233,8 @@ fn study(plan: &Plan, jobs: usize) {
     done.unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// The same cells, each a scene of its own without shared results, as by a script that runs the program for each of
-/// them, but without the start of a process and its output.
+/// The same cells, each a scene of its own without shared results, as by a script that runs the
+/// program for each of them, but without the start of a process and its output.
 fn one_by_one(plan: &Plan) {
     for line in 0..plan.lines {
         for cell in 0..plan.cells() {

@@ -1,4 +1,5 @@
-//! Fit of a force curve: the work of adhesion and the modulus of a sphere from displacements and forces with noise.
+//! Fit of a force curve: the work of adhesion and the modulus of a sphere from displacements and
+//! forces with noise.
 //!
 //! `cargo run --release --example force_curve`
 

@@ -1,12 +1,14 @@
-//! From the heights of an equivalent line to the adhesion force over the preload, F_a(F_n): pull-off after each of several
-//! preloads, from one loading. The example `measured_map` begins with measured heights, which are not an equivalent line.
+//! From the heights of an equivalent line to the adhesion force over the preload, F_a(F_n):
+//! pull-off after each of several preloads, from one loading. The example `measured_map` begins
+//! with measured heights, which are not an equivalent line.
 //!
 //! `cargo run --release --example heights`
 
 use asperity::{Contact, Modulus, Move, Profile};
 
 fn main() -> Result<(), asperity::Error> {
-    // An equivalent line that is computed here: 64 waves of falling height on 100 µm, with 4096 points.
+    // An equivalent line that is computed here: 64 waves of falling height on 100 µm, with 4096
+    // points.
     let spacing = 1.0e-4 / 4096.0; // m
     let wave =
         |x: f64, k: u32| (f64::from(k) * x + f64::from(k * k)).cos() / f64::from(k).powf(1.1);

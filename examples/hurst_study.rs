@@ -1,4 +1,5 @@
-//! A parameter study in memory: the median adhesion force over the Hurst exponent, 16 random profiles of each, on all cores.
+//! A parameter study in memory: the median adhesion force over the Hurst exponent, 16 random
+//! profiles of each, on all cores.
 //!
 //! `cargo run --release --example hurst_study`
 

@@ -1,4 +1,5 @@
-//! A sphere against the closed form of Johnson, Kendall and Roberts: the pull-off force, and the force at equal contact radius.
+//! A sphere against the closed form of Johnson, Kendall and Roberts: the pull-off force, and the
+//! force at equal contact radius.
 //!
 //! `cargo run --release --example jkr`
 

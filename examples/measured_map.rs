@@ -1,4 +1,5 @@
-//! From a measured map to the spread of the adhesion force, over random profiles and by the uncertainty of the spectrum.
+//! From a measured map to the spread of the adhesion force, over random profiles and by the
+//! uncertainty of the spectrum.
 //!
 //! `cargo run --release --example measured_map`
 

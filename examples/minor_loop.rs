@@ -1,5 +1,6 @@
-//! A minor loop: pulled back to a fifth of the preload and pressed again, a rough contact returns along another branch. On each
-//! stage the work of the force is the change of the stored energy and the released energy.
+//! A minor loop: pulled back to a fifth of the preload and pressed again, a rough contact returns
+//! along another branch. On each stage the work of the force is the change of the stored energy and
+//! the released energy.
 //!
 //! `cargo run --release --example minor_loop`
 

@@ -1,15 +1,18 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic force curve of a
-//! rigid rough profile on an elastic half-space, for any loading history, exactly and in linear time.
+//! Adhesion of rough elastic contacts: pull-off force, dissipated energy and the whole hysteretic
+//! force curve of a rigid rough profile on an elastic half-space, for any loading history, exactly
+//! and in linear time.
 //!
-//! The model was stated by V. L. Popov and A. E. Filippov (Physical Mesomechanics 15, 2012): the method of dimensionality
-//! reduction (MDR) with the rule of Hess for adhesion. A three-dimensional contact maps to a one-dimensional
-//! equivalent profile on independent springs of stiffness E\* Δx. A contact patch of length l holds springs that are
-//! stretched by up to √(π l γ/E\*), with the work of adhesion γ and the effective modulus E\*.
+//! The model was stated by V. L. Popov and A. E. Filippov (Physical Mesomechanics 15, 2012): the
+//! method of dimensionality reduction (MDR) with the rule of Hess for adhesion. A three-dimensional
+//! contact maps to a one-dimensional equivalent profile on independent springs of stiffness E\* Δx.
+//! A contact patch of length l holds springs that are stretched by up to √(π l γ/E\*), with the
+//! work of adhesion γ and the effective modulus E\*.
 //!
-//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand: why the springs may be independent,
-//! where the rule of Hess comes from, a loop of a sphere, and a staircase of five springs. The examples below follow it.
+//! Begin with [docs/learn.md](../../../docs/learn.md), which derives the model by hand: why the
+//! springs may be independent, where the rule of Hess comes from, a loop of a sphere, and a
+//! staircase of five springs. The examples below follow it.
 //!
 //! # A contact in five lines
 //!
@@ -17,21 +20,30 @@
 //! use asperity::{Contact, Modulus, Move, Profile};
 //!
 //! // A sphere of 100 µm: the heights of its equivalent line are −x²/R, not −x²/(2R) as in a cut.
-//! let heights: Vec<f64> = (-512..=512).map(|i| -(1.0e-7 * f64::from(i)).powi(2) / 1.0e-4).collect(); // m
+//! let heights: Vec<f64> = (-512..=512)
+//!     .map(|i| -(1.0e-7 * f64::from(i)).powi(2) / 1.0e-4)
+//!     .collect(); // m
 //! let profile = Profile::from_heights(heights, 1.0e-7)?; // spacing, m
-//! let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+//! let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?)
+//!     .work_of_adhesion(0.05)
+//!     .build()?;
 //! let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?; // N
-//! println!("{:?} N, {:?} J", cycle.pull_off_force(), cycle.dissipated_energy());
+//! println!(
+//!     "{:?} N, {:?} J",
+//!     cycle.pull_off_force(),
+//!     cycle.dissipated_energy()
+//! );
 //! # let exact = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
 //! # assert!((cycle.pull_off_force().unwrap() / exact - 1.0).abs() < 1e-4);
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! A [`Profile`] holds the heights or gaps of the equivalent line. Heights that are measured along a line are a cut, whose rms
-//! gradient is 29 % smaller: [`surface::Topography`] takes them, and [`ProfileBuilder::spectrum`] makes equivalent lines of their
-//! spectrum. A [`Modulus`] holds the elastic constants, and the [`contact::ContactBuilder`] the work of
-//! adhesion and the stiffness of the instrument. A [`Cycle`] has the force curve as points and as columns, the figures of
-//! the loop, and the contact patches.
+//! A [`Profile`] holds the heights or gaps of the equivalent line. Heights that are measured along
+//! a line are a cut, whose rms gradient is 29 % smaller: [`surface::Topography`] takes them, and
+//! [`ProfileBuilder::spectrum`] makes equivalent lines of their spectrum. A [`Modulus`] holds the
+//! elastic constants, and the [`contact::ContactBuilder`] the work of adhesion and the stiffness of
+//! the instrument. A [`Cycle`] has the force curve as points and as columns, the figures of the
+//! loop, and the contact patches.
 //!
 //! # A rough sphere, and its adhesion over the preload
 //!
@@ -39,21 +51,32 @@
 //! use asperity::{Contact, Modulus, Move, ProfileBuilder};
 //!
 //! let rough = ProfileBuilder::new(1.0e-4, 4096).sphere(1.0e-3);
-//! let rough = rough.self_affine(0.7).rms_height(1.0e-7).wavelengths(1.0e-4, 2.0e-7).seed(1);
-//! let contact = Contact::builder(&rough.build()?, Modulus::effective(2.0e6)?).work_of_adhesion(0.02).build()?;
+//! let rough = rough
+//!     .self_affine(0.7)
+//!     .rms_height(1.0e-7)
+//!     .wavelengths(1.0e-4, 2.0e-7)
+//!     .seed(1);
+//! let contact = Contact::builder(&rough.build()?, Modulus::effective(2.0e6)?)
+//!     .work_of_adhesion(0.02)
+//!     .build()?;
 //! let preloads = [0.0, 1.0e-5, 1.0e-4].map(Move::ToForce); // N
-//! let forces = contact.reversals(&preloads, &[])?.into_iter().map(|found| found.adhesion_force());
+//! let forces = contact
+//!     .reversals(&preloads, &[])?
+//!     .into_iter()
+//!     .map(|found| found.adhesion_force());
 //! assert!(forces.is_sorted());
 //! # Ok::<(), asperity::Error>(())
 //! ```
 //!
-//! [`ProfileBuilder::run`] computes κ, the Tabor number, the ideal adhesion force and the regime as well.
+//! [`ProfileBuilder::run`] computes κ, the Tabor number, the ideal adhesion force and the regime as
+//! well.
 //!
 //! # A scene
 //!
-//! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and [`scene::open`] finds
-//! the built-in scenes. Only a checked scene is computed ([`Scene::checked`]). [`run`] computes the scene of a file, and looks
-//! for its measured surfaces in the folder of that file:
+//! A [`scene::Scene`] holds all that a computation needs; the program reads it from RON files and
+//! [`scene::open`] finds the built-in scenes. Only a checked scene is computed
+//! ([`Scene::checked`]). [`run`] computes the scene of a file, and looks for its measured surfaces
+//! in the folder of that file:
 //!
 //! ```
 //! let document = asperity::scene::open("jkr-sphere")?;
@@ -68,9 +91,9 @@
 //!
 //! # Conventions
 //!
-//! SI units throughout. Heights are positive towards the half-space; the indentation d is 0 at first touch of the
-//! undeformed profile and grows on pressing; compressive forces are positive. N points at a distance Δx cover the
-//! length N Δx.
+//! SI units throughout. Heights are positive towards the half-space; the indentation d is 0 at
+//! first touch of the undeformed profile and grows on pressing; compressive forces are positive. N
+//! points at a distance Δx cover the length N Δx.
 //!
 //! # Crates
 //!
@@ -79,13 +102,14 @@
 //! | crate | from | to |
 //! | --- | --- | --- |
 //! | [`data`] | text | values with units, tables, files |
-//! | [`contact`] | heights or gaps of the equivalent line at a distance Δx, E\*, γ, a loading | [`Cycle`]: curve, figures, patches |
+//! | [`contact`] | heights or gaps of the equivalent line, E\*, γ, a loading | [`Cycle`] |
 //! | [`surface`] | measured files, forms, spectra | moments, equivalent lines |
 //! | [`scene`] | a scene file | [`scene::Outcome`] with figures and regime |
 //! | [`experiment`] | measured force curves and a scene | fitted values with their errors |
 //! | [`study`] | many scenes | tables, statistics |
 //!
-//! Charts and reports have crates of their own; the command line and the explorer belong only to the program.
+//! Charts and reports have crates of their own; the command line and the explorer belong only to
+//! the program.
 
 pub mod cli;
 pub mod explorer;

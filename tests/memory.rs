@@ -25,8 +25,8 @@ const ASPERITY: &str = env!("CARGO_BIN_EXE_asperity");
 /// Held by tests that take much memory in this process.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// Largest ratio of the stated to the used memory, and of the inverse, apart from differences between builds of the
-/// program itself.
+/// Largest ratio of the stated to the used memory, and of the inverse, apart from differences
+/// between builds of the program itself.
 const FACTOR: f64 = 1.5;
 const OF_BUILDS: u64 = 6 << 20;
 
@@ -232,7 +232,8 @@ fn a_scene_that_does_not_fit_is_refused_and_never_an_abort() {
     }
 }
 
-/// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning point.
+/// Bound of the documentation: bytes for each spring beside gaps and tree, and for each turning
+/// point.
 const REVERSALS_PER_SPRING: usize = 16;
 const REVERSALS_PER_TURN: usize = 256;
 /// Memory of tests that run processes meanwhile, bytes.
@@ -291,7 +292,8 @@ fn memory_of_512_reversals_is_that_of_a_few() {
     }
 }
 
-/// Bytes per spring that a study counts for several preloads, where nearly every spring is an event.
+/// Bytes per spring that a study counts for several preloads, where nearly every spring is an
+/// event.
 const PRELOADS_PER_SPRING: usize = 192;
 
 #[test]

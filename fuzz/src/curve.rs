@@ -4,8 +4,8 @@ use super::assert_message;
 use asperity::experiment::{CurveOptions, Drift, MeasuredCurve, Tilt};
 use std::path::Path;
 
-/// An accepted curve has finite points in the order of its segments and a noise above 0; a refusal is one line with the
-/// allowed values, for any options.
+/// An accepted curve has finite points in the order of its segments and a noise above 0; a refusal
+/// is one line with the allowed values, for any options.
 pub fn curve(bytes: &[u8]) {
     let words = |text: &str| text.split(',').map(str::to_owned).collect();
     let lines = CurveOptions {

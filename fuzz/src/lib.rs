@@ -1,7 +1,7 @@
 //! Properties of everything that is read: each panics if violated.
 //!
-//! The targets of cargo-fuzz call them with generated inputs; `tests/fuzz/main.rs` includes this file and calls them
-//! with the seeds, with the findings, and with mutations of both.
+//! The targets of cargo-fuzz call them with generated inputs; `tests/fuzz/main.rs` includes this
+//! file and calls them with the seeds, with the findings, and with mutations of both.
 
 mod curve;
 mod overrides;
@@ -25,7 +25,8 @@ use std::borrow::Cow;
 /// A property of any bytes.
 pub type Property = fn(&[u8]);
 
-/// All targets, with the names of their files in `fuzz_targets` and of their folders of seeds and corpus.
+/// All targets, with the names of their files in `fuzz_targets` and of their folders of seeds and
+/// corpus.
 pub const TARGETS: &[(&str, Property)] = &[
     ("scene", scene),
     ("overrides", overrides),
@@ -35,7 +36,8 @@ pub const TARGETS: &[(&str, Property)] = &[
     ("curve", curve),
 ];
 
-/// Longest line of a message, in characters: names, values and the words of the field, none of them endless.
+/// Longest line of a message, in characters: names, values and the words of the field, none of them
+/// endless.
 const LONGEST_MESSAGE: usize = 2000;
 
 /// Reading a file refuses invalid UTF-8; here it must not waste an input.
@@ -60,8 +62,8 @@ fn assert_message(message: &str) {
     );
 }
 
-/// Each error names its cause, its place, and either the allowed values or the reason of refusal; `assert_origin`
-/// judges the place.
+/// Each error names its cause, its place, and either the allowed values or the reason of refusal;
+/// `assert_origin` judges the place.
 fn assert_errors(errors: &SceneErrors, assert_origin: impl Fn(&Origin)) {
     let count = errors.iter().count();
     assert!(count <= 1000, "{count} errors");

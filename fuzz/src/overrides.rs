@@ -7,10 +7,11 @@ use asperity::scene::{Document, Origin, SceneErrors};
 /// Most overrides at a time; for each of them the whole text is read again.
 const MOST: usize = 16;
 
-/// The first line names a built-in scene (the default if there is none of that name), each further one is an override.
+/// The first line names a built-in scene (the default if there is none of that name), each further
+/// one is an override.
 ///
-/// Accepted overrides make a sound scene, together as one by one, and those listed by a document make the scene again;
-/// refused ones are named.
+/// Accepted overrides make a sound scene, together as one by one, and those listed by a document
+/// make the scene again; refused ones are named.
 pub fn overrides(bytes: &[u8]) {
     let text = text(bytes);
     let mut lines = text.lines();

@@ -5,8 +5,8 @@ use asperity::surface::Amplitude;
 use asperity::surface::lines::{MeasuredOptions, MeasuredProfile};
 use asperity::surface::{ReadOptions, SurfaceError, Unit};
 
-/// An accepted profile has finite points in ascending order and can be sampled; a refusal is one line that states the
-/// allowed values.
+/// An accepted profile has finite points in ascending order and can be sampled; a refusal is one
+/// line that states the allowed values.
 pub fn profile(bytes: &[u8]) {
     let text = text(bytes);
     let read = parse(&text);
@@ -106,8 +106,8 @@ fn assert_samples(profile: &MeasuredProfile) {
             }
         }
     }
-    // More memory than available, and a longer line than the profile, are refused without a try. Points at even
-    // distances cover half a distance more at each end.
+    // More memory than available, and a longer line than the profile, are refused without a try.
+    // Points at even distances cover half a distance more at each end.
     let points = profile.heights.len() as f64;
     let covered = length * (points / (points - 1.0));
     let refused = [

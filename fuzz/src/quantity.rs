@@ -9,7 +9,8 @@ const LARGEST: f64 = 1.0e300;
 
 /// The text is read for each unit of the table of fields.
 ///
-/// An accepted number is finite and equals the number of a plain text; its shown text reads back as the same text.
+/// An accepted number is finite and equals the number of a plain text; its shown text reads back as
+/// the same text.
 pub fn quantity(bytes: &[u8]) {
     let text = text(bytes);
     let mut units: Vec<&str> = FIELDS

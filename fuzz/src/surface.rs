@@ -7,8 +7,8 @@ use asperity::surface::{ReadOptions, SurfaceError, Topography, Unit, parse};
 /// Most points of an analysed surface, so that no input takes long.
 const MOST_ANALYSED: usize = 128;
 
-/// An accepted surface has finite heights at ascending positions and gives a spectrum or a reason; a refusal has its
-/// place and the allowed values, for any statements of the user.
+/// An accepted surface has finite heights at ascending positions and gives a spectrum or a reason;
+/// a refusal has its place and the allowed values, for any statements of the user.
 pub fn surface(bytes: &[u8]) {
     let stated = ReadOptions {
         unit: Some(Unit::METRE),

@@ -30,7 +30,8 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// Returns true if the computation is to stop, since a signal or the callback has raised an exception.
+    /// Returns true if the computation is to stop, since a signal or the callback has raised an
+    /// exception.
     pub fn stop(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
@@ -55,8 +56,8 @@ impl Watch {
     }
 }
 
-/// Result of a computation without the lock of Python. It runs on a thread of its own, so that the calling thread, which may be
-/// the one that receives signals, looks for them meanwhile.
+/// Result of a computation without the lock of Python. It runs on a thread of its own, so that the
+/// calling thread, which may be the one that receives signals, looks for them meanwhile.
 pub fn computed<R: Send>(
     py: Python<'_>,
     progress: Progress,
@@ -95,7 +96,8 @@ pub fn computed<R: Send>(
     Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
 }
 
-/// A scene, number of profiles, number of threads, and callback of the progress; numbers may be left to the program.
+/// A scene, number of profiles, number of threads, and callback of the progress; numbers may be
+/// left to the program.
 #[derive(FromPyObject)]
 pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 
@@ -115,7 +117,8 @@ impl Case<'_> {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Returns an error for a scene whose roughness is in memory, for a computation that reads the files of a scene.
+    /// Returns an error for a scene whose roughness is in memory, for a computation that reads the
+    /// files of a scene.
     pub fn check_files(&self) -> Result<(), Failure> {
         if self.in_memory.is_none() {
             return Ok(());

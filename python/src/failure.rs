@@ -31,7 +31,8 @@ impl Failure {
         }))
     }
 
-    /// A value that is not allowed, with what is allowed. The sentence escapes and shortens the value.
+    /// A value that is not allowed, with what is allowed. The sentence escapes and shortens the
+    /// value.
     pub fn field(field: &str, value: &str, allowed: &str) -> Failure {
         let message = format!("{} = {}; allowed: {allowed}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, allowed)
@@ -48,7 +49,8 @@ impl Failure {
         Failure::field_in_words(message, field, value, &reason.to_string())
     }
 
-    /// The failure to read files if one of them does not open, otherwise the failure that their content explains.
+    /// The failure to read files if one of them does not open, otherwise the failure that their
+    /// content explains.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
         let is_any_missing = files.iter().any(is_missing);
@@ -127,7 +129,8 @@ impl From<ContactError> for Failure {
     }
 }
 
-/// Failures of errors by their variants: those that hold another error, lack of memory, unreadable files; all others are values.
+/// Failures of errors by their variants: those that hold another error, lack of memory, unreadable
+/// files; all others are values.
 macro_rules! failures {
     ($($error:ident: $($inner:ident)*, memory $($memory:ident)*, file $($file:ident)*;)*) => {$(
         impl From<$error> for Failure {

@@ -12,7 +12,8 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A measured curve: its name, and displacements, m, and forces, N, unless the name is that of a file.
+/// A measured curve: its name, and displacements, m, and forces, N, unless the name is that of a
+/// file.
 #[derive(FromPyObject)]
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
@@ -49,7 +50,8 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     Err(Failure::of_files(&files.collect::<Vec<_>>(), message))
 }
 
-/// Fits a scene to one curve, to each of several, or on random profiles to all together; the words are options of `asperity fit`.
+/// Fits a scene to one curve, to each of several, or on random profiles to all together; the words
+/// are options of `asperity fit`.
 #[pyfunction]
 pub fn fit(
     py: Python<'_>,

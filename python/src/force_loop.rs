@@ -1,4 +1,5 @@
-//! Profiles of rigid bodies and their force loops: the curve as arrays, its figures, and its picture.
+//! Profiles of rigid bodies and their force loops: the curve as arrays, its figures, and its
+//! picture.
 
 use crate::computing::{Progress, computed};
 use crate::failure::Failure;
@@ -92,13 +93,15 @@ impl Profile {
     }
 }
 
-/// Modulus (Pa), works of adhesion on closing and on opening (J/m²), loading stiffness (N/m); stages, whole springs or not, samples.
+/// Modulus (Pa), works of adhesion on closing and on opening (J/m²), loading stiffness (N/m);
+/// stages, whole springs or not, samples.
 type Load = ((f64, [f64; 2], f64), (String, bool, u64));
 
 /// Indentation, m, and force, N, of the marked points by their names.
 type Marks = BTreeMap<&'static str, (f64, f64)>;
 
-/// The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their names.
+/// The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their
+/// names.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
     stages: Vec<LegRecord>,
@@ -181,7 +184,8 @@ impl Loop {
         })
     }
 
-    /// Columns of the curve, whole numbers first, in the order of `asperity.Loop`, and the released energy of each stage.
+    /// Columns of the curve, whole numbers first, in the order of `asperity.Loop`, and the released
+    /// energy of each stage.
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let stages = self.stages.iter();
         let points = || stages.clone().flat_map(|stage| &stage.curve);
@@ -210,8 +214,8 @@ impl Loop {
         )
     }
 
-    /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of ideal contact; the regime; and the
-    /// marked points.
+    /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of
+    /// ideal contact; the regime; and the marked points.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
         let (of, outcome) = (&self.figures, self.outcome.as_ref());
         let governing =

@@ -1,6 +1,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! The native part of the package `asperity` of Python, between Python and the libraries of Asperity. It computes nothing itself.
+//! The native part of the package `asperity` of Python, between Python and the libraries of
+//! Asperity. It computes nothing itself.
 
 mod computing;
 mod failure;
@@ -29,7 +30,8 @@ mod _native {
         surface::Surface,
     };
 
-    /// Runs the program with these arguments, the first of which is its name, and returns the exit code.
+    /// Runs the program with these arguments, the first of which is its name, and returns the exit
+    /// code.
     #[pyfunction]
     fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
         py.detach(|| asperity::cli::main(arguments))

@@ -8,8 +8,9 @@ use asperity_half_space::{Boundary, HalfSpace, Load, Square};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-/// Presses a rigid square map of heights (m), to a residual in rms heights. The load is the side of the map (m), the effective modulus
-/// (Pa) and the force (N). Returns pressures and gaps by rows; force, indentation, area of contact, residual, and number of convolutions.
+/// Presses a rigid square map of heights (m), to a residual in rms heights. The load is the side of
+/// the map (m), the effective modulus (Pa) and the force (N). Returns pressures and gaps by rows;
+/// force, indentation, area of contact, residual, and number of convolutions.
 #[pyfunction]
 pub fn press<'py>(
     py: Python<'py>,

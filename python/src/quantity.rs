@@ -12,7 +12,8 @@ pub fn parsed(text: &str, unit: &str, field: &str) -> Result<f64, Failure> {
     parse_quantity(text, unit).map_err(|error| Failure::explained(field, text, &error))
 }
 
-/// Returns the SI unit of the number at a path of a scene, of the variant of a form or of a roughness that has it.
+/// Returns the SI unit of the number at a path of a scene, of the variant of a form or of a
+/// roughness that has it.
 #[pyfunction]
 pub fn unit_of(path: &str, variant: &str) -> &'static str {
     field(path, Some(variant)).map_or("1", |field| field.unit)

@@ -1,4 +1,5 @@
-//! Results of scenes: the functions of the libraries, and the reports of the program as their answers.
+//! Results of scenes: the functions of the libraries, and the reports of the program as their
+//! answers.
 
 use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
@@ -22,7 +23,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and a figure.
+/// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and
+/// a figure.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Report(Box<dyn Fn(Format) -> io::Result<Vec<u8>> + Send + Sync>);
 
@@ -33,7 +35,8 @@ impl Report {
     }
 }
 
-/// Returns the document that tables and figures state; `None` for a scene with a roughness in memory, which no text holds.
+/// Returns the document that tables and figures state; `None` for a scene with a roughness in
+/// memory, which no text holds.
 fn named<'a>(
     document: &'a Document,
     in_memory: &Option<Arc<MeasuredRoughness>>,

@@ -1,4 +1,5 @@
-//! Scenes: named, read from files or from text, with other values of their fields, and with surfaces in memory.
+//! Scenes: named, read from files or from text, with other values of their fields, and with
+//! surfaces in memory.
 
 use crate::failure::Failure;
 use crate::force_loop::Profile;
@@ -15,7 +16,8 @@ use std::sync::Arc;
 /// Name in place of a file for an equivalent line of which only the heights are known.
 const HEIGHTS: &str = "heights in memory";
 
-/// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of its computation.
+/// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of
+/// its computation.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
@@ -29,7 +31,8 @@ impl Scene {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Returns the roughness in memory if the document, which was made from this scene, still has it.
+    /// Returns the roughness in memory if the document, which was made from this scene, still has
+    /// it.
     fn kept_in_memory(
         &self,
         document: &Document,
@@ -89,7 +92,8 @@ impl Scene {
         })
     }
 
-    /// Returns a scene of a profile whose heights are given, on a body of this effective modulus in Pa.
+    /// Returns a scene of a profile whose heights are given, on a body of this effective modulus in
+    /// Pa.
     #[staticmethod]
     fn of_profile(profile: &Profile, modulus: f64) -> Result<Scene, Failure> {
         let profile = &profile.profile;
@@ -124,7 +128,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with other values of fields, given as pairs of a path and a value in the notation of a scene file.
+    /// Returns the scene with other values of fields, given as pairs of a path and a value in the
+    /// notation of a scene file.
     fn set(&self, fields: Vec<(String, String)>) -> Result<Scene, Failure> {
         let document = self.document.set_all(&fields)?;
         let in_memory = self.kept_in_memory(&document)?;
@@ -134,8 +139,8 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with these works of adhesion in J/m². Without `closing`, both works are equal. The range of the
-    /// attraction stays. A work of 0 removes the adhesion.
+    /// Returns the scene with these works of adhesion in J/m². Without `closing`, both works are
+    /// equal. The range of the attraction stays. A work of 0 removes the adhesion.
     fn with_works(&self, work: f64, closing: Option<f64>) -> Result<Scene, Failure> {
         if work == 0.0 && closing.is_none() {
             return self.set(vec![("adhesion".to_owned(), "None".to_owned())]);

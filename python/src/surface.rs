@@ -18,7 +18,8 @@ use std::sync::Arc;
 /// A map of heights, m, and the distances between its points and between its rows, m.
 type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 
-/// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), preload (N); a number may be unknown.
+/// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), preload (N); a number
+/// may be unknown.
 type Numbers = [Option<f64>; 4];
 
 /// An analysed measured surface, from which profiles and scenes are made.
@@ -32,8 +33,9 @@ pub struct Surface {
 
 #[pymethods]
 impl Surface {
-    /// Analyses the files of the measured roughness of a scene, or a map of heights that is read with the options of this
-    /// roughness. With a modulus and a work of adhesion, computes the adhesion on `profiles` random profiles.
+    /// Analyses the files of the measured roughness of a scene, or a map of heights that is read
+    /// with the options of this roughness. With a modulus and a work of adhesion, computes the
+    /// adhesion on `profiles` random profiles.
     #[new]
     fn new(
         py: Python<'_>,
@@ -86,7 +88,8 @@ impl Surface {
         Report::new(move |format| bytes(None, &*report, format))
     }
 
-    /// Returns a scene with the roughness of this surface and this seed of its random phases. The spectrum of an array is in memory.
+    /// Returns a scene with the roughness of this surface and this seed of its random phases. The
+    /// spectrum of an array is in memory.
     fn roughen(&self, scene: &Scene, seed: u64) -> Result<Scene, Failure> {
         let mut measured = self.task.measured.clone();
         measured.seed = seed;
@@ -98,7 +101,8 @@ impl Surface {
         })
     }
 
-    /// A scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa.
+    /// A scene of the equivalent line over the length of the scan, on a body of this effective
+    /// modulus in Pa.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
         let scene = self
             .task

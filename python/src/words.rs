@@ -1,4 +1,5 @@
-//! Options of the command line in the words of Python: errors of the libraries name the options of commands.
+//! Options of the command line in the words of Python: errors of the libraries name the options of
+//! commands.
 
 use crate::failure::Failure;
 use asperity::cli::arguments::{Arguments, Command};
@@ -11,17 +12,19 @@ use std::error::Error;
 /// Commands whose options have arguments of the same names in Python.
 const COMMANDS: [&str; 4] = ["surface", "find", "reference", "run"];
 
-/// Options of `asperity fit` that are arguments of `asperity.fit`. All others are entries of its dictionary `options`.
+/// Options of `asperity fit` that are arguments of `asperity.fit`. All others are entries of its
+/// dictionary `options`.
 const ARGUMENTS_OF_FIT: [&str; 3] = ["free", "jobs", "profiles"];
 
 /// Fields of a scene that errors name beside an option.
 const IN_A_SCENE: &str = ", in a scene ";
 
-/// Largest number of characters of a word of a message. A longer word is a foreign text that is cut.
+/// Largest number of characters of a word of a message. A longer word is a foreign text that is
+/// cut.
 const LONGEST_WORD: usize = 255;
 
-/// Returns a message for Python: options of the command line are arguments, no sign controls a terminal, and foreign texts are
-/// shortened.
+/// Returns a message for Python: options of the command line are arguments, no sign controls a
+/// terminal, and foreign texts are shortened.
 pub fn sentence(message: &str) -> String {
     let mut shortened = String::new();
     let mut length = 0;
@@ -36,8 +39,8 @@ pub fn sentence(message: &str) -> String {
     in_python(&shortened)
 }
 
-/// Returns a message in which options of the command line are arguments of Python: `--unit um, in a scene roughness.unit` is
-/// `unit="um"`.
+/// Returns a message in which options of the command line are arguments of Python:
+/// `--unit um, in a scene roughness.unit` is `unit="um"`.
 fn in_python(message: &str) -> String {
     if !message.contains("--") {
         return message.to_owned();

@@ -1,4 +1,5 @@
-//! `asperity fit … --profiles`: the work of adhesion of a rough body by comparison with random profiles.
+//! `asperity fit … --profiles`: the work of adhesion of a rough body by comparison with random
+//! profiles.
 
 use super::error::CliError;
 use super::fits::{Curves, files_of};

@@ -78,8 +78,8 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// The options of the explorer. If the user's own configuration file is wrong, the explorer opens with a warning and
-    /// the defaults.
+    /// The options of the explorer. If the user's own configuration file is wrong, the explorer
+    /// opens with a warning and the defaults.
     ///
     /// # Errors
     /// The first mistake in a configuration file that the user names.
@@ -107,8 +107,8 @@ impl LookArguments {
     }
 }
 
-/// Opens the explorer on a scene or a study. `commands` are the names of commands, one of which a word that is neither may
-/// have been meant as.
+/// Opens the explorer on a scene or a study. `commands` are the names of commands, one of which a
+/// word that is neither may have been meant as.
 ///
 /// When the explorer is left, prints a brief summary of the last scene.
 pub(super) fn explore(

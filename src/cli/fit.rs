@@ -147,7 +147,8 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         .text()
         .filter(|_| output.file().is_some() && format != Format::Text)
     {
-        // What a picture or a table leaves out; the file is written even if standard error is closed.
+        // What a picture or a table leaves out; the file is written even if standard error is
+        // closed.
         let _ = io::stderr().write_all(text.as_bytes());
     }
     Ok(())

@@ -1,4 +1,5 @@
-//! `asperity fit` for several curves: files and folders, on all cores, into a table that is continued where it ended.
+//! `asperity fit` for several curves: files and folders, on all cores, into a table that is
+//! continued where it ended.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
@@ -33,7 +34,8 @@ const COMMAND: &str = "# command: ";
 /// Limit of the size of a table that is continued, bytes.
 const LARGEST_TABLE: usize = 1 << 28;
 
-/// The files that the arguments name: a folder is the list of its files in the order of their names.
+/// The files that the arguments name: a folder is the list of its files in the order of their
+/// names.
 pub(super) fn files_of(
     curves: &[PathBuf],
     output: Option<&Path>,
@@ -191,7 +193,8 @@ impl Batch<'_> {
         }
     }
 
-    /// The row of each file, in their order. Rows that the table has are kept, and further ones are added to it at once.
+    /// The row of each file, in their order. Rows that the table has are kept, and further ones are
+    /// added to it at once.
     fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
         let names: Vec<String> = files
             .iter()

@@ -1,7 +1,7 @@
 //! The command line: its arguments, and one function for each command.
 //!
-//! Results go to standard output, everything else to standard error. Exit codes: 0 for success, 1 for a failure of the
-//! input or the run, 2 for wrong usage.
+//! Results go to standard output, everything else to standard error. Exit codes: 0 for success, 1
+//! for a failure of the input or the run, 2 for wrong usage.
 
 pub mod arguments;
 mod check;
@@ -49,7 +49,8 @@ const BUFFER: usize = 1 << 18;
 const SUCCESS: u8 = 0;
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with these arguments, the first of which is its name, and returns the exit code.
+/// Runs the program with these arguments, the first of which is its name, and returns the exit
+/// code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed = typed::TYPED.get_or_init(|| arguments.into_iter().collect());
     if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
@@ -65,8 +66,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(arguments) => arguments,
         Err(error) => {
             let error = explained(error, typed);
-            // Also for help and version. An error that repeats control characters of an argument is printed without
-            // colours.
+            // Also for help and version. An error that repeats control characters of an argument is
+            // printed without colours.
             let printed = match printable_lines(&error.render().to_string()) {
                 Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
                 _ => error.print(),
@@ -96,8 +97,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The error, or a plainer one if the first word is no command: the parser takes that word for a scene, and the following
-/// words for another command or its options.
+/// The error, or a plainer one if the first word is no command: the parser takes that word for a
+/// scene, and the following words for another command or its options.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);

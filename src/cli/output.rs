@@ -150,8 +150,9 @@ impl OutputArguments {
         })
     }
 
-    /// The format of the results: by the extension of FILE, else the chosen format, else the usual one. Before any
-    /// computation, checks also that FILE can be written. A terminal gets text only.
+    /// The format of the results: by the extension of FILE, else the chosen format, else the usual
+    /// one. Before any computation, checks also that FILE can be written. A terminal gets text
+    /// only.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format =
             Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
@@ -178,7 +179,8 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report with its provenance to its destination; a figure gets the requested width and parameters.
+    /// Writes a report with its provenance to its destination; a figure gets the requested width
+    /// and parameters.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -290,8 +292,8 @@ pub(super) fn command() -> String {
     command_without(&[])
 }
 
-/// The command of this process without the options for format and destination, and without further options that take a
-/// value.
+/// The command of this process without the options for format and destination, and without further
+/// options that take a value.
 pub(super) fn command_without(options: &[&str]) -> String {
     let mut words = vec!["asperity".to_owned()];
     let typed = TYPED.get().into_iter().flatten();

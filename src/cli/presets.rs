@@ -1,4 +1,5 @@
-//! `asperity presets`: lists and shows the built-in scenes and the user's own, and checks scene files.
+//! `asperity presets`: lists and shows the built-in scenes and the user's own, and checks scene
+//! files.
 
 use super::error::CliError;
 use super::output::AnswerFormat;
@@ -27,7 +28,8 @@ Example:
 pub enum PresetsCommand {
     /// List the built-in scenes, your own scenes and the scenes of the working folder
     List {
-        /// Name and title in columns, or objects with name, title and notice, and of scenes of files path and error.
+        /// Name and title in columns, or objects with name, title and notice, and of scenes of
+        /// files path and error.
         #[command(flatten)]
         format: AnswerFormat,
     },
@@ -54,7 +56,8 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-/// Prints the text of a scene; on a terminal with escaped control characters, since the text may come from others.
+/// Prints the text of a scene; on a terminal with escaped control characters, since the text may
+/// come from others.
 fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     let shown = if io::stdout().is_terminal() {
         printable_lines(text)
@@ -122,7 +125,8 @@ fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     }
 }
 
-/// Error of the measured surface of a scene, with its place in the scene; `None` if there is no error or no surface.
+/// Error of the measured surface of a scene, with its place in the scene; `None` if there is no
+/// error or no surface.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     scene.measured()?;

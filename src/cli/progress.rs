@@ -1,4 +1,5 @@
-//! Progress on standard error, on a terminal a single line that changes, and the signals that end a long command.
+//! Progress on standard error, on a terminal a single line that changes, and the signals that end a
+//! long command.
 
 use std::io;
 use std::io::{IsTerminal, Write};
@@ -11,8 +12,8 @@ pub(super) struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// Shows a text on a terminal in place of the previous one. Without a terminal, prints `plain` if it is given. A closed
-    /// standard error is no failure.
+    /// Shows a text on a terminal in place of the previous one. Without a terminal, prints `plain`
+    /// if it is given. A closed standard error is no failure.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {
@@ -38,7 +39,8 @@ impl ProgressLine {
     }
 }
 
-/// Returns the number of the first signal that asks the process to end, 0 until then; a second signal ends it at once.
+/// Returns the number of the first signal that asks the process to end, 0 until then; a second
+/// signal ends it at once.
 pub(super) fn stop_by_signal() -> io::Result<Arc<AtomicUsize>> {
     let first = Arc::new(AtomicUsize::new(0));
     #[cfg(unix)]

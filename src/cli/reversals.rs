@@ -38,7 +38,8 @@ pub struct ReversalsArguments {
 /// Number of turning points unless one is given.
 const USUAL: usize = 64;
 
-/// Parses two forces and, after a colon, the number of turning points; without forces they are those of the scene.
+/// Parses two forces and, after a colon, the number of turning points; without forces they are
+/// those of the scene.
 fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     let (forces, count) = text
         .split_once(':')

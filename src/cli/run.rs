@@ -157,8 +157,8 @@ impl RunArguments {
         Ok(documents)
     }
 
-    /// The scene of a document, with the springs and edges that a given tolerance chooses. The choice is stated in the text
-    /// of a single scene, otherwise on standard error.
+    /// The scene of a document, with the springs and edges that a given tolerance chooses. The
+    /// choice is stated in the text of a single scene, otherwise on standard error.
     fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
         let Some(tolerance) = self.tolerance else {
             return Ok(Chosen {
@@ -193,8 +193,8 @@ impl RunArguments {
         })
     }
 
-    /// Results of a scene on its random profiles, unless a single one is asked for. Shares and heights of the profiles are
-    /// recorded only for a table.
+    /// Results of a scene on its random profiles, unless a single one is asked for. Shares and
+    /// heights of the profiles are recorded only for a table.
     fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
         let Chosen {
             document, scene, ..
@@ -224,7 +224,8 @@ impl RunArguments {
             .map_err(|error| CliError::named(document.name(), error))
     }
 
-    /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads are below zero.
+    /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads
+    /// are below zero.
     fn adhesion(
         &self,
         chosen: &Chosen<'_>,
@@ -246,7 +247,8 @@ impl RunArguments {
         ))
     }
 
-    /// Adhesion force against preload on one or several random profiles, which are counted on the terminal.
+    /// Adhesion force against preload on one or several random profiles, which are counted on the
+    /// terminal.
     fn adhesion_on_profiles(
         &self,
         chosen: &Chosen<'_>,

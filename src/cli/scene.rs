@@ -71,8 +71,8 @@ impl SceneArguments {
     }
 }
 
-/// Writes on standard error the premises that a scene does not meet, for results that do not say it themselves: tables, figures
-/// and times.
+/// Writes on standard error the premises that a scene does not meet, for results that do not say it
+/// themselves: tables, figures and times.
 pub(super) fn warn(document: &Document, warnings: &[Warning]) {
     for warning in warnings {
         // The command continues even if standard error is closed.
@@ -89,7 +89,8 @@ pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
-/// Opens the scene of an argument; a measured file in its place is named with the commands that use it.
+/// Opens the scene of an argument; a measured file in its place is named with the commands that use
+/// it.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
     open_argument(name).map_err(|errors| match no_scene(Path::new(name)) {
         Some(way) => CliError::message(way),

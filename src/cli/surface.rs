@@ -166,8 +166,8 @@ impl SurfaceArguments {
         })
     }
 
-    /// Returns an error for an output file that is one of the measured files, even with `--force`: it could not be measured
-    /// again.
+    /// Returns an error for an output file that is one of the measured files, even with `--force`:
+    /// it could not be measured again.
     fn check_outputs(&self) -> Result<(), CliError> {
         let place = |file: &Path| file.canonicalize().ok();
         let outputs: Vec<PathBuf> = [self.output.file(), self.scene.as_deref()]
@@ -199,7 +199,8 @@ pub struct SurfaceTask {
     pub work: Option<f64>,
     /// Preload in N; `None` for a loading that turns at zero force.
     pub preload: Option<f64>,
-    /// Number of random profiles of the adhesion force; `None` for 16 on at most 131 072 springs, and none on more.
+    /// Number of random profiles of the adhesion force; `None` for 16 on at most 131 072 springs,
+    /// and none on more.
     pub profiles: Option<u32>,
     /// Number of threads. No result depends on it.
     pub jobs: usize,
@@ -221,7 +222,8 @@ impl SurfaceTask {
             .collect()
     }
 
-    /// Reads and analyses the files of the surface, and the file of the opposite face if there is one.
+    /// Reads and analyses the files of the surface, and the file of the opposite face if there is
+    /// one.
     ///
     /// # Errors
     /// Returns an error for a file that cannot be read or analysed.
@@ -242,8 +244,8 @@ impl SurfaceTask {
         face(&[PathBuf::from(file)], &self.options()).map(Some)
     }
 
-    /// Creates a scene of the equivalent line over the length of the scan, on a body of this effective modulus in Pa. Of two
-    /// faces the shorter scan counts.
+    /// Creates a scene of the equivalent line over the length of the scan, on a body of this
+    /// effective modulus in Pa. Of two faces the shorter scan counts.
     pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
         let name = Path::new(&self.measured.file)
             .file_name()
@@ -270,12 +272,14 @@ impl SurfaceTask {
         }
     }
 
-    /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is given, the adhesion of the
-    /// equivalent line is computed on random profiles. `progress` receives the number of computed profiles and the number of
-    /// all profiles, from several threads.
+    /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is
+    /// given, the adhesion of the equivalent line is computed on random profiles. `progress`
+    /// receives the number of computed profiles and the number of all profiles, from several
+    /// threads.
     ///
     /// # Errors
-    /// Returns an error for a value that a scene does not allow, and if a profile cannot be computed.
+    /// Returns an error for a value that a scene does not allow, and if a profile cannot be
+    /// computed.
     pub fn report(
         &self,
         faces: Vec<MeasuredFace>,

@@ -47,8 +47,8 @@ pub enum Message {
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane in place of the force curve, which is then below it in place of profile and close-up; `None` if these three are
-    /// shown.
+    /// Pane in place of the force curve, which is then below it in place of profile and close-up;
+    /// `None` if these three are shown.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -60,7 +60,8 @@ pub struct View {
     pub preloads: AxisScale,
     /// True if loops of random squares in three dimensions are computed and shown.
     pub squares: bool,
-    /// Position of the crosshair as a share of the profile, or of the horizontal axis in another chart.
+    /// Position of the crosshair as a share of the profile, or of the horizontal axis in another
+    /// chart.
     pub crosshair: Option<f64>,
     /// True if computing times are shown; they differ from run to run.
     pub shows_times: bool,
@@ -149,7 +150,8 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// States what is known at the start beside the notice of the opened scene: warnings and errors come first.
+    /// States what is known at the start beside the notice of the opened scene: warnings and errors
+    /// come first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let (error, done) = match self.message.take() {
             Some(Message::Done(text)) => (None, Some(text)),
@@ -179,7 +181,8 @@ impl App {
             .is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt again with a text that could not be used; `why` is the reason, which may begin with the text.
+    /// Opens a prompt again with a text that could not be used; `why` is the reason, which may
+    /// begin with the text.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let reason = why
             .strip_prefix(text)
@@ -200,8 +203,8 @@ impl App {
         }
     }
 
-    /// Prepares for a command on scene or panes: removes the notice, and ends an edit that consists of successive moves in
-    /// the map.
+    /// Prepares for a command on scene or panes: removes the notice, and ends an edit that consists
+    /// of successive moves in the map.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
         // The reason for a missing curve remains; any other notice ends with the next key.
@@ -214,8 +217,8 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Governing parameters of the present scene, if the newest computation has the same line. The adhesion of this
-    /// computation may differ.
+    /// Governing parameters of the present scene, if the newest computation has the same line. The
+    /// adhesion of this computation may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let (before, now) = (&computed.scene, &self.edit.scene);
@@ -238,8 +241,9 @@ impl App {
             .filter(|computed| computed.generation == self.edit.generation)
     }
 
-    /// The premises of the model that the present result does not meet, in the words of all reports: on the random profiles
-    /// as far as they are computed, otherwise on the profile of the scene.
+    /// The premises of the model that the present result does not meet, in the words of all
+    /// reports: on the random profiles as far as they are computed, otherwise on the profile of the
+    /// scene.
     pub fn warnings(&self) -> Vec<String> {
         let Some(computed) = self.current() else {
             return Vec::new();
@@ -259,8 +263,8 @@ impl App {
         self.progress.is_some()
     }
 
-    /// Outcome for the value being typed, or until it is computed for the value typed before; for an accepted value until
-    /// the scene itself is computed.
+    /// Outcome for the value being typed, or until it is computed for the value typed before; for
+    /// an accepted value until the scene itself is computed.
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
@@ -279,8 +283,8 @@ impl App {
             .is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Position of the scene on the map: its values on the axes. `None` if the scene has no such quantity, or its value is
-    /// not known yet.
+    /// Position of the scene on the map: its values on the axes. `None` if the scene has no such
+    /// quantity, or its value is not known yet.
     pub fn place(&self) -> Option<GridPlace> {
         let scene = self.edit.document.scene();
         let (across, up) = self.map_axes()?;
@@ -311,7 +315,8 @@ impl App {
         Some((axes.next()?, axes.next()))
     }
 
-    /// Quantity that the map shows: the chosen one, or the first one of a map that does not have it.
+    /// Quantity that the map shows: the chosen one, or the first one of a map that does not have
+    /// it.
     pub fn mapped(&self) -> Quantity {
         let all = self.grid().map(Grid::quantities).unwrap_or_default();
         let chosen = all.iter().find(|one| **one == self.map.quantity);
@@ -343,8 +348,8 @@ impl App {
         self.panes().contains(&pane)
     }
 
-    /// Shows and selects a pane, or hides it again. A shown map is selected first if another pane is, since the user then
-    /// wants its keys.
+    /// Shows and selects a pane, or hides it again. A shown map is selected first if another pane
+    /// is, since the user then wants its keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use {
@@ -369,7 +374,8 @@ impl App {
         self.show_large(large, pane);
     }
 
-    /// Shows this pane, or none, in place of the force curve, and selects a pane. Another pane needs other studies.
+    /// Shows this pane, or none, in place of the force curve, and selects a pane. Another pane
+    /// needs other studies.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
@@ -377,8 +383,8 @@ impl App {
         self.view.pane = selected;
     }
 
-    /// Context of the keys: in the map arrows move its mark, with a crosshair they move the crosshair; in the list of
-    /// parameters digits begin a value.
+    /// Context of the keys: in the map arrows move its mark, with a crosshair they move the
+    /// crosshair; in the list of parameters digits begin a value.
     pub fn keys(&self) -> Context {
         match (&self.prompt, self.view.pane.keys()) {
             (Some(prompt), _) => prompt.context(),
@@ -425,8 +431,8 @@ impl App {
             .is_some_and(|computed| computed.outcome.instrument.is_some())
     }
 
-    /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked force, as after a stage
-    /// to zero force.
+    /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked
+    /// force, as after a stage to zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let largest = Mark::all(self.legs())
             .iter()
@@ -476,7 +482,8 @@ impl App {
         Some(format!("median {}", share_in_words(all.quartiles[1])))
     }
 
-    /// Value of a parameter in the notation of the scene; for a value that follows from others the computed one, if known.
+    /// Value of a parameter in the notation of the scene; for a value that follows from others the
+    /// computed one, if known.
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());

@@ -1,5 +1,5 @@
-//! Copies of unsaved changes, in case the process or its connection ends first: one file for each session, locked while the
-//! session runs. Files of the user are not touched.
+//! Copies of unsaved changes, in case the process or its connection ends first: one file for each
+//! session, locked while the session runs. Files of the user are not touched.
 
 use asperity_data::{into_text, open_regular, path_name, read_limited};
 use asperity_scene::Document;
@@ -39,8 +39,8 @@ pub fn folder() -> Option<PathBuf> {
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to this process alone while
-/// this value exists.
+/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to
+/// this process alone while this value exists.
 pub struct Kept {
     path: PathBuf,
     lock: File,
@@ -52,11 +52,13 @@ pub struct Kept {
 pub struct Newest {
     /// The newest unsaved changes that can be read.
     pub kept: Option<Kept>,
-    /// Newer files that cannot be read, each with the reason, the newest first. A power cut may have damaged them.
+    /// Newer files that cannot be read, each with the reason, the newest first. A power cut may
+    /// have damaged them.
     pub unreadable: Vec<String>,
 }
 
-/// Returns the newest unsaved changes of an ended session that can be read, and the newer files that cannot.
+/// Returns the newest unsaved changes of an ended session that can be read, and the newer files
+/// that cannot.
 pub fn newest(folder: &Path) -> Newest {
     let files = fs::read_dir(folder)
         .into_iter()
@@ -83,7 +85,8 @@ pub fn newest(folder: &Path) -> Newest {
     newest
 }
 
-/// Opens a file of an ended session; `None` for a session that runs, or that has taken the file at the same time.
+/// Opens a file of an ended session; `None` for a session that runs, or that has taken the file at
+/// the same time.
 fn open(path: PathBuf) -> Result<Option<Kept>, String> {
     let lock = open_regular(&path).map_err(|error| error.to_string())?;
     if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
@@ -151,8 +154,8 @@ impl Autosave {
         }
     }
 
-    /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The file is complete at every
-    /// moment.
+    /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The
+    /// file is complete at every moment.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return self
@@ -177,7 +180,8 @@ impl Autosave {
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
-        // A file system without locks offers the copies to other sessions too early, which harms nobody.
+        // A file system without locks offers the copies to other sessions too early, which harms
+        // nobody.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
         // The new name never comes before the content.
@@ -232,7 +236,8 @@ mod tests {
         );
     }
 
-    /// A power cut may have damaged the newest file, and anything may be in the folder. What is older is found all the same.
+    /// A power cut may have damaged the newest file, and anything may be in the folder. What is
+    /// older is found all the same.
     #[test]
     fn files_that_cannot_be_read_are_stated_and_hide_no_older_one() {
         let folder = tempfile::tempdir().unwrap();

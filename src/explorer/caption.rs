@@ -1,12 +1,13 @@
-//! The event at the shown state of the contact in words: first contact, spreading, preload, detachment, pull-off, separation.
+//! The event at the shown state of the contact in words: first contact, spreading, preload,
+//! detachment, pull-off, separation.
 
 use super::app::App;
 use super::request::Drive;
 use asperity_contact::Branch;
 use asperity_report::event;
 
-/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the first result and while
-/// the body does not move.
+/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the
+/// first result and while the body does not move.
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     match snapshot.drive {

@@ -60,12 +60,14 @@ pub fn close_up(
     }
 }
 
-/// Smallest number of springs around a patch, and the part of the profile that is shown without a contact patch.
+/// Smallest number of springs around a patch, and the part of the profile that is shown without a
+/// contact patch.
 const FEWEST: usize = 32;
 const PART: usize = 32;
 
-/// First spring and number of springs of a close-up: this many around its centre, or the whole patch in a part whose size
-/// is a power of two, so that it stays the same while the patch grows a little.
+/// First spring and number of springs of a close-up: this many around its centre, or the whole
+/// patch in a part whose size is a power of two, so that it stays the same while the patch grows a
+/// little.
 fn shown(
     count: usize,
     centre: usize,

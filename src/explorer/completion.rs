@@ -7,7 +7,8 @@ use std::path::{MAIN_SEPARATOR, Path, is_separator};
 
 const MOST_ENTRIES: usize = 10_000;
 
-/// Returns the paths that begin as the typed one, sorted. Folders end in a separator; hidden files need a typed dot.
+/// Returns the paths that begin as the typed one, sorted. Folders end in a separator; hidden files
+/// need a typed dot.
 pub fn complete(typed: &str) -> Vec<String> {
     let typed = typed.trim_start();
     let (folder, name) = typed.split_at(typed.rfind(is_separator).map_or(0, |at| at + 1));

@@ -1,4 +1,5 @@
-//! Configuration file of the explorer: appearance, animation, default scene and keys. The explorer never writes it.
+//! Configuration file of the explorer: appearance, animation, default scene and keys. The explorer
+//! never writes it.
 
 use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
@@ -58,7 +59,8 @@ impl Default for Config {
     }
 }
 
-/// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not exist.
+/// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not
+/// exist.
 pub fn default_path() -> Option<PathBuf> {
     Some(
         choose_base_strategy()
@@ -77,8 +79,8 @@ impl Config {
         }
     }
 
-    /// Reads a configuration file that may change these keys. A missing file is an error if the user has named it
-    /// (`is_named`), and otherwise means the defaults.
+    /// Reads a configuration file that may change these keys. A missing file is an error if the
+    /// user has named it (`is_named`), and otherwise means the defaults.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         // A broken link is a file that cannot be read.
         let is_missing = || {

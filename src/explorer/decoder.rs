@@ -1,5 +1,6 @@
-//! Bytes of a terminal become keys, pastes and gestures of the mouse. What a terminal begins and does not finish, as on
-//! a broken line, is given up after a pause, so that it swallows no later key.
+//! Bytes of a terminal become keys, pastes and gestures of the mouse. What a terminal begins and
+//! does not finish, as on a broken line, is given up after a pause, so that it swallows no later
+//! key.
 
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
@@ -9,7 +10,8 @@ use std::time::Duration;
 /// Longest pause within the sequence of a key. A slow line may separate the bytes of a sequence.
 const SEQUENCE_PAUSE: Duration = Duration::from_millis(80);
 
-/// Longest pause within a pasted text. The rest of a text that ends too early would be read as keys.
+/// Longest pause within a pasted text. The rest of a text that ends too early would be read as
+/// keys.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
 /// Most bytes that a sequence can have and still be known.
@@ -92,7 +94,8 @@ impl Decoder {
         }
     }
 
-    /// Ends a paste without its end. A Ctrl+C in it was typed by the user, whom the paste did not let through.
+    /// Ends a paste without its end. A Ctrl+C in it was typed by the user, whom the paste did not
+    /// let through.
     fn end_paste(&mut self, text: &[u8]) {
         let mut end = text.len();
         for length in 1..PASTE_END.len() {
@@ -305,8 +308,8 @@ fn numbered_key(number: u8) -> Option<KeyCode> {
     }
 }
 
-/// The event of a sequence ESC [ with these parameters and last byte; `None` for an answer of the terminal and for what
-/// the explorer does not use.
+/// Returns the event of a sequence `ESC [` with these parameters and last byte. It is `None` for an
+/// answer of the terminal and for a key that the explorer does not use.
 fn control_event(parameters: &str, last: u8) -> Option<Event> {
     if let Some(gesture) = parameters.strip_prefix('<') {
         return if matches!(last, b'M' | b'm') {
@@ -592,7 +595,8 @@ mod tests {
     }
 
     proptest! {
-        /// Bytes of which many begin sequences; the next key after a pause counts, and a Ctrl+C at any time.
+        /// Bytes of which many begin sequences; the next key after a pause counts, and a Ctrl+C at
+        /// any time.
         #[test]
         fn no_bytes_swallow_later_keys(
             pieces in prop::collection::vec(

@@ -88,8 +88,8 @@ impl Editor {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
-    /// Row of the field at a path, or of the group around it. So the selection stays in place when rows come and go, and
-    /// the row that switched an effect off can switch it on again.
+    /// Row of the field at a path, or of the group around it. So the selection stays in place when
+    /// rows come and go, and the row that switched an effect off can switch it on again.
     fn row_of(&self, path: &str) -> usize {
         // A loading stage with a number has its row at the path of the number.
         let is_at = |one: &Parameter, path: &str| {
@@ -106,7 +106,8 @@ impl Editor {
         around.filter_map(row).next().unwrap_or(self.selected)
     }
 
-    /// Makes a document the explored one; an undo returns to the former document, unless both are the same.
+    /// Makes a document the explored one; an undo returns to the former document, unless both are
+    /// the same.
     pub fn adopt(&mut self, document: Document) {
         self.adopt_all(Edited {
             document,
@@ -149,8 +150,8 @@ impl Editor {
         self.renew();
     }
 
-    /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in words; `None` without
-    /// such an edit.
+    /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in
+    /// words; `None` without such an edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let next = if back {
             self.past.pop()?
@@ -209,8 +210,8 @@ impl Editor {
         self.is_changed(&self.document)
     }
 
-    /// Returns true if a document differs from the saved one by a value or a comment; another notation of a number is no
-    /// change.
+    /// Returns true if a document differs from the saved one by a value or a comment; another
+    /// notation of a number is no change.
     fn is_changed(&self, document: &Document) -> bool {
         let is_same = |saved: &Document| {
             saved.text() == document.text()

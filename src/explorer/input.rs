@@ -3,8 +3,8 @@
 use super::action::{Action, Gesture, Mouse};
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
-/// Reads input on threads of their own, which end with the terminal or the explorer. `send` returns true while anyone
-/// receives; the end of the input is sent as `None`.
+/// Reads input on threads of their own, which end with the terminal or the explorer. `send` returns
+/// true while anyone receives; the end of the input is sent as `None`.
 #[cfg(unix)]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     use super::decoder::Decoder;
@@ -49,7 +49,8 @@ fn spawn(name: &str, work: impl FnOnce() + Send + 'static) -> std::io::Result<()
         .map(drop)
 }
 
-/// The terminal as the user's keyboard: standard input, or the terminal of the process if input comes from elsewhere.
+/// The terminal as the user's keyboard: standard input, or the terminal of the process if input
+/// comes from elsewhere.
 #[cfg(unix)]
 fn keyboard() -> std::io::Result<std::fs::File> {
     use std::io::IsTerminal;
@@ -87,8 +88,8 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     }
 }
 
-/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns true while anyone
-/// receives; the end of the input is sent as `None`.
+/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns
+/// true while anyone receives; the end of the input is sent as `None`.
 #[cfg(not(unix))]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()

@@ -71,7 +71,8 @@ impl Layout {
     }
 }
 
-/// The area below the title of a pane, without a blank column on the right; a pane too small for a title has none.
+/// The area below the title of a pane, without a blank column on the right; a pane too small for a
+/// title has none.
 pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
         return area;
@@ -89,7 +90,8 @@ pub fn has_title(area: Rect) -> bool {
     area.height >= 5 && area.width >= 16
 }
 
-/// Smallest window, columns, with the list of parameters at the side, and the least and the largest width of the list.
+/// Smallest window, columns, with the list of parameters at the side, and the least and the largest
+/// width of the list.
 const WITH_LIST: u16 = 60;
 const LIST: (u16, u16) = (32, 48);
 /// Smallest number of rows with panes below the main pane, and of columns with two panes there.
@@ -98,8 +100,9 @@ const WITH_CLOSE_UP: u16 = 60;
 /// Smallest number of rows of a narrow window with several rows of the list.
 const WITH_ROWS: u16 = 16;
 
-/// The main pane, which is the force curve unless another one takes its place, has the most room; the list of parameters
-/// has the height of the window. Small windows give up the close-up, the profile and the list, but for its selected row.
+/// The main pane, which is the force curve unless another one takes its place, has the most room;
+/// the list of parameters has the height of the window. Small windows give up the close-up, the
+/// profile and the list, but for its selected row.
 fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if body.is_empty() {
         return Vec::new();

@@ -22,9 +22,9 @@ pub struct ManualBody {
 }
 
 impl ManualBody {
-    /// Begins manual loading at an indentation of a leg, m, or in separation if the contact is separated there. `step` is
-    /// the distance of the points of a pull, m; `loading` are the stages so far and `direction` the direction of the last stage.
-    /// `None` without enough memory.
+    /// Begins manual loading at an indentation of a leg, m, or in separation if the contact is
+    /// separated there. `step` is the distance of the points of a pull, m; `loading` are the stages
+    /// so far and `direction` the direction of the last stage. `None` without enough memory.
     pub fn take(
         leg: &Leg,
         (indentation, is_separated): (f64, bool),

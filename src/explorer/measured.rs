@@ -36,7 +36,8 @@ impl Measured {
         })
     }
 
-    /// The curve as read with other options. First touch stays where it was found if the displacements are the same.
+    /// The curve as read with other options. First touch stays where it was found if the
+    /// displacements are the same.
     pub fn read_again(&self, options: CurveOptions) -> Result<Self, ExperimentError> {
         let other = Measured::read(&self.path, options)?;
         let is_same = other.curve.displacement == self.curve.displacement;
@@ -77,7 +78,8 @@ pub struct Fitting {
     pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
-/// The fit to the present scene, of the position of the curve only, or of parameters too; `None` if not known yet.
+/// The fit to the present scene, of the position of the curve only, or of parameters too; `None` if
+/// not known yet.
 pub fn fitted(studies: &Findings) -> Option<&FitResult> {
     studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }

@@ -1,5 +1,6 @@
-//! The explorer. Threads for input, solver and studies send actions into one channel; `update` changes the state, and the
-//! views draw it. This thread computes nothing, and sleeps while there are no events.
+//! The explorer. Threads for input, solver and studies send actions into one channel; `update`
+//! changes the state, and the views draw it. This thread computes nothing, and sleeps while there
+//! are no events.
 
 // Public only for the tests: names and types state what a doc would repeat.
 #![allow(missing_docs)]

@@ -54,7 +54,8 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     }
 }
 
-/// Acts on what is under the mouse in the selected pane, when a button is pressed (`is_press`) or during a drag.
+/// Acts on what is under the mouse in the selected pane, when a button is pressed (`is_press`) or
+/// during a drag.
 fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {

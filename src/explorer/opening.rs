@@ -1,4 +1,5 @@
-//! What the explorer opens on: a scene, or a finished study with its scene; and what a path is opened as later.
+//! What the explorer opens on: a scene, or a finished study with its scene; and what a path is
+//! opened as later.
 
 use super::ghost::Ghost;
 use super::measured::Measured;
@@ -48,13 +49,14 @@ impl From<Document> for Opening {
 }
 
 impl Opening {
-    /// Opens a scene by its name or file, or a study by its folder. A folder of a study has precedence over a built-in
-    /// scene of the same name.
+    /// Opens a scene by its name or file, or a study by its folder. A folder of a study has
+    /// precedence over a built-in scene of the same name.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
-    /// Opens as [`Self::of`] does, for an argument of a command, which may also name a stream; see [`open_argument`].
+    /// Opens as [`Self::of`] does, for an argument of a command, which may also name a stream; see
+    /// [`open_argument`].
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }

@@ -1,5 +1,5 @@
-//! Panels: the content of panes as data. One renderer draws all of them, and finds from the same division of an area what
-//! is under a cell.
+//! Panels: the content of panes as data. One renderer draws all of them, and finds from the same
+//! division of an area what is under a cell.
 
 use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
@@ -37,7 +37,8 @@ const MOST_ROUNDS: usize = 4;
 const HAIR: f64 = 1e-9;
 /// Width of a pane, columns, below which its title has as many readings as there is room for.
 const NARROW: u16 = 40;
-/// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above and below.
+/// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above
+/// and below.
 const FEWEST_ROWS: u16 = 6;
 impl Panel {
     pub fn of_chart(title: String, chart: Chart) -> Panel {
@@ -66,8 +67,8 @@ impl Panel {
         }
     }
 
-    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves there: beside the
-    /// title or, if they need more than this width, below the chart.
+    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves
+    /// there: beside the title or, if they need more than this width, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else {
             return;
@@ -166,7 +167,8 @@ pub fn entries(chart: &Chart, look: Appearance) -> Vec<Part> {
     in_theme(look, |style| legend(std::slice::from_ref(chart), style))
 }
 
-/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width` columns wide.
+/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width`
+/// columns wide.
 pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     let title = |text: String| Span::styled(text, look.theme.style(Meaning::Title));
     let scale = chart.map().map(|map| {
@@ -215,8 +217,8 @@ struct Places {
 }
 
 impl Places {
-    /// Divides the area below the title into head, body and foot: in small windows first the foot becomes shorter, then
-    /// the head.
+    /// Divides the area below the title into head, body and foot: in small windows first the foot
+    /// becomes shorter, then the head.
     fn within(panel: &Panel, legend: usize, area: Rect) -> Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
@@ -295,8 +297,8 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
     }
 }
 
-/// Entries of the legend that have no room beside their curves: as lines above the chart, or if there is room for all of
-/// them on the right of the title, with the texts that are there.
+/// Entries of the legend that have no room beside their curves: as lines above the chart, or if
+/// there is room for all of them on the right of the title, with the texts that are there.
 fn legend_of(panel: &Panel, area: Rect, look: Appearance) -> (Vec<Line<'static>>, Vec<Part>) {
     let Body::Chart(plot) = &panel.body else {
         return (Vec::new(), panel.edge.clone());
@@ -365,15 +367,16 @@ fn title_line(
     line
 }
 
-/// Draws lines from the top of an area down, as far as there is room; a line that is too wide ends in `…`.
+/// Draws lines from the top of an area down, as far as there is room; a line that is too wide ends
+/// in `…`.
 pub fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     for (y, line) in (area.y..area.bottom()).zip(lines) {
         buffer.set_line(area.x, y, &fitted(line.clone(), area.width), area.width);
     }
 }
 
-/// First visible row of a list. It depends only on the selected row, so that a click on a visible row does not scroll the
-/// list; the rows above and below the selected one are visible.
+/// First visible row of a list. It depends only on the selected row, so that a click on a visible
+/// row does not scroll the list; the rows above and below the selected one are visible.
 fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     let height = usize::from(height.max(1));
     let margin = usize::from(height >= 3);
@@ -381,8 +384,8 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// A line of the parts up to the first one that does not fit into a number of columns; two blanks apart if all fit,
-/// otherwise one.
+/// A line of the parts up to the first one that does not fit into a number of columns; two blanks
+/// apart if all fit, otherwise one.
 fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let between = if widths + 2 * parts.len().saturating_sub(1) <= columns {

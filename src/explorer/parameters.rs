@@ -9,8 +9,9 @@ use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
 
-/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and roughness; form and
-/// material are usually chosen once for a scene, and a measured curve is beside the scene.
+/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and
+/// roughness; form and material are usually chosen once for a scene, and a measured curve is beside
+/// the scene.
 const GROUPS: [&str; 8] = [
     "adhesion",
     "loading",
@@ -119,7 +120,8 @@ impl Parameter {
         }
     }
 
-    /// The stated quantity from which the shown value follows, and which typing a value replaces; `None` for a stated value.
+    /// The stated quantity from which the shown value follows, and which typing a value replaces;
+    /// `None` for a stated value.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
         match (self.setting, self.path.as_str()) {
@@ -142,8 +144,8 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path of the length L is a whole word
-    /// of other names.
+    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path of the
+    /// length L is a whole word of other names.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         let words = self.path.replace(['.', '_'], " ");
@@ -175,8 +177,8 @@ fn spelled(symbol: &str) -> String {
         })
 }
 
-/// The group of a field: that of its path, but the form for the diameter, the loading for the stiffness of the instrument,
-/// and the title for the notice.
+/// The group of a field: that of its path, but the form for the diameter, the loading for the
+/// stiffness of the instrument, and the title for the notice.
 fn group_of(path: &str) -> &'static str {
     let first = match path {
         "notice" => "title",
@@ -189,7 +191,8 @@ fn group_of(path: &str) -> &'static str {
         .unwrap_or("form")
 }
 
-/// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height and rms gradient.
+/// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height
+/// and rms gradient.
 pub fn replaced_by(path: &str) -> Option<&'static str> {
     let pairs = [["roughness.modes", "roughness.wavelengths"], AMPLITUDE];
     pairs.into_iter().find_map(|[one, other]| match path {
@@ -291,8 +294,8 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     }
 }
 
-/// Value of a field that follows from others: the other way to give the waves of a self-affine profile, and as a roll-off
-/// without effect the longest wave.
+/// Value of a field that follows from others: the other way to give the waves of a self-affine
+/// profile, and as a roll-off without effect the longest wave.
 fn waves(document: &Document, field: &Field) -> Option<String> {
     let spectrum = document.scene().spectrum()?;
     let [longest, shortest] = [spectrum.first, spectrum.last]

@@ -30,7 +30,8 @@ impl Player {
         playing: true,
     };
 
-    /// The state in which the animation of these loading stages rests: at the pull-off, or without one at the end.
+    /// The state in which the animation of these loading stages rests: at the pull-off, or without
+    /// one at the end.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
         let last = legs.len().saturating_sub(1);
         let (leg, at) = pull_off(legs).map_or((last, At::End), |(leg, _)| (leg, At::PullOff));
@@ -41,8 +42,9 @@ impl Player {
         }
     }
 
-    /// This state for loading stages that may have changed: at the end of the last stage if its own does not exist any
-    /// more, and otherwise between the ends of its stage. A state of rest stays one.
+    /// This state for loading stages that may have changed: at the end of the last stage if its own
+    /// does not exist any more, and otherwise between the ends of its stage. A state of rest stays
+    /// one.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         match legs.len().checked_sub(1) {
             Some(_) if self.at == At::PullOff => Player::at_rest(legs),
@@ -97,7 +99,8 @@ impl Player {
     }
 }
 
-/// Loading stage and indentation (m) of the pull-off; `None` without a tensile force in the last unloading.
+/// Loading stage and indentation (m) of the pull-off; `None` without a tensile force in the last
+/// unloading.
 fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
     let (leg, point) = Branch::pull_off(legs).filter(|(_, point)| point.force < 0.0)?;
     Some((leg, point.indentation))
@@ -114,7 +117,8 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     })
 }
 
-/// Indentation at which the animation begins a loading stage, m; the first stage begins a little above first touch.
+/// Indentation at which the animation begins a loading stage, m; the first stage begins a little
+/// above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
     let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };

@@ -125,8 +125,8 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt with this text; `parameters` are the parameters of the scene. The first typed character replaces a value or
-    /// the name of a file.
+    /// Creates a prompt with this text; `parameters` are the parameters of the scene. The first
+    /// typed character replaces a value or the name of a file.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_replaced = matches!(
             purpose,
@@ -202,7 +202,8 @@ impl Prompt {
     }
 }
 
-/// Texts that a search compares: number of a built-in scene (these come first), name, title and notice.
+/// Texts that a search compares: number of a built-in scene (these come first), name, title and
+/// notice.
 fn scene_texts((place, entry): (usize, &Entry)) -> Vec<String> {
     let number = if entry.origin == Source::BuiltIn {
         (place + 1).to_string()

@@ -21,7 +21,8 @@ pub struct ReadingOption {
     pub field: Field,
     /// The value of a curve that is read without the option, in words.
     pub usual: &'static str,
-    /// Values that the arrows go through, the usual one first; empty for a value that is only typed.
+    /// Values that the arrows go through, the usual one first; empty for a value that is only
+    /// typed.
     choices: &'static [&'static str],
     /// The value as it is typed; `None` for the usual one. Forces are written in a given format.
     written: fn(&CurveOptions, Format) -> Option<String>,
@@ -49,7 +50,8 @@ const fn option(
     Field::beside(path, name, range, meaning)
 }
 
-/// The options in the order of the list: options that decide whether a curve is read at all come first.
+/// The options in the order of the list: options that decide whether a curve is read at all come
+/// first.
 pub static OPTIONS: [ReadingOption; 10] = [
     ReadingOption {
         field: option(
@@ -281,7 +283,8 @@ impl ReadingOption {
         (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())
     }
 
-    /// The number of a given force in the notation of a scene; `None` for the usual one and for other values.
+    /// The number of a given force in the notation of a scene; `None` for the usual one and for
+    /// other values.
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
         let is_force = self.field.unit == "N";
         let written = (self.written)(options, exact_quantity).filter(|_| is_force)?;
@@ -305,7 +308,8 @@ impl ReadingOption {
         }
     }
 
-    /// The options with a typed value of this one; an empty text, or the words of the usual value, leave the option out.
+    /// The options with a typed value of this one; an empty text, or the words of the usual value,
+    /// leave the option out.
     ///
     /// # Errors
     /// The reason why the value is no value of the option.
@@ -315,7 +319,8 @@ impl ReadingOption {
         Ok(changed)
     }
 
-    /// The choice after the present value or, unless `forwards`, before it; `None` for a value that is only typed.
+    /// The choice after the present value or, unless `forwards`, before it; `None` for a value that
+    /// is only typed.
     pub fn next_choice(&self, options: &CurveOptions, forwards: bool) -> Option<&'static str> {
         let (count, present) = (self.choices.len(), self.in_words(options));
         let place = self.choices.iter().position(|choice| *choice == present);

@@ -1,4 +1,5 @@
-//! Recognition of measured files that are given in another place than theirs, by what the readers find in them.
+//! Recognition of measured files that are given in another place than theirs, by what the readers
+//! find in them.
 
 use asperity_data::{path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
@@ -42,7 +43,8 @@ impl Content {
     }
 }
 
-/// Returns true if a file is read as a surface; units and spacing may be missing where no text could be meant.
+/// Returns true if a file is read as a surface; units and spacing may be missing where no text
+/// could be meant.
 fn is_surface(path: &Path) -> bool {
     let is_binary = || content(path).is_ok_and(|bytes| bytes.contains(&0));
     let assumed = ReadOptions {

@@ -4,8 +4,8 @@ use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a state of a scene after manual moves, reduced to a snapshot. The scene is solved first, unless it is the
-/// last one.
+/// Request for a state of a scene after manual moves, reduced to a snapshot. The scene is solved
+/// first, unless it is the last one.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
@@ -16,7 +16,8 @@ pub struct Request {
 }
 
 impl Request {
-    /// Merges this request with an earlier one that was not answered: manual moves of the same scene are kept.
+    /// Merges this request with an earlier one that was not answered: manual moves of the same
+    /// scene are kept.
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);

@@ -1,5 +1,5 @@
-//! The interpreter of tasks, the same for a session, for demos and for tests. Solver and studies run on threads of their
-//! own, or at once: the same actions then give the same screens.
+//! The interpreter of tasks, the same for a session, for demos and for tests. Solver and studies
+//! run on threads of their own, or at once: the same actions then give the same screens.
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -38,7 +38,8 @@ impl Engine {
         }
     }
 
-    /// Creates an engine that answers at once and performs the studies for which `performs` returns true.
+    /// Creates an engine that answers at once and performs the studies for which `performs` returns
+    /// true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         let solve = move |request| {
@@ -72,14 +73,15 @@ pub struct Runtime {
 }
 
 impl Runtime {
-    /// Applies an action and performs the tasks that follow; returns the tasks that need the terminal.
+    /// Applies an action and performs the tasks that follow; returns the tasks that need the
+    /// terminal.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
         let effects = update(&mut self.app, action);
         self.perform(effects)
     }
 
-    /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane; returns the tasks that
-    /// need the terminal.
+    /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane;
+    /// returns the tasks that need the terminal.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let elsewhere = || {
@@ -91,7 +93,8 @@ impl Runtime {
         command.map_or_else(Vec::new, |command| self.act(Action::Command(command)))
     }
 
-    /// Performs tasks, and the tasks of the actions that follow; returns the tasks that need the terminal.
+    /// Performs tasks, and the tasks of the actions that follow; returns the tasks that need the
+    /// terminal.
     pub fn perform(&mut self, effects: Vec<Task>) -> Vec<Task> {
         let (mut waiting, mut left) = (VecDeque::from(effects), Vec::new());
         while let Some(effect) = waiting.pop_front() {

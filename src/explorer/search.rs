@@ -2,14 +2,15 @@
 
 use asperity_scene::text::nearest;
 
-/// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of them.
+/// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of
+/// them.
 const LONGEST_QUERY: usize = 256;
 /// Number of ranks that a word can have in one text.
 const RANKS: usize = 4;
 
-/// Returns the indices of the candidates that contain every word of a query, the best first; equally good candidates keep
-/// their order. The texts of a candidate are in the order of their importance. An empty query finds everything, one longer
-/// than 256 bytes nothing.
+/// Returns the indices of the candidates that contain every word of a query, the best first;
+/// equally good candidates keep their order. The texts of a candidate are in the order of their
+/// importance. An empty query finds everything, one longer than 256 bytes nothing.
 pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Vec<usize> {
     if query.len() > LONGEST_QUERY {
         return Vec::new();
@@ -31,8 +32,8 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// A query with the nearest word of the candidates in place of each word that none of them has; `None` for a query without
-/// such a word, or if no word is near.
+/// A query with the nearest word of the candidates in place of each word that none of them has;
+/// `None` for a query without such a word, or if no word is near.
 pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
     if query.len() > LONGEST_QUERY {
         return None;
@@ -57,8 +58,8 @@ pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str)
         .then_some(corrected)
 }
 
-/// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper and lower case differ
-/// only for whole texts: `h` and `H`.
+/// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper
+/// and lower case differ only for whole texts: `h` and `H`.
 fn rank(text: &str, word: &str) -> Option<usize> {
     if text == word {
         return Some(0);

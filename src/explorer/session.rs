@@ -84,7 +84,8 @@ enum Message {
     Act(Box<Action>),
 }
 
-/// Opens the explorer on a scene or a finished study, with functions that solve and draw, and returns its final state.
+/// Opens the explorer on a scene or a finished study, with functions that solve and draw, and
+/// returns its final state.
 pub fn open(
     opening: impl Into<Opening>,
     options: Options,
@@ -203,14 +204,15 @@ struct Session<'a> {
 }
 
 impl Session<'_> {
-    /// Runs until the explorer is to end; returns the number of the signal that ended it, if one did.
+    /// Runs until the explorer is to end; returns the number of the signal that ended it, if one
+    /// did.
     fn run(&mut self) -> io::Result<Option<i32>> {
         let frame_time = Duration::from_secs(1) / self.frames;
         self.runtime.perform(vec![Task::Ask]);
         let mut moved = Instant::now();
         let mut changed = true;
-        // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the line
-        // with frames that nobody sees in time.
+        // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the
+        // line with frames that nobody sees in time.
         let mut due = moved;
         while !self.runtime.app.finished {
             // Unsaved changes are kept before they are drawn.
@@ -279,7 +281,8 @@ impl Session<'_> {
     fn show(&mut self) -> io::Result<()> {
         terminal::checked(self.terminal.size()?)?;
         if take(&mut self.redraw) {
-            // Unlike `clear` this does not query the position of the cursor on the input that the other thread reads.
+            // Unlike `clear` this does not query the position of the cursor on the input that the
+            // other thread reads.
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
@@ -293,8 +296,8 @@ impl Session<'_> {
     }
 
     fn act(&mut self, action: Action) -> io::Result<()> {
-        // A window that shrank and grew back between two frames has lost its content, though its size is that of the
-        // last frame.
+        // A window that shrank and grew back between two frames has lost its content, though its
+        // size is that of the last frame.
         self.redraw |= matches!(action, Action::Resize(..));
         for effect in self.runtime.act(action) {
             match effect {

@@ -12,11 +12,11 @@ pub enum SystemSignal {
     Resize,
 }
 
-/// Calls `report` when a signal asks the process to end, continues it, or announces another size of the window; `report`
-/// returns false once nobody receives.
+/// Calls `report` when a signal asks the process to end, continues it, or announces another size of
+/// the window; `report` returns false once nobody receives.
 ///
-/// If the explorer has not ended some time after the request, for example because the terminal accepts no output, the
-/// process ends by the signal, with the attributes of the terminal restored.
+/// If the explorer has not ended some time after the request, for example because the terminal
+/// accepts no output, the process ends by the signal, with the attributes of the terminal restored.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};

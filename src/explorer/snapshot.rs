@@ -1,5 +1,5 @@
-//! Results of the solver: immutable, stamped with the generation of their scene, and already reduced to the resolution of a
-//! pane.
+//! Results of the solver: immutable, stamped with the generation of their scene, and already
+//! reduced to the resolution of a pane.
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::motion::PatchState;
@@ -37,8 +37,8 @@ pub struct ContactSnapshot {
     pub manual: Option<ManualPath>,
 }
 
-/// The springs in a state and their patches. The snapshot does not keep the springs alive: they are gone as soon as the
-/// solver begins another profile.
+/// The springs in a state and their patches. The snapshot does not keep the springs alive: they are
+/// gone as soon as the solver begins another profile.
 #[derive(Clone, Debug, Default)]
 pub struct SpringsInContact {
     pub gaps: Weak<Vec<f64>>,
@@ -59,7 +59,8 @@ pub struct Probe {
     pub height: f64,
     /// Height of the undeformed elastic surface, m.
     pub level: f64,
-    /// Number, from 0, of the contact patch that the spring belongs to; `None` if it is not in contact.
+    /// Number, from 0, of the contact patch that the spring belongs to; `None` if it is not in
+    /// contact.
     pub patch: Option<usize>,
 }
 
@@ -115,7 +116,8 @@ pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
 pub struct ManualPath {
     /// Points of the force curve since then, each with the index of its loading stage.
     pub path: Vec<(usize, CurvePoint)>,
-    /// Loading history from separation to this state: the loading of the scene, then the turning points of manual loading.
+    /// Loading history from separation to this state: the loading of the scene, then the turning
+    /// points of manual loading.
     pub loading: Vec<Move>,
     /// Number of springs that attached or detached since then.
     pub changed: u64,

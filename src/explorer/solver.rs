@@ -1,5 +1,5 @@
-//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest request of the explorer, on
-//! a thread of its own or at once.
+//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest
+//! request of the explorer, on a thread of its own or at once.
 
 use super::close_up::close_up;
 use super::manual_body::ManualBody;
@@ -19,7 +19,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Limit of the memory of kept legs, bytes; a leg beyond it is computed again when the animation reaches it.
+/// Limit of the memory of kept legs, bytes; a leg beyond it is computed again when the animation
+/// reaches it.
 const BYTES_KEPT: usize = 1 << 29;
 
 /// Number of curve points over the range of indentations when the body is pulled off manually.
@@ -208,7 +209,8 @@ impl Solver {
         )
     }
 
-    /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not begun.
+    /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not
+    /// begun.
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let (drive, leg, point) = match request.drive {
             Drive::Leg(number) => {
@@ -367,7 +369,8 @@ impl SolverThread {
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
         let newest = Arc::clone(&awaited);
-        // The explorer may be behind with its input: reports of scenes that it has left do not wait for it.
+        // The explorer may be behind with its input: reports of scenes that it has left do not wait
+        // for it.
         let mut report = move |one: Reply| {
             if one.generation() == newest.load(Ordering::Relaxed) {
                 report(one);

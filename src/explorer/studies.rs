@@ -1,6 +1,6 @@
-//! Values computed after the outcome: its error, springs for a tolerance, data of a shown pane, the curve for a typed
-//! value. The explorer holds one value of each type, with a key for what it was computed from. A thread of its own performs
-//! the newest order of studies; a newer order ends it.
+//! Values computed after the outcome: its error, springs for a tolerance, data of a shown pane, the
+//! curve for a typed value. The explorer holds one value of each type, with a key for what it was
+//! computed from. A thread of its own performs the newest order of studies; a newer order ends it.
 
 use asperity_scene::{Scene, Simulation};
 use std::any::{Any, TypeId};
@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Time between a change of the scene and the beginning of a study: a key held down needs the machine.
+/// Time between a change of the scene and the beginning of a study: a key held down needs the
+/// machine.
 const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
@@ -19,15 +20,16 @@ type Value = Arc<dyn Any + Send + Sync>;
 /// Function that returns true if a study is to end.
 type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Computation of a value, on a simulation that other studies may have used, until `stop` returns true. Parts of the value
-/// are reported as they are computed.
+/// Computation of a value, on a simulation that other studies may have used, until `stop` returns
+/// true. Parts of the value are reported as they are computed.
 type Run =
     dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
 
 pub struct Study {
     kind: TypeId,
     key: String,
-    /// True if a demo leaves the study out, since viewers would have to wait or results differ from run to run.
+    /// True if a demo leaves the study out, since viewers would have to wait or results differ from
+    /// run to run.
     pub is_long: bool,
     run: Box<Run>,
 }
@@ -58,7 +60,8 @@ impl Study {
         self.kind == TypeId::of::<T>()
     }
 
-    /// Performs the study. Nothing is reported once `stop` has returned true; a panic counts as a failure.
+    /// Performs the study. Nothing is reported once `stop` has returned true; a panic counts as a
+    /// failure.
     pub fn perform(
         self,
         simulation: &mut Simulation,

@@ -15,8 +15,8 @@ use std::io::Write;
 /// Largest number of cells of a window; a cell takes about 100 bytes.
 const MOST_CELLS: u32 = 4_000_000;
 
-/// Control sequence for presses, drags and the wheel of the mouse. The sequence of crossterm includes every motion, and
-/// each would be transmitted and wake the explorer for nothing.
+/// Control sequence for presses, drags and the wheel of the mouse. The sequence of crossterm
+/// includes every motion, and each would be transmitted and wake the explorer for nothing.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
@@ -62,8 +62,8 @@ impl TerminalGuard {
         self.enter()
     }
 
-    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it over again when the shell continues the
-    /// explorer.
+    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it over again when the
+    /// shell continues the explorer.
     pub fn suspend(&self) -> io::Result<()> {
         give_back(self.mouse)?;
         stop_until_continued();
@@ -82,8 +82,8 @@ impl Drop for TerminalGuard {
     }
 }
 
-/// Leaves the alternate screen, and only then raw mode: outside of raw mode a Ctrl+C makes the system discard output that
-/// the terminal has not read yet.
+/// Leaves the alternate screen, and only then raw mode: outside of raw mode a Ctrl+C makes the
+/// system discard output that the terminal has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
     let left = execute!(
@@ -97,7 +97,8 @@ fn give_back(mouse: bool) -> io::Result<()> {
     left.and(disable_raw_mode())
 }
 
-/// Waits until the output has been sent and then for a moment, since a pseudo-terminal does not report when it is read.
+/// Waits until the output has been sent and then for a moment, since a pseudo-terminal does not
+/// report when it is read.
 #[cfg(unix)]
 fn wait_until_written() {
     const READING: std::time::Duration = std::time::Duration::from_millis(20);
@@ -126,8 +127,8 @@ pub fn window() -> io::Result<Size> {
     checked(Size { width, height })
 }
 
-/// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue them, the system does not
-/// stop them.
+/// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue
+/// them, the system does not stop them.
 #[cfg(unix)]
 fn stop_until_continued() {
     let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
@@ -167,7 +168,8 @@ pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Collects a whole frame and writes it at once, as a synchronized update. A frame that changes nothing is not written.
+/// Collects a whole frame and writes it at once, as a synchronized update. A frame that changes
+/// nothing is not written.
 pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
     out: W,
@@ -182,7 +184,8 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
-/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even if nothing is drawn.
+/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even if
+/// nothing is drawn.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {

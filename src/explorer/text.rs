@@ -1,7 +1,7 @@
 //! Text within a number of columns: broken between words, in whole parts, or shortened with an `…`.
 //!
-//! ratatui breaks lines too, but where a word has wide characters or begins with a combining mark, as in titles and
-//! typed values, it overruns its area and panics.
+//! ratatui breaks lines too, but where a word has wide characters or begins with a combining mark,
+//! as in titles and typed values, it overruns its area and panics.
 
 use asperity_data::{belong_together, grouped};
 use ratatui::style::Style;
@@ -10,8 +10,8 @@ use ratatui::text::{Line, Span, StyledGrapheme};
 /// Spans of text that are shown together or not at all.
 pub type Part = Vec<Span<'static>>;
 
-/// Breaks a line into lines of at most this number of columns. A word that is wider is broken anywhere, a number neither at
-/// its thousands nor before its unit.
+/// Breaks a line into lines of at most this number of columns. A word that is wider is broken
+/// anywhere, a number neither at its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
@@ -115,8 +115,8 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     clipped.style(line.style)
 }
 
-/// Puts parts into as many lines as needed, with `between` between two parts of a line; a part wider than the columns is
-/// left out.
+/// Puts parts into as many lines as needed, with `between` between two parts of a line; a part
+/// wider than the columns is left out.
 pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {

@@ -61,7 +61,8 @@ impl TextLine {
         self.left_out
     }
 
-    /// Inserts a text before the cursor or in place of the selected text, without control characters, as far as it fits.
+    /// Inserts a text before the cursor or in place of the selected text, without control
+    /// characters, as far as it fits.
     pub fn insert(&mut self, text: &str) {
         let mut inserted = text
             .chars()
@@ -80,7 +81,8 @@ impl TextLine {
         self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
     }
 
-    /// Moves the cursor or deletes text; deleting removes a selected text as a whole. Afterwards nothing is selected.
+    /// Moves the cursor or deletes text; deleting removes a selected text as a whole. Afterwards
+    /// nothing is selected.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
@@ -92,7 +94,8 @@ impl TextLine {
         (self.selected, self.left_out) = (false, None);
     }
 
-    /// The text, in a smaller number of columns without digits in its middle: its end has the exponent and the unit.
+    /// The text, in a smaller number of columns without digits in its middle: its end has the
+    /// exponent and the unit.
     fn shortened(&self, columns: usize) -> String {
         let characters: Vec<char> = self.text().chars().collect();
         let kept = columns.saturating_sub(1);

@@ -50,8 +50,9 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// Appearance by the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII on the console of Linux (`TERM=linux`)
-    /// and for a locale without Unicode (`C`, `POSIX`), which show no Braille.
+    /// Appearance by the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII on the console
+    /// of Linux (`TERM=linux`) and for a locale without Unicode (`C`, `POSIX`), which show no
+    /// Braille.
     pub fn of_environment() -> Self {
         let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
         let theme = match value("COLORFGBG") {
@@ -74,7 +75,8 @@ impl Appearance {
 }
 
 impl Theme {
-    /// The theme for the background in a value of `COLORFGBG`, whose last number is the background colour.
+    /// The theme for the background in a value of `COLORFGBG`, whose last number is the background
+    /// colour.
     fn on_background(colours: &str) -> Self {
         match colours.rsplit(';').next().map(str::parse::<u8>) {
             Some(Ok(7 | 9..=15)) => Theme::Light,

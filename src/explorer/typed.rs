@@ -27,7 +27,8 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
     }
 }
 
-/// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of the computed curve.
+/// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of
+/// the computed curve.
 pub fn unit_of_force(app: &App) -> String {
     let computed = || {
         app.current()
@@ -45,7 +46,8 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// Adds the unit of the row to a typed value without one. A number for a stage without one is a force.
+/// Adds the unit of the row to a typed value without one. A number for a stage without one is a
+/// force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
         return OPTIONS[index].with_unit(measured, typed);

@@ -1,5 +1,5 @@
-//! Effect of each action on the state. Nothing here touches terminal, files or solver: tasks outside of the state are
-//! returned.
+//! Effect of each action on the state. Nothing here touches terminal, files or solver: tasks
+//! outside of the state are returned.
 
 use super::action::Action;
 use super::action::Task;
@@ -14,7 +14,8 @@ use super::snapshot::Reply;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::sync::Arc;
 
-/// Applies an action and returns the tasks that follow, including a request for the state that the screen waits for.
+/// Applies an action and returns the tasks that follow, including a request for the state that the
+/// screen waits for.
 pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
     if app.asked.is_some_and(|asked| asked != awaited(app)) {
@@ -110,7 +111,8 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// Makes the request for the state that the screen waits for; it takes the waiting manual moves with it.
+/// Makes the request for the state that the screen waits for; it takes the waiting manual moves
+/// with it.
 pub fn request(app: &mut App) -> Request {
     let moves = app
         .manual

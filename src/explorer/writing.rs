@@ -22,8 +22,9 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
 
-/// Writes a regular file, relative to a folder; a pipe would block. The name of a scene gets the extension `.ron` if it has
-/// none, unless it names something that is no file. Returns the file with its final name, and the result.
+/// Writes a regular file, relative to a folder; a pipe would block. The name of a scene gets the
+/// extension `.ron` if it has none, unless it names something that is no file. Returns the file
+/// with its final name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let mut written = || {
         let path = folder.join(&file.path);

@@ -1,5 +1,5 @@
-//! An explorer without a terminal, in a folder of its own. It performs effects as the program does, but at once: results
-//! do not depend on speed.
+//! An explorer without a terminal, in a folder of its own. It performs effects as the program does,
+//! but at once: results do not depend on speed.
 
 use asperity::explorer::action::{Action, Task};
 use asperity::explorer::commands::opening::begin;
@@ -37,7 +37,8 @@ pub struct Driver {
 }
 
 impl Driver {
-    /// Opens the explorer, before any computation; of the studies it performs those that are done at once.
+    /// Opens the explorer, before any computation; of the studies it performs those that are done
+    /// at once.
     pub fn open(opening: impl Into<Opening>) -> Self {
         // Times differ from run to run.
         let timeless: Solve = |simulation, scene, stop, after| {

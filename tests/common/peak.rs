@@ -21,8 +21,8 @@ pub fn arguments((scene, fields): Changed<'_>) -> Vec<String> {
 
 /// Largest resident memory of `asperity run`, bytes.
 ///
-/// Read at the first byte of the results. With more results than a pipe holds, at least 5000 samples, the process waits
-/// there with all its memory allocated.
+/// Read at the first byte of the results. With more results than a pipe holds, at least 5000
+/// samples, the process waits there with all its memory allocated.
 pub fn peak(asperity: &str, changed: Changed<'_>) -> u64 {
     let mut run = Command::new(asperity)
         .args(arguments(changed))

@@ -1,5 +1,5 @@
-//! Scripts for an explorer without a terminal: keys in, a screen out. Every request is answered before the next key, so
-//! a script always shows the same screens.
+//! Scripts for an explorer without a terminal: keys in, a screen out. Every request is answered
+//! before the next key, so a script always shows the same screens.
 
 use super::driver::Driver;
 use asperity::contact::CurvePoint;
@@ -46,8 +46,8 @@ impl Driver {
         update(&mut self.app, Action::Command(command))
     }
 
-    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`; text between grave accents is
-    /// typed. Returns the effects of the last key.
+    /// Presses keys, their names separated by blanks: `j`, `Ctrl+c`, `Enter`, `Shift+Left`; text
+    /// between grave accents is typed. Returns the effects of the last key.
     pub fn press(&mut self, keys: &str) -> Vec<Task> {
         let mut effects = Vec::new();
         for (place, part) in keys.split('`').enumerate() {

@@ -1,4 +1,5 @@
-//! A program in a pseudo-terminal: its output is kept byte by byte and shown on a screen, and each wait has a deadline.
+//! A program in a pseudo-terminal: its output is kept byte by byte and shown on a screen, and each
+//! wait has a deadline.
 
 #![allow(dead_code, reason = "no test uses all of it")]
 
@@ -357,7 +358,8 @@ impl Terminal {
         self.wait_ended(|terminal| terminal.closed || terminal.reader.is_none())
     }
 
-    /// Stops (or resumes) reading output, as a terminal that hangs does. Output already on its way is still taken.
+    /// Stops (or resumes) reading output, as a terminal that hangs does. Output already on its way
+    /// is still taken.
     pub fn rest(&self, resting: bool) {
         self.resting.store(resting, Ordering::SeqCst);
     }

@@ -1,5 +1,5 @@
-//! Any events in any order, in windows of any size: the explorer does not panic, it draws, and its scene remains
-//! computable.
+//! Any events in any order, in windows of any size: the explorer does not panic, it draws, and its
+//! scene remains computable.
 
 use super::common::driver::{Driver, REFUSED};
 use super::common::effort::cases;

@@ -1,4 +1,5 @@
-//! The screen of the explorer after each key, in large windows and small ones, with colours and without.
+//! The screen of the explorer after each key, in large windows and small ones, with colours and
+//! without.
 
 mod chrome;
 mod compare;
@@ -75,7 +76,8 @@ fn mid_retraction(document: Document) -> Driver {
     driver
 }
 
-/// The rough scene half way through its retraction, its Hurst exponent selected, and then some keys.
+/// The rough scene half way through its retraction, its Hurst exponent selected, and then some
+/// keys.
 fn pressed(keys: &str) -> Driver {
     let mut driver = mid_retraction(rough());
     driver.select("roughness.hurst");

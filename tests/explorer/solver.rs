@@ -1,5 +1,5 @@
-//! The solver of the explorer, driven through its channels: the newest request wins, failures are shown, and a snapshot
-//! of the animation is a point of the computed curve.
+//! The solver of the explorer, driven through its channels: the newest request wins, failures are
+//! shown, and a snapshot of the animation is a point of the computed curve.
 
 use super::common::deadline::within;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
@@ -341,8 +341,8 @@ fn a_moment_at_a_sample_is_the_sample() {
     });
 }
 
-/// True if two points are the same except for the rounding of their sums: edges between springs are summed in different
-/// orders on a leg and at a snapshot.
+/// True if two points are the same except for the rounding of their sums: edges between springs are
+/// summed in different orders on a leg and at a snapshot.
 fn near(one: &CurvePoint, other: &CurvePoint) -> bool {
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-13 * a.abs().max(b.abs()).max(1e-12);
     one.indentation == other.indentation

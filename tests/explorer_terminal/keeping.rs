@@ -1,4 +1,5 @@
-//! Files that outlive a session: unsaved changes and the configuration, in the folders of a separate user.
+//! Files that outlive a session: unsaved changes and the configuration, in the folders of a
+//! separate user.
 
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{ASPERITY, SCENE, explorer, paused, quit, select};

@@ -101,7 +101,8 @@ fn with_whatever_memory_there_is_the_terminal_is_given_back() {
         computed += u32::from(terminal.text().contains("F_a "));
         terminal.send_if_open("q");
         if terminal.wait_end().signal().is_some() {
-            // Without memory for a small allocation the system ends the process, which restores nothing.
+            // Without memory for a small allocation the system ends the process, which restores
+            // nothing.
             continue;
         }
         assert!(terminal.is_as_before(), "{mebibytes} MiB");
@@ -127,8 +128,8 @@ fn left_behind(terminal: &Terminal) -> String {
     String::from_utf8_lossy(&bytes[place + LEAVE_ALTERNATE_SCREEN.len()..]).replace("\r\n", "\n")
 }
 
-/// Asserts that each row below the title of a scene is the beginning of a row of the summary of `asperity run`, where the
-/// adhesion force has its error.
+/// Asserts that each row below the title of a scene is the beginning of a row of the summary of
+/// `asperity run`, where the adhesion force has its error.
 fn assert_rows_of(left: &str, summary: &str) {
     let place = left
         .find("Rough line")

@@ -1,8 +1,9 @@
-//! The program in a terminal: keys are typed, the screen is read, the window is resized or closed, and in the end the
-//! terminal is as before.
+//! The program in a terminal: keys are typed, the screen is read, the window is resized or closed,
+//! and in the end the terminal is as before.
 //!
-//! The engine that panics is the tool `panicking_engine`, in `tests/tools`, built into `examples/` beside the program: `cargo test` builds
-//! both, `cargo test --test explorer_terminal` builds the example only after `cargo build --examples`.
+//! The engine that panics is the tool `panicking_engine`, in `tests/tools`, built into `examples/`
+//! beside the program: `cargo test` builds both, `cargo test --test explorer_terminal` builds the
+//! example only after `cargo build --examples`.
 #![cfg(target_os = "linux")]
 
 #[path = "../common"]

@@ -38,7 +38,8 @@ fn unfinished() -> Vec<String> {
         .collect()
 }
 
-/// Presses `?` until the help is shown, and closes it again. The first key may still belong to what was cut.
+/// Presses `?` until the help is shown, and closes it again. The first key may still belong to what
+/// was cut.
 #[track_caller]
 fn assert_answers(terminal: &mut Terminal, after: &str) {
     const HELP: &str = "What you see";
@@ -96,7 +97,8 @@ fn ctrl_c_ends_the_explorer_at_once_within_each_of_them() {
     });
 }
 
-/// Longest time between two pieces of a key for which the test judges the explorer and not the load of the machine.
+/// Longest time between two pieces of a key for which the test judges the explorer and not the load
+/// of the machine.
 const LONGEST_BETWEEN_PIECES: Duration = Duration::from_millis(60);
 
 #[test]
@@ -108,7 +110,8 @@ fn a_key_that_arrives_in_two_pieces_is_one_key() {
     );
 }
 
-/// Sends arrow keys in two pieces. Returns false if the machine was too slow to send two pieces in time.
+/// Sends arrow keys in two pieces. Returns false if the machine was too slow to send two pieces in
+/// time.
 fn pieces_are_joined() -> bool {
     let (program, _folder) = explorer();
     let mut terminal = paused(program);

@@ -1,5 +1,5 @@
-//! The explorer over SSH, which it knows by the variables of the connection: frames and bytes of the animation and of a held
-//! key are few enough for a slow line.
+//! The explorer over SSH, which it knows by the variables of the connection: frames and bytes of
+//! the animation and of a held key are few enough for a slow line.
 
 use crate::common::terminal::{Frame, Program, Terminal};
 use crate::driving::{ASPERITY, paused, quit};

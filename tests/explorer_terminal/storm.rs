@@ -1,5 +1,5 @@
-//! Storms of keys, pastes, mouse and broken sequences: after each burst the next key counts, and the explorer draws a
-//! window of another size.
+//! Storms of keys, pastes, mouse and broken sequences: after each burst the next key counts, and
+//! the explorer draws a window of another size.
 //!
 //! `STORM_SEEDS=0..200 cargo test --test explorer_terminal storm` runs other storms.
 
@@ -17,8 +17,8 @@ const WIDER: usize = 4;
 /// Longest time to a frame.
 const LIMIT: Duration = Duration::from_secs(5);
 
-/// Keys beside letters, digits and signs: control characters without those that end or stop the explorer, and
-/// sequences of keys and of the mouse.
+/// Keys beside letters, digits and signs: control characters without those that end or stop the
+/// explorer, and sequences of keys and of the mouse.
 const KEYS: [&str; 24] = [
     "\r", "\x1b", "\t", "\x7f", "\x15", "\x17", "\x01", "\x05", "\x0b", "\x0c", "\x12", "\x1b[A",
     "\x1b[B", "\x1b[C", "\x1b[D", "\x1b[5~", "\x1b[6~", "\x1b[H", "\x1b[3~", "\x1b[Z", "\x1bOP",
@@ -106,7 +106,8 @@ impl Random {
     }
 }
 
-/// Presses the key that draws the whole screen, and asserts that it counts. Returns false if the storm has left.
+/// Presses the key that draws the whole screen, and asserts that it counts. Returns false if the
+/// storm has left.
 fn answers(terminal: &mut Terminal, seed: u64, burst: &[u8]) -> bool {
     const REDRAW: &[u8] = b"\x0c";
     const CLEARED: &[u8] = b"\x1b[2J";
@@ -128,7 +129,8 @@ fn answers(terminal: &mut Terminal, seed: u64, burst: &[u8]) -> bool {
     true
 }
 
-/// Sends a storm, which may also choose to leave. After each burst a window of another size is drawn.
+/// Sends a storm, which may also choose to leave. After each burst a window of another size is
+/// drawn.
 fn storm(seed: u64) {
     let mut random = Random(seed);
     let (program, _folder) = explorer();
@@ -164,7 +166,8 @@ fn storm(seed: u64) {
     }
 }
 
-/// Keys that edit faster than their scenes are computed wait in the terminal, and no outcome of an earlier scene is kept.
+/// Keys that edit faster than their scenes are computed wait in the terminal, and no outcome of an
+/// earlier scene is kept.
 #[test]
 #[ignore = "takes some seconds; .ci/run runs it"]
 fn a_burst_of_edits_takes_little_memory() {

@@ -1,7 +1,8 @@
-//! The properties of the fuzz targets on a plain toolchain: for all seeds, for all findings of fuzzing, and for some
-//! thousand mutations of both, the same ones each time.
+//! The properties of the fuzz targets on a plain toolchain: for all seeds, for all findings of
+//! fuzzing, and for some thousand mutations of both, the same ones each time.
 //!
-//! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 40 000 mutations of each target, `FUZZ_SEED=7` others.
+//! `TEST_EFFORT=40 cargo test --test fuzz corpus` tries 40 000 mutations of each target,
+//! `FUZZ_SEED=7` others.
 
 use super::allocations;
 use super::effort::cases;
@@ -16,7 +17,8 @@ const MUTATIONS: u32 = 1000;
 /// Longest generated input, bytes.
 const LONGEST: usize = 4_096;
 
-/// The files of a folder of a target with their names, in alphabetical order; none if the folder does not exist.
+/// The files of a folder of a target with their names, in alphabetical order; none if the folder
+/// does not exist.
 fn files(kind: &str, target: &str) -> Vec<(String, Vec<u8>)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("fuzz")
@@ -33,8 +35,8 @@ fn files(kind: &str, target: &str) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// Largest single request of memory while an input is read, bytes: tables of fixed size, and a multiple of its content,
-/// whatever the numbers in it are.
+/// Largest single request of memory while an input is read, bytes: tables of fixed size, and a
+/// multiple of its content, whatever the numbers in it are.
 fn most_memory(input: &[u8]) -> usize {
     let compressed: [&[u8]; 3] = [b"\x1f\x8b", b"PK\x03\x04", b"DSCOMPRESSED"];
     let is_compressed = compressed

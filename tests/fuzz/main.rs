@@ -1,4 +1,5 @@
-//! Random input on a plain toolchain: the properties of the fuzz targets, and storms drawn from the table of fields.
+//! Random input on a plain toolchain: the properties of the fuzz targets, and storms drawn from the
+//! table of fields.
 
 #[path = "../common/allocations.rs"]
 mod allocations;

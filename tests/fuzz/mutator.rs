@@ -2,7 +2,8 @@
 
 use asperity::scene::fields::{FIELDS, Range};
 
-/// Fragments that trip readers of numbers and of nested text, separated by blanks; others have blanks in them.
+/// Fragments that trip readers of numbers and of nested text, separated by blanks; others have
+/// blanks in them.
 const NASTY: &str = "NaN inf -inf -0.0 1e999 1e-999 1e308 -1e308 5e-324 18446744073709551615 18446744073709551616 -1 0 \
     268435456 1e99999999999 0x7f 1_000 None Some( ) ( [ ] { } , : = \" ' \\ \\u{1b} r#\" \"# // /* */ # \
     #![enable(unwrap_newtypes)] ; \u{feff} \u{1b}[2J \u{0} µ κ ° ² − é \u{202e} k M Ki E mm Pa J/m^2 m^(1−n) rad \

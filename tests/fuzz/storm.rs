@@ -1,7 +1,8 @@
-//! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles, plans, and the runs of
-//! the allowed ones.
+//! Storms of random input, drawn from the table of fields: texts of scenes, overrides, profiles,
+//! plans, and the runs of the allowed ones.
 //!
-//! `TEST_EFFORT=800 cargo test --test fuzz storm` draws 800 times as many; `PROPTEST_RNG_SEED=7` draws others.
+//! `TEST_EFFORT=800 cargo test --test fuzz storm` draws 800 times as many; `PROPTEST_RNG_SEED=7`
+//! draws others.
 
 mod plans;
 mod runs;
@@ -54,7 +55,8 @@ fn quick() -> Drawn {
 /// A profile on a length of 1, with heights of the size of 1: positions and heights.
 type Shape = (Vec<f64>, Vec<f64>);
 
-/// Shapes with heights of a few levels, which nearly tie, and with heights of all sizes; steps equal and of many sizes.
+/// Shapes with heights of a few levels, which nearly tie, and with heights of all sizes; steps
+/// equal and of many sizes.
 fn shapes() -> impl Strategy<Value = Shape> {
     let near_tie = (0_u8..4, 0_u32..5).prop_map(|(level, steps)| {
         (0..steps).fold(0.25 * f64::from(level), |height, _| height.next_up())

@@ -1,4 +1,5 @@
-//! What the pages say about the claims of the paper and about the boundary of adhesion, from the plans of the program.
+//! What the pages say about the claims of the paper and about the boundary of adhesion, from the
+//! plans of the program.
 
 use super::documentation::markdown;
 use super::generated::{assert_says, check};
@@ -219,7 +220,8 @@ fn variation_of_the_coefficient(kappa: u32) -> f64 {
     high / low
 }
 
-/// docs/findings.md: shares of F_a,max in per cent, ratios of F_a to F_n, and boundaries in κ, each from the command beside it.
+/// docs/findings.md: shares of F_a,max in per cent, ratios of F_a to F_n, and boundaries in κ, each
+/// from the command beside it.
 fn check_claims(folder: &Path) {
     let says = |plan: &str, words: &str| {
         let text = asperity_in(folder, &["sweep", "plans", plan]).succeeded();

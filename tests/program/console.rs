@@ -1,9 +1,10 @@
 //! Console blocks of the documentation and of `tests/program/commands` are what the program prints.
 //!
-//! The commands of a page run one after the other in a folder of their own, by a shell with the program first in its
-//! search path. A line `? N` after a command is an exit code other than 0, `[..]` is any text, for what changes from run
-//! to run, `> ` continues a command. `<!-- setup` begins commands that no reader needs, up to `-->`. Blocks of `sh` that
-//! begin with the program must succeed, unless a comment is directly above them.
+//! The commands of a page run one after the other in a folder of their own, by a shell with the
+//! program first in its search path. A line `? N` after a command is an exit code other than 0,
+//! `[..]` is any text, for what changes from run to run, `> ` continues a command. `<!-- setup`
+//! begins commands that no reader needs, up to `-->`. Blocks of `sh` that begin with the program
+//! must succeed, unless a comment is directly above them.
 //!
 //! `UPDATE_DOCS=1 cargo test --test program console` writes all blocks anew.
 

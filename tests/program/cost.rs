@@ -14,7 +14,8 @@ fn adhesion_force(scene: &str, sets: &[&str]) -> f64 {
 
 const FINEST: [&str; 2] = ["numerics.points=262144", "numerics.edges=SubCell"];
 
-/// An error that changes its sign is small at some load with few springs, and large under other loads.
+/// An error that changes its sign is small at some load with few springs, and large under other
+/// loads.
 #[test]
 fn tolerances_are_kept_under_half_and_twice_the_load() {
     let loads = ["5e-6", "1e-5", "2e-5"];

@@ -1,6 +1,7 @@
 //! The documentation matches the program: tables, pictures, examples, links and claims.
 //!
-//! After a change of the program, `UPDATE_DOCS=1 cargo test --test program -- --include-ignored` writes generated parts anew.
+//! After a change of the program, `UPDATE_DOCS=1 cargo test --test program -- --include-ignored`
+//! writes generated parts anew.
 
 use super::generated::{assert_says, check, compare, pages_in, read, root};
 use super::program::{asperity_in, table};
@@ -207,8 +208,8 @@ fn the_readme_is_short_and_lists_all_pages() {
     );
 }
 
-/// Relative errors of the smallest force, −(3/2)πγR, and of its indentation, a²/R − √(2πaγ/E*) with a³ = (9/8)πγR²/E*, of a
-/// sphere with γ = E* R on a profile of length 12 R.
+/// Relative errors of the smallest force, −(3/2)πγR, and of its indentation, a²/R − √(2πaγ/E*) with
+/// a³ = (9/8)πγR²/E*, of a sphere with γ = E* R on a profile of length 12 R.
 fn errors_of_a_sphere(points: u32, edges: &str) -> [f64; 2] {
     let text = format!(
         "(version: 1, material: (effective_modulus: 1.0), length: 6.0, form: Paraboloid(radius: 0.5), \
@@ -395,7 +396,8 @@ fn the_figure_of_the_regimes_shows_them() {
     }
 }
 
-/// How often the mean of 16 log-normal numbers lies in its interval, more often than in that of a quantity without bounds.
+/// How often the mean of 16 log-normal numbers lies in its interval, more often than in that of a
+/// quantity without bounds.
 #[test]
 fn intervals_hold_the_means_of_skewed_values_as_often_as_stated() {
     let mut random = ChaCha8Rng::seed_from_u64(7);

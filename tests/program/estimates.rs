@@ -1,7 +1,7 @@
 //! Stated errors against true ones, on random scenes with known finest solutions.
 //!
-//! On cones every even number of springs has the outermost spring; where it decides, the true error is zero and the stated
-//! one is not.
+//! On cones every even number of springs has the outermost spring; where it decides, the true error
+//! is zero and the stated one is not.
 
 use super::documentation::markdown;
 use super::generated::check;
@@ -13,7 +13,8 @@ use std::path::Path;
 /// Springs of the finest solution for each spring of the scene.
 const FINER: u64 = 64;
 
-/// Few springs on a rough cone that adheres everywhere: one spring decides, and half as many springs may have it too.
+/// Few springs on a rough cone that adheres everywhere: one spring decides, and half as many
+/// springs may have it too.
 fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     let last = 20 + (60.0 * uniform()) as u64;
     let edges = if uniform() < 0.5 { "Grid" } else { "SubCell" };
@@ -27,7 +28,8 @@ fn decided_by_one_spring(uniform: &mut dyn FnMut() -> f64) -> Document {
     Document::parse(&text, "random").unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-/// Roughness of any bandwidth and resolution, flat or on any form, with one or two works of adhesion, turned in any way.
+/// Roughness of any bandwidth and resolution, flat or on any form, with one or two works of
+/// adhesion, turned in any way.
 fn of_any_form(edges: &str, uniform: &mut dyn FnMut() -> f64) -> Document {
     let [hurst, form, adhesion, turn] = std::array::from_fn(|_| uniform());
     let mut between = |low: f64, high: f64| low * (high / low).powf(uniform());

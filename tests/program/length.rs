@@ -1,4 +1,5 @@
-//! How the adhesion of a pad depends on its length: the table of docs/learn.md, and the advice that follows from it.
+//! How the adhesion of a pad depends on its length: the table of docs/learn.md, and the advice that
+//! follows from it.
 
 use crate::generated::{check, root};
 use asperity_contact::Move;
@@ -13,8 +14,8 @@ const LONGEST: f64 = 8.0e-5;
 const HEIGHTS: [f64; 2] = [8.0e-7, 4.0e-7];
 const PROFILES: u64 = 32;
 
-/// F_a/F_a,max of random profiles of the pad with this number of longest waves and this rms height in m, under the same mean
-/// pressure.
+/// F_a/F_a,max of random profiles of the pad with this number of longest waves and this rms height
+/// in m, under the same mean pressure.
 fn shares(pad: &Document, waves: u64, height: f64) -> Statistics {
     let own = pad.scene();
     let Move::ToForce(force) = own.loading[0] else {

@@ -1,4 +1,5 @@
-//! The program without the explorer: commands, results, studies, tables for others, and the documentation.
+//! The program without the explorer: commands, results, studies, tables for others, and the
+//! documentation.
 
 #[path = "../common"]
 mod common {

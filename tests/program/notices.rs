@@ -1,4 +1,5 @@
-//! Each claim in the notice of a built-in scene, and the discretisation error of its adhesion force.
+//! Each claim in the notice of a built-in scene, and the discretisation error of its adhesion
+//! force.
 
 use asperity::scene::Regime;
 use asperity::scene::discretisation::Target;

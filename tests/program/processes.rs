@@ -100,7 +100,8 @@ fn commands(help: &str) -> impl Iterator<Item = &str> {
     names.filter(|name| !name.is_empty() && *name != "help")
 }
 
-/// Largest number of options of all commands together: a new one takes the place of another, or serves several commands.
+/// Largest number of options of all commands together: a new one takes the place of another, or
+/// serves several commands.
 const MOST_OPTIONS: usize = 67;
 
 #[test]

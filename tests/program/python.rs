@@ -1,6 +1,7 @@
 //! The lines of Python in the documentation run, and read the tables of the program.
 //!
-//! `PYTHON` names another interpreter than `python3`; with `NUMPY=required` NumPy and pandas must be installed.
+//! `PYTHON` names another interpreter than `python3`; with `NUMPY=required` NumPy and pandas must
+//! be installed.
 
 use super::documentation::block;
 use super::generated::read;
@@ -50,7 +51,8 @@ fn can_import(folder: &Path, packages: &str) -> bool {
     can
 }
 
-/// The contact radius by the closed solution gives its overlap back, and the force is that of the unloading in the table.
+/// The contact radius by the closed solution gives its overlap back, and the force is that of the
+/// unloading in the table.
 #[test]
 fn the_force_without_iteration_is_that_of_the_theory() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! Results of the program: JSON, tables and texts agree with each other, with the plan, and with a run of their own.
+//! Results of the program: JSON, tables and texts agree with each other, with the plan, and with a
+//! run of their own.
 
 use super::program::{json, number, rows, table, text};
 use serde_json::Value;
@@ -95,7 +96,8 @@ fn every_scene_gives_the_documented_json() {
                 "{scene:?}: {point}"
             );
         }
-        // The contact at the end is that of the last point, and each edge lies within a cell of the last spring.
+        // The contact at the end is that of the last point, and each edge lies within a cell of the
+        // last spring.
         let (end, contacts) = (
             array(&object["curve"]).last().unwrap(),
             array(&object["contacts"]),

@@ -1,10 +1,13 @@
-//! The catalogue of hard cases with every operation rounded to nearest, upward, downward and towards zero.
+//! The catalogue of hard cases with every operation rounded to nearest, upward, downward and
+//! towards zero.
 //!
-//! Each case has an error; the digits of the largest change of that error between the directions are those that do not
-//! depend on the rounding. A formula that is well conditioned and well evaluated keeps 14 to 16 of them; fewer show a
-//! cancellation, or a decision that depends on a last bit. All operations of a run are rounded the same wrong way, so that
-//! errors that otherwise average out add up. The unchanged program runs with a small library preloaded that sets the
-//! direction of the processor; constants of the compiler and errors that cancel under all directions escape the method.
+//! Each case has an error; the digits of the largest change of that error between the directions
+//! are those that do not depend on the rounding. A formula that is well conditioned and well
+//! evaluated keeps 14 to 16 of them; fewer show a cancellation, or a decision that depends on a
+//! last bit. All operations of a run are rounded the same wrong way, so that errors that otherwise
+//! average out add up. The unchanged program runs with a small library preloaded that sets the
+//! direction of the processor; constants of the compiler and errors that cancel under all
+//! directions escape the method.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -19,7 +22,8 @@ const MOVED: usize = 12;
 /// Digits that a case must keep.
 fn least_digits(case: &str) -> f64 {
     match case {
-        // The reference is a sum of 20 000 trapezia and more, whose roundings add up where all go the same way.
+        // The reference is a sum of 20 000 trapezia and more, whose roundings add up where all go
+        // the same way.
         "no-energy-for-nothing" => 11.0,
         // The error is counted in roundings of the indentation.
         "far-loads" => 0.0,
@@ -54,7 +58,8 @@ fn errors(library: &Path, direction: &str) -> Vec<(String, Option<f64>)> {
         .env("ROUNDING", direction)
         .output()
         .unwrap();
-    // Bounds are those of rounding to nearest: beyond them the exit code is 1, but the table is still printed.
+    // Bounds are those of rounding to nearest: beyond them the exit code is 1, but the table is
+    // still printed.
     let report: Value = serde_json::from_slice(&run.stdout).unwrap_or_else(|error| {
         panic!(
             "{direction}: {error}\n{}",

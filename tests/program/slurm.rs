@@ -1,4 +1,5 @@
-//! Studies on a cluster: stand-ins for the answers of Slurm, and on request a real Slurm of two nodes on the loopback.
+//! Studies on a cluster: stand-ins for the answers of Slurm, and on request a real Slurm of two
+//! nodes on the loopback.
 
 use super::common::deadline::within;
 use super::program::{Finished, finished, program};
@@ -115,7 +116,8 @@ fn what_slurm_refuses_is_passed_on() {
     }
 }
 
-/// The options of the user, variables of the site, and the script reach sbatch; its answer reaches the user.
+/// The options of the user, variables of the site, and the script reach sbatch; its answer reaches
+/// the user.
 #[test]
 fn all_options_and_variables_reach_sbatch() {
     let sbatch = "printf '%s\\n' \"$@\" >asked; /usr/bin/env >variables; /bin/cat >script; echo Submitted batch job 17";
@@ -131,7 +133,8 @@ fn all_options_and_variables_reach_sbatch() {
     assert!(read("script").contains("\n#SBATCH --array=1-12\n"));
 }
 
-/// A dry run prints the script of a task and touches nothing; a task starts killed programs again, and no others.
+/// A dry run prints the script of a task and touches nothing; a task starts killed programs again,
+/// and no others.
 #[test]
 fn a_task_starts_killed_programs_again() {
     let folder = folder(&[("sbatch", "touch submitted; echo 1")]);

@@ -29,7 +29,8 @@ const ROOMS: [(&str, &str); 3] = [
     ("program", "explorer cli"),
 ];
 
-/// Path of a module behind its crate, as `["contact", "adhesive"]`; the program is the crate `program`.
+/// Path of a module behind its crate, as `["contact", "adhesive"]`; the program is the crate
+/// `program`.
 type Module = Vec<String>;
 
 /// Path and text of each file below a folder; the text of a file that holds none is empty.
@@ -126,8 +127,9 @@ fn module_before(code: &str) -> Option<String> {
     rest.split_once(" {").map(|(name, _)| name.to_owned())
 }
 
-/// Modules and the items that a file takes from them: of `use` and of paths in code, from the crate, from the modules
-/// above, from the modules below by their bare names, and through re-exports.
+/// Modules and the items that a file takes from them: of `use` and of paths in code, from the
+/// crate, from the modules above, from the modules below by their bare names, and through
+/// re-exports.
 struct Source {
     modules: BTreeMap<Module, String>,
     reexports: BTreeMap<Module, Module>,
@@ -322,7 +324,8 @@ fn crates_have_no_reexports_below_their_roots() {
     }
 }
 
-/// Names that a crate publishes, with their public module, if they are in one: re-exports, modules and own items.
+/// Names that a crate publishes, with their public module, if they are in one: re-exports, modules
+/// and own items.
 fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
     let own = [
         "mod ", "fn ", "struct ", "enum ", "trait ", "type ", "const ", "static ",
@@ -350,10 +353,12 @@ fn published(code: &str) -> BTreeSet<(Option<String>, String)> {
     own.map(|name| (None, name)).chain(uses).collect()
 }
 
-/// Names of items of the crate of values that the crates above publish again, for users who need no other name of it.
+/// Names of items of the crate of values that the crates above publish again, for users who need no
+/// other name of it.
 const PUBLISHED_AGAIN: [&str; 1] = ["Warning"];
 
-/// Names that two crates publish would mean two things; the program's crate publishes again what its users need.
+/// Names that two crates publish would mean two things; the program's crate publishes again what
+/// its users need.
 #[test]
 fn each_published_name_is_of_one_crate() {
     let modules = modules();
@@ -369,7 +374,8 @@ fn each_published_name_is_of_one_crate() {
     assert!(twice.is_empty(), "{twice:?}");
 }
 
-/// The page of a front crate opens on the names that each of its users needs, and a few modules by task for others.
+/// The page of a front crate opens on the names that each of its users needs, and a few modules by
+/// task for others.
 #[test]
 fn roots_of_front_crates_are_small() {
     let modules = modules();
@@ -462,7 +468,8 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
         "Form::Power",
         "Form::Punch",
     ] {
-        // The profile of a sphere, the form of a flat body and the specimens of a test are only constructed.
+        // The profile of a sphere, the form of a flat body and the specimens of a test are only
+        // constructed.
         let mut files = files_that_name(form);
         let constructing = [
             "scene::profile_builder",

@@ -1,4 +1,5 @@
-//! Surfaces with known spectra, generated, cut and estimated: biases and spreads as stated in `docs/surface-estimate.md`.
+//! Surfaces with known spectra, generated, cut and estimated: biases and spreads as stated in
+//! `docs/surface-estimate.md`.
 
 mod command;
 mod generate;
@@ -15,7 +16,8 @@ use std::f64::consts::TAU;
 const LAST: f64 = 256.0;
 const POINTS: usize = 512;
 
-/// Ratio of estimates to known values: mean − 1, standard deviation, mean of the stated standard errors.
+/// Ratio of estimates to known values: mean − 1, standard deviation, mean of the stated standard
+/// errors.
 #[derive(Clone, Copy, Debug)]
 struct Ratio {
     bias: f64,
@@ -39,7 +41,8 @@ impl Ratio {
     }
 }
 
-/// Ratios of rms height, rms gradient and elastic energy of the equivalent line to those of the generated surface.
+/// Ratios of rms height, rms gradient and elastic energy of the equivalent line to those of the
+/// generated surface.
 fn ratios(spectrum: &Spectrum, found: &[Analysis]) -> [Ratio; 3] {
     let (exact, count) = (spectrum.line(), found.len() as f64);
     [0, 1, 2].map(|index| {
@@ -146,7 +149,8 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
                 "none"
             };
             let [h, gradient, energy] = ratios.map(|ratio| ratio.text());
-            // The page has the ends of the range of H, and the largest and the smallest measurement.
+            // The page has the ends of the range of H, and the largest and the smallest
+            // measurement.
             if hurst != 0.5 && kind != "100 profiles" {
                 rows.push([
                     roll_off.to_owned(),
@@ -167,7 +171,8 @@ fn the_equivalent_line_of_generated_surfaces_is_theirs() {
     );
 }
 
-/// Resampling smooths, and the stated error holds what is lost: for points displaced at random and in pairs.
+/// Resampling smooths, and the stated error holds what is lost: for points displaced at random and
+/// in pairs.
 #[test]
 fn the_error_of_a_resampled_profile_holds_its_smoothing() {
     let mut random = Normal::new(5);
@@ -217,11 +222,13 @@ fn the_error_of_a_resampled_profile_holds_its_smoothing() {
     }
 }
 
-/// A profile holds few waves, and no estimate can exceed their information: the spread follows from their number.
+/// A profile holds few waves, and no estimate can exceed their information: the spread follows from
+/// their number.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
-    // Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the independent waves.
+    // Mean of w⁴ of a Hann window w with a mean of w² of 1: factor by which the window reduces the
+    // independent waves.
     const HANN: f64 = 35.0 / 18.0;
     for hurst in [0.3, 0.5, 0.8] {
         let spectrum = Spectrum {
@@ -243,7 +250,8 @@ fn the_spread_of_an_estimate_is_that_of_the_waves_in_its_profiles() {
             .into_iter()
             .enumerate()
         {
-            // The power of each wave of ∫ k^power C_cut dk has a standard deviation as large as its mean.
+            // The power of each wave of ∫ k^power C_cut dk has a standard deviation as large as its
+            // mean.
             let each = (1..=LAST as u32)
                 .map(f64::from)
                 .map(|k| k.powi(power) * cut(&spectrum, k));
@@ -504,8 +512,8 @@ fn a_departure_from_the_measured_height_is_part_of_the_error() {
     );
 }
 
-/// Maps with the faults of instruments: single points with errors of up to ten times the rms height, rows that are offset by
-/// its half, and spectra that end inside the scan.
+/// Maps with the faults of instruments: single points with errors of up to ten times the rms
+/// height, rows that are offset by its half, and spectra that end inside the scan.
 #[test]
 #[ignore = "takes ten seconds or more; .ci/run runs it"]
 fn faulty_maps_have_the_moments_of_their_surface() {
@@ -526,7 +534,8 @@ fn faulty_maps_have_the_moments_of_their_surface() {
             align_rows: offsets > 0.0,
             ..ReadOptions::default()
         };
-        // Moments of a mended and, of some, of a faulty map, over those of the surface, and the errors of the former.
+        // Moments of a mended and, of some, of a faulty map, over those of the surface, and the
+        // errors of the former.
         let measure = |seed: u64| {
             let spectrum = Spectrum {
                 hurst: [0.3, 0.5, 0.8][seed as usize % 3],
@@ -599,7 +608,8 @@ fn faulty_maps_have_the_moments_of_their_surface() {
 
 #[test]
 fn scans_of_several_sizes_have_one_spectrum() {
-    // The coarse scans alias the waves that only the fine ones resolve, and these lack the long waves.
+    // The coarse scans alias the waves that only the fine ones resolve, and these lack the long
+    // waves.
     let spectrum = Spectrum {
         hurst: 0.7,
         roll_off: 8.0,

@@ -1,4 +1,5 @@
-//! Parameter studies: results equal to those of single runs, for any division of the work and any interruption.
+//! Parameter studies: results equal to those of single runs, for any division of the work and any
+//! interruption.
 
 use super::common::effort::cases;
 use asperity::contact::Move;
@@ -199,7 +200,8 @@ fn no_bit_depends_on_who_computes() {
     assert_eq!(tables(&folder), expected, "three shards");
 }
 
-/// Cells that cannot be computed have their reason in every table, and no numbers; the others are as without them.
+/// Cells that cannot be computed have their reason in every table, and no numbers; the others are
+/// as without them.
 #[test]
 fn cells_that_cannot_be_computed_have_a_reason() {
     let text = r#"(version: 1, axes: [

@@ -1,4 +1,5 @@
-//! Writes the manual pages of the program and its commands into a folder: `cargo run --example man -- man1`.
+//! Writes the manual pages of the program and its commands into a folder:
+//! `cargo run --example man -- man1`.
 
 use asperity::cli::arguments::Arguments;
 use clap::CommandFactory;

@@ -1,6 +1,7 @@
-//! The explorer with a solver that panics on the seed 13 and computes without end on the seed 14, or with the argument
-//! `draw` with a view that panics. The tests check that the explorer reports this and continues, shows keys at once under
-//! any load of the solver, or else restores the terminal.
+//! The explorer with a solver that panics on the seed 13 and computes without end on the seed 14,
+//! or with the argument `draw` with a view that panics. The tests check that the explorer reports
+//! this and continues, shows keys at once under any load of the solver, or else restores the
+//! terminal.
 
 use asperity::contact::ContactError;
 use asperity::explorer::app::App;

@@ -1,5 +1,6 @@
-//! The exact solver: a body that moves along any loading history in linear time, without a step error. A reversal is the
-//! unloading from one turning point to separation; many reversals need only one loading.
+//! The exact solver: a body that moves along any loading history in linear time, without a step
+//! error. A reversal is the unloading from one turning point to separation; many reversals need
+//! only one loading.
 
 use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
@@ -14,8 +15,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// Rigid body that the exact solver moves. The body has its present indentation, and as a [`Leg`] the contact at all
-/// indentations of its present motion.
+/// Rigid body that the exact solver moves. The body has its present indentation, and as a [`Leg`]
+/// the contact at all indentations of its present motion.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -23,7 +24,9 @@ use std::time::{Duration, Instant};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let mut body = Body::new(&contact, 2);
 /// body.move_to(Move::ToForce(1.0e-5))?;
 /// assert!((body.point().force / 1.0e-5 - 1.0).abs() < 1e-12);
@@ -33,13 +36,15 @@ pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
-    /// Extreme force of contact and instrument so far on the present motion; see [`Leg::jump_energy`].
+    /// Extreme force of contact and instrument so far on the present motion; see
+    /// [`Leg::jump_energy`].
     extreme: Option<f64>,
     work: Work,
     curve_time: Duration,
 }
 
-/// Result of [`Body::move_to`]: the [`Leg`] of the motion and the range of indentations that the body passed.
+/// Result of [`Body::move_to`]: the [`Leg`] of the motion and the range of indentations that the
+/// body passed.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -47,7 +52,9 @@ pub struct Body {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let motion = Body::new(&contact, 2).move_to(Move::ToIndentation(1.0e-7))?.expect("a way to go");
 /// assert_eq!((motion.low, motion.high), (0.0, 1.0e-7));
 /// // The contact anywhere on the way.
@@ -67,8 +74,8 @@ pub struct Motion {
 }
 
 impl Body {
-    /// Creates a separated body at the indentation d = 0, just before first touch. The force curve of each motion is computed
-    /// at `samples` points, at least 2.
+    /// Creates a separated body at the indentation d = 0, just before first touch. The force curve
+    /// of each motion is computed at `samples` points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
         Self::on(
             Leg::apart(contact, Direction::Unloading),
@@ -77,10 +84,12 @@ impl Body {
         )
     }
 
-    /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or turn back.
+    /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or
+    /// turn back.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise).
+    /// Returns [`ContactError::Stepwise`] for a leg of the
+    /// [stepwise solver](crate::motion::Stepwise).
     pub fn at(leg: &Leg, indentation: f64) -> Result<Self, ContactError> {
         leg.refuse_stepwise()?;
         Ok(Self::on(leg.clone(), leg.state(indentation)?, 2))
@@ -101,12 +110,14 @@ impl Body {
         }
     }
 
-    /// Returns the present point of the force curve: indentation, force, contact and energy of the body.
+    /// Returns the present point of the force curve: indentation, force, contact and energy of the
+    /// body.
     pub fn point(&self) -> CurvePoint {
         self.point_of(self.state)
     }
 
-    /// Moves the body to a target without recording a force curve. Returns `None` if the body is at the target already.
+    /// Moves the body to a target without recording a force curve. Returns `None` if the body is at
+    /// the target already.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
@@ -138,7 +149,8 @@ impl Body {
         state.point(self.leg.contact().foundation)
     }
 
-    /// Returns the present leg if it has this direction, else the leg that begins at the present indentation.
+    /// Returns the present leg if it has this direction, else the leg that begins at the present
+    /// indentation.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
         let leg = if self.is_separated() && direction == Direction::Loading {
             Leg::approach(self.leg.contact())?
@@ -190,7 +202,8 @@ impl Body {
         }))
     }
 
-    /// Returns the grid of a motion for the search of extremes, and the stride at which its points are samples of the curve.
+    /// Returns the grid of a motion for the search of extremes, and the stride at which its points
+    /// are samples of the curve.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
         let stride = SEARCH_INTERVALS.div_ceil(intervals);
@@ -215,7 +228,8 @@ impl Body {
         } else {
             self.grid(low, high)
         };
-        // The springs that touch first attach at the first point itself; those held to it detach just below.
+        // The springs that touch first attach at the first point itself; those held to it detach
+        // just below.
         let from = if touches || separates {
             f64::NEG_INFINITY
         } else {
@@ -279,7 +293,8 @@ impl Body {
         } else {
             let mut smallest = leg.extreme(Extreme::Smallest, &sampled, work);
             if smallest.totals.springs == 0 {
-                // A body that nowhere pulls has the smallest force where it is in contact last, not where it moves on to.
+                // A body that nowhere pulls has the smallest force where it is in contact last, not
+                // where it moves on to.
                 smallest = leg.state(leg.end().min(high))?;
             }
             [self.point_of(smallest), self.point_of(sampled[last])]
@@ -309,8 +324,9 @@ impl Body {
         Ok(record)
     }
 
-    /// Finds the point of the smallest force on the rest of an unloading, from the indentation `from` in m to separation. This
-    /// search does not count as work of the loading, which does not go there.
+    /// Finds the point of the smallest force on the rest of an unloading, from the indentation
+    /// `from` in m to separation. This search does not count as work of the loading, which does not
+    /// go there.
     fn rest_of(&self, unloading: &Leg, from: f64) -> Result<CurvePoint, ContactError> {
         let (separation, _) =
             unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
@@ -319,14 +335,15 @@ impl Body {
         Ok(self.point_of(smallest))
     }
 
-    /// Computes the unloading to separation from several turning points. Each turning point is where a loading from
-    /// separation reaches one of the targets. `see` is called with the index of each target and its [`Reversal`], in the
-    /// order of growing indentation at the turning point. [`Reversal::forces`] are computed at the indentations `points`,
-    /// which are in m and in ascending order.
+    /// Computes the unloading to separation from several turning points. Each turning point is
+    /// where a loading from separation reaches one of the targets. `see` is called with the index
+    /// of each target and its [`Reversal`], in the order of growing indentation at the turning
+    /// point. [`Reversal::forces`] are computed at the indentations `points`, which are in m and in
+    /// ascending order.
     ///
     /// # Errors
-    /// Returns an error for a target that the contact cannot reach, and for a target at which the body is not in contact.
-    /// Also returns the first error of `see`.
+    /// Returns an error for a target that the contact cannot reach, and for a target at which the
+    /// body is not in contact. Also returns the first error of `see`.
     pub fn reversals(
         &mut self,
         targets: &[Move],
@@ -361,9 +378,10 @@ impl Body {
         Ok(())
     }
 
-    /// Returns two adhesion forces in N: F_a(d=0) after a loading that ends at first touch, and F_a(F=0) after a loading
-    /// that ends where the force is back at zero. An adhesion force is `None` if the force of the unloading stays above
-    /// zero. F_a(F=0) is also `None` if the loading never returns to zero force.
+    /// Returns two adhesion forces in N: F_a(d=0) after a loading that ends at first touch, and
+    /// F_a(F=0) after a loading that ends where the force is back at zero. An adhesion force is
+    /// `None` if the force of the unloading stays above zero. F_a(F=0) is also `None` if the
+    /// loading never returns to zero force.
     pub fn adhesion_without_preload(&mut self) -> Result<[Option<f64>; 2], ContactError> {
         let before = self.work;
         let loading = Leg::approach(self.leg.contact())?;
@@ -463,7 +481,9 @@ impl MovingBody for Body {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let found = contact.reversals(&[Move::ToForce(1.0e-5), Move::ToForce(1.0e-4)], &[])?;
 /// // A sphere adheres with the same force after any preload.
 /// let [one, other] = [0, 1].map(|index| found[index].adhesion_force().unwrap());
@@ -478,18 +498,20 @@ pub struct Reversal {
     pub smallest: CurvePoint,
     /// Indentation in m at which the last contact patch detaches on the unloading.
     pub separation: f64,
-    /// Energy in J dissipated on the way from separation to the turning point and back to separation.
+    /// Energy in J dissipated on the way from separation to the turning point and back to
+    /// separation.
     pub dissipated_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the loading.
     pub reaches_ends: bool,
-    /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given. Indentations above the turning
-    /// point are left out. At indentations below `separation` the force is 0.
+    /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given.
+    /// Indentations above the turning point are left out. At indentations below `separation` the
+    /// force is 0.
     pub forces: Vec<f64>,
 }
 
 impl Reversal {
-    /// Returns the adhesion force F_a in N: the smallest force with the opposite sign. Returns `None` if the smallest force is
-    /// above zero.
+    /// Returns the adhesion force F_a in N: the smallest force with the opposite sign. Returns
+    /// `None` if the smallest force is above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
         // Not −F: that would make a force of zero negative.
         Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)

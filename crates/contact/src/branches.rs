@@ -1,16 +1,18 @@
-//! Branches, preload and pull-off of a loading history. They depend only on the path of the body, not on the division of this
-//! path into loading stages.
+//! Branches, preload and pull-off of a loading history. They depend only on the path of the body,
+//! not on the division of this path into loading stages.
 
 use super::history::{CurvePoint, Direction, LegRecord};
 use asperity_data::Warning;
 use std::ops::Range;
 
-/// Relative difference within which two forces or two indentations count as equal. Equal forces may be different sums.
+/// Relative difference within which two forces or two indentations count as equal. Equal forces may
+/// be different sums.
 pub(super) const ROUNDING: f64 = 1e-9;
 /// Relative motion that counts as rounding, for a force or displacement that is reached again.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
-/// Consecutive loading stages that move the body in the same direction, taken together as one motion.
+/// Consecutive loading stages that move the body in the same direction, taken together as one
+/// motion.
 ///
 /// ```
 /// use asperity_contact::Branch;
@@ -18,7 +20,9 @@ const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// // Two stages that load are one branch.
 /// let cycle = contact.load(&[Move::ToTouch, Move::ToForce(1.0e-5), Move::ToSeparation])?;
 /// let branches = Branch::all(cycle.stages());
@@ -66,8 +70,8 @@ impl Branch {
         Branch::all(legs).into_iter().rfind(unloads)
     }
 
-    /// Returns the stages of the branch that move in its direction and have contact, with their indices. A stage of a separated
-    /// body has no extremes of the contact.
+    /// Returns the stages of the branch that move in its direction and have contact, with their
+    /// indices. A stage of a separated body has no extremes of the contact.
     fn touching<'l>(
         &self,
         legs: &'l [LegRecord],
@@ -75,19 +79,34 @@ impl Branch {
         touching(legs, self.stages.clone(), self.direction)
     }
 
-    /// Finds the preload, the point of the largest force on loading before the last unloading, and the index of its stage.
-    /// An earlier contact that ended in separation does not count.
+    /// Finds the preload, the point of the largest force on loading before the last unloading, and
+    /// the index of its stage. An earlier contact that ended in separation does not count.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
     ///
-    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let gaps: Vec<f64> = (-512..=512)
+    /// #     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+    /// #     .collect();
     /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-    /// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5), Move::ToForce(2.0e-5), Move::ToSeparation])?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+    /// #     .work_of_adhesion(0.05)
+    /// #     .build()?;
+    /// let cycle = contact.load(&[
+    ///     Move::ToForce(1.0e-5),
+    ///     Move::ToForce(-1.0e-5),
+    ///     Move::ToForce(2.0e-5),
+    ///     Move::ToSeparation,
+    /// ])?;
     /// // The preload is reached by the third stage, the pull-off by the last.
-    /// assert_eq!(Branch::preload(cycle.stages()).map(|(stage, _)| stage), Some(2));
-    /// assert_eq!(Branch::pull_off(cycle.stages()).map(|(stage, _)| stage), Some(3));
+    /// assert_eq!(
+    ///     Branch::preload(cycle.stages()).map(|(stage, _)| stage),
+    ///     Some(2)
+    /// );
+    /// assert_eq!(
+    ///     Branch::pull_off(cycle.stages()).map(|(stage, _)| stage),
+    ///     Some(3)
+    /// );
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn preload(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
@@ -106,9 +125,9 @@ impl Branch {
         largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
     }
 
-    /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of its stage. Returns `None` if
-    /// this force is above zero, or if the unloading ends in contact while the force still falls, or with a smaller force on its
-    /// rest up to separation.
+    /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of
+    /// its stage. Returns `None` if this force is above zero, or if the unloading ends in contact
+    /// while the force still falls, or with a smaller force on its rest up to separation.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;
         let (stage, least) = unloading.smallest(legs)?;
@@ -124,8 +143,9 @@ impl Branch {
         Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
     }
 
-    /// Returns the warning that the last unloading ends in contact although its rest would pull with a larger force than the
-    /// unloading so far. Returns `None` if the bodies are pulled off, or if nothing pulls.
+    /// Returns the warning that the last unloading ends in contact although its rest would pull
+    /// with a larger force than the unloading so far. Returns `None` if the bodies are pulled off,
+    /// or if nothing pulls.
     pub fn ends_in_contact(legs: &[LegRecord]) -> Option<Warning> {
         let unloading = Branch::last_unloading(legs)?;
         let (_, least) = unloading.smallest(legs)?;
@@ -160,8 +180,8 @@ impl Branch {
             .map_or(0.0, |first| ROUNDING * first.largest.force.abs())
     }
 
-    /// Returns the point of the smallest force while the branch is in contact, and the index of its stage. Returns `None` if
-    /// the branch has no contact.
+    /// Returns the point of the smallest force while the branch is in contact, and the index of its
+    /// stage. Returns `None` if the branch has no contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let smallest = self
             .touching(legs)

@@ -1,11 +1,12 @@
-//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, of a flat punch and of a flat
-//! face. The power law includes the sphere of JKR (n = 2) and the cone (n = 1).
+//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, of a
+//! flat punch and of a flat face. The power law includes the sphere of JKR (n = 2) and the cone (n
+//! = 1).
 
 use super::modulus::Modulus;
 use std::f64::consts::PI;
 
-/// Closed-form solution for a body with the equivalent profile g(x) = c |x|ⁿ on an elastic half-space with adhesion. It gives
-/// the force and the indentation at any contact radius.
+/// Closed-form solution for a body with the equivalent profile g(x) = c |x|ⁿ on an elastic
+/// half-space with adhesion. It gives the force and the indentation at any contact radius.
 ///
 /// ```
 /// use asperity_contact::ClosedForm;
@@ -31,28 +32,32 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m. Here γ is the work of
-    /// adhesion in J/m² and E* the effective modulus in Pa. The formula is eq. (14) of Popov and Filippov (2012), after Kendall
-    /// (1971).
+    /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m.
+    /// Here γ is the work of adhesion in J/m² and E* the effective modulus in Pa. The formula is
+    /// eq. (14) of Popov and Filippov (2012), after Kendall (1971).
     pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
         (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
     }
 
-    /// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall (1971). Here E* is the
-    /// effective modulus in Pa and γ the work of adhesion in J/m².
+    /// Returns the adhesion force √(8π a³ E* γ) in N of a flat punch of radius a (m), after Kendall
+    /// (1971). Here E* is the effective modulus in Pa and γ the work of adhesion in J/m².
     ///
     /// ```
     /// use asperity_contact::ClosedForm;
     ///
     /// // A punch as wide as the profile is a flat face: L = 2a.
-    /// let [punch, face] = [ClosedForm::flat_punch(1.0e-5, 1.0e6, 0.05), ClosedForm::ideal_adhesion_force(0.05, 1.0e6, 2.0e-5)];
+    /// let [punch, face] = [
+    ///     ClosedForm::flat_punch(1.0e-5, 1.0e6, 0.05),
+    ///     ClosedForm::ideal_adhesion_force(0.05, 1.0e6, 2.0e-5),
+    /// ];
     /// assert!((punch / face - 1.0).abs() < 1e-14);
     /// ```
     pub fn flat_punch(radius: f64, effective_modulus: f64, work_of_adhesion: f64) -> f64 {
         (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
     }
 
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m: g(x) = x²/R.
+    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m:
+    /// g(x) = x²/R.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm {
@@ -63,7 +68,8 @@ impl ClosedForm {
         }
     }
 
-    /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface: g(x) = (π/2) |x| tan θ.
+    /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface:
+    /// g(x) = (π/2) |x| tan θ.
     ///
     /// ```
     /// use asperity_contact::ClosedForm;
@@ -87,15 +93,16 @@ impl ClosedForm {
         }
     }
 
-    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The fields are c, n, E* and γ.
+    /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The
+    /// fields are c, n, E* and γ.
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }
 
-    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a in m. The fields are c, n,
-    /// E* and γ.
+    /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a
+    /// in m. The fields are c, n, E* and γ.
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let pressed =
@@ -104,7 +111,8 @@ impl ClosedForm {
         pressed - self.detaching(radius)
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under force control, where dF/da = 0.
+    /// Returns the contact radius in m and the force in N at pull-off under force control, where
+    /// dF/da = 0.
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
@@ -114,8 +122,8 @@ impl ClosedForm {
         )
     }
 
-    /// Returns the contact radius in m and the force in N at pull-off under displacement control, where the indentation d has
-    /// dd/da = 0.
+    /// Returns the contact radius in m and the force in N at pull-off under displacement control,
+    /// where the indentation d has dd/da = 0.
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);

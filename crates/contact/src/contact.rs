@@ -1,5 +1,5 @@
-//! The contact of a rigid profile with an elastic half-space: profile, modulus and adhesion, which remain the same while the
-//! body moves.
+//! The contact of a rigid profile with an elastic half-space: profile, modulus and adhesion, which
+//! remain the same while the body moves.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;
@@ -16,9 +16,13 @@ use std::sync::{Arc, OnceLock};
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// // On the line the gaps of a sphere of radius R are x²/R.
-/// let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// let gaps: Vec<f64> = (-512..=512)
+///     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+///     .collect();
 /// let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// // Johnson, Kendall and Roberts: (3/2)πγR.
 /// let expected = 1.5 * std::f64::consts::PI * 0.05 * 1.0e-4;
@@ -43,10 +47,20 @@ pub struct Contact {
 ///
 /// let profile = Profile::from_gaps(vec![0.0, 4.0e-8, 1.0e-8], 1.0e-6)?;
 /// let builder = Contact::builder(&profile, Modulus::effective(1.0e6)?);
-/// let soft = builder.clone().works_of_adhesion([1.0e-4, 2.0e-4]).loading_stiffness(50.0).edges(Edges::Grid);
+/// let soft = builder
+///     .clone()
+///     .works_of_adhesion([1.0e-4, 2.0e-4])
+///     .loading_stiffness(50.0)
+///     .edges(Edges::Grid);
 /// assert!(soft.build()?.has_adhesion());
-/// let refused = builder.works_of_adhesion([2.0e-4, 1.0e-4]).build().unwrap_err();
-/// assert_eq!(refused.to_string(), "closing work = 2e-4; allowed: from 0 J/m² to the work of adhesion");
+/// let refused = builder
+///     .works_of_adhesion([2.0e-4, 1.0e-4])
+///     .build()
+///     .unwrap_err();
+/// assert_eq!(
+///     refused.to_string(),
+///     "closing work = 2e-4; allowed: from 0 J/m² to the work of adhesion"
+/// );
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -66,14 +80,15 @@ impl ContactBuilder {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is gained where the interface closes, γ is spent where it opens, and γ₁
-    /// ≤ γ.
+    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is gained where the interface closes, γ is
+    /// spent where it opens, and γ₁ ≤ γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
     }
 
-    /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite, a rigid instrument.
+    /// Sets the stiffness k of the instrument that moves the body, in N/m. The default is infinite,
+    /// a rigid instrument.
     #[must_use]
     pub fn loading_stiffness(self, stiffness: f64) -> Self {
         ContactBuilder {
@@ -82,8 +97,8 @@ impl ContactBuilder {
         }
     }
 
-    /// Sets the edge model: where the edges of contact patches may lie. The default is [`Edges::SubCell`], anywhere between
-    /// springs.
+    /// Sets the edge model: where the edges of contact patches may lie. The default is
+    /// [`Edges::SubCell`], anywhere between springs.
     #[must_use]
     pub fn edges(self, edges: Edges) -> Self {
         ContactBuilder { edges, ..self }
@@ -162,19 +177,27 @@ impl Contact {
         }
     }
 
-    /// Begins to build a contact with another modulus and the same profile and edge model. The new contact has no adhesion and
-    /// a rigid instrument unless the builder sets them.
+    /// Begins to build a contact with another modulus and the same profile and edge model. The new
+    /// contact has no adhesion and a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
     ///
-    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let gaps: Vec<f64> = (-512..=512)
+    /// #     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+    /// #     .collect();
     /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-    /// let stiffer = contact.with(Modulus::effective(1.0e7)?).work_of_adhesion(0.05).build()?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+    /// #     .work_of_adhesion(0.05)
+    /// #     .build()?;
+    /// let stiffer = contact
+    ///     .with(Modulus::effective(1.0e7)?)
+    ///     .work_of_adhesion(0.05)
+    ///     .build()?;
     /// let pull_off = |contact: &Contact| contact.reversals(&[Move::ToForce(1.0e-4)], &[]);
     /// // The pull-off force of a sphere does not depend on its modulus.
-    /// let [soft, hard] = [pull_off(&contact)?, pull_off(&stiffer)?].map(|found| found[0].smallest.force);
+    /// let [soft, hard] =
+    ///     [pull_off(&contact)?, pull_off(&stiffer)?].map(|found| found[0].smallest.force);
     /// assert!((soft / hard - 1.0).abs() < 1e-3);
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
@@ -183,7 +206,8 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force in N at which the last spring touches the body on loading without adhesion.
+    /// Returns the force in N at which the last spring touches the body on loading without
+    /// adhesion.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Profile};
@@ -199,8 +223,8 @@ impl Contact {
         self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
     }
 
-    /// Returns the displacement D = d + F/k in m of the drive of the instrument, at the indentation d in m and the force F
-    /// in N. k is the stiffness of the instrument in N/m.
+    /// Returns the displacement D = d + F/k in m of the drive of the instrument, at the indentation
+    /// d in m and the force F in N. k is the stiffness of the instrument in N/m.
     pub fn displacement(&self, indentation: f64, force: f64) -> f64 {
         indentation + force / self.loading_stiffness
     }
@@ -230,8 +254,8 @@ impl Contact {
         self.foundation.spring_stiffness()
     }
 
-    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` are the contact
-    /// patches at the point `point` of the force curve.
+    /// Returns half the distance between the outermost edges of the contact in m; zero in
+    /// separation. `patches` are the contact patches at the point `point` of the force curve.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         self.foundation.contact_radius(patches, point)
     }
@@ -246,7 +270,8 @@ impl Contact {
         self.hess.unwrap_or(HessRule::NO_ADHESION)
     }
 
-    /// Returns the closing thresholds of a loading from separation; `close` computes them at the first call.
+    /// Returns the closing thresholds of a loading from separation; `close` computes them at the
+    /// first call.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,

@@ -1,4 +1,5 @@
-//! The contact at one indentation and along a grid of indentations, and bounds of the force between two indentations.
+//! The contact at one indentation and along a grid of indentations, and bounds of the force between
+//! two indentations.
 
 use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
 use super::error::ContactError;
@@ -14,16 +15,17 @@ pub struct ContactState {
     pub totals: ContactTotals,
     /// Contact length in units of the spring spacing.
     pub length: f64,
-    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force over the stiffness of one spring.
+    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force over
+    /// the stiffness of one spring.
     pub compression: f64,
-    /// ∫ (d − c)² dx in m², with x in units of the spring spacing. It is twice the stored energy over the stiffness of one
-    /// spring.
+    /// ∫ (d − c)² dx in m², with x in units of the spring spacing. It is twice the stored energy
+    /// over the stiffness of one spring.
     pub squares: f64,
 }
 
 impl ContactState {
-    /// Computes the contact at an indentation in m from the totals of its whole springs, or with `slides` from its whole cells
-    /// and edge cells.
+    /// Computes the contact at an indentation in m from the totals of its whole springs, or with
+    /// `slides` from its whole cells and edge cells.
     #[inline]
     pub fn new(
         slides: bool,
@@ -51,8 +53,9 @@ impl ContactState {
         }
     }
 
-    /// Adds `springs` springs that lie parallel to the contact and are compressed by the indentation. The force of both is F +
-    /// k d. An instrument of stiffness k at the displacement D holds the body where this force is k D.
+    /// Adds `springs` springs that lie parallel to the contact and are compressed by the
+    /// indentation. The force of both is F + k d. An instrument of stiffness k at the displacement
+    /// D holds the body where this force is k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
         if springs == 0.0 {
@@ -81,7 +84,8 @@ impl ContactState {
 /// Converts a number of springs or patches in contact to an unsigned number.
 ///
 /// # Panics
-/// Panics for a negative number, which only a defect of the sums can cause. It must not pass for a result.
+/// Panics for a negative number, which only a defect of the sums can cause. It must not pass for a
+/// result.
 pub fn counted(number: i64) -> u64 {
     assert!(
         number >= 0,
@@ -90,7 +94,8 @@ pub fn counted(number: i64) -> u64 {
     number.unsigned_abs()
 }
 
-/// Sums along a grid of indentations over parts of a contact, each of which is in contact at some of the points.
+/// Sums along a grid of indentations over parts of a contact, each of which is in contact at some
+/// of the points.
 pub struct Tally {
     pub grid: Grid,
     /// Change of the totals from each point to the next.
@@ -115,7 +120,8 @@ impl Tally {
         })
     }
 
-    /// Returns the index of the first point of at least this indentation in m, or the number of points if there is none.
+    /// Returns the index of the first point of at least this indentation in m, or the number of
+    /// points if there is none.
     #[inline]
     pub fn place(&self, indentation: f64) -> usize {
         if indentation > self.grid.high() {
@@ -125,8 +131,8 @@ impl Tally {
         }
     }
 
-    /// Returns the range of indentations in m for which [`Tally::place`] returns this index: above the first number and up to
-    /// the second.
+    /// Returns the range of indentations in m for which [`Tally::place`] returns this index: above
+    /// the first number and up to the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = place
@@ -176,7 +182,8 @@ impl Tally {
     }
 }
 
-/// Returns the intervals between neighbouring points of a sampled motion for whose ends `may_lie` returns true.
+/// Returns the intervals between neighbouring points of a sampled motion for whose ends `may_lie`
+/// returns true.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -192,8 +199,9 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal smallest forces the one at the least
-    /// indentation counts, of equal largest forces the one at the greatest, in whichever order they are found.
+    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal smallest forces
+    /// the one at the least indentation counts, of equal largest forces the one at the greatest, in
+    /// whichever order they are found.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let (one, other) = match self {
             Extreme::Smallest => (state, best),
@@ -202,7 +210,8 @@ impl Extreme {
         (one.compression, one.indentation) < (other.compression, other.indentation)
     }
 
-    /// Returns the contact of the extreme force at the points of a sampled motion, of which there is at least one.
+    /// Returns the contact of the extreme force at the points of a sampled motion, of which there
+    /// is at least one.
     pub fn of(self, leg: &[ContactState]) -> ContactState {
         leg.iter().fold(leg[0], |best, next| {
             if self.is_beyond(next, &best) {
@@ -213,7 +222,8 @@ impl Extreme {
         })
     }
 
-    /// Returns true if the bounds of the force between two indentations allow a force beyond `best`.
+    /// Returns true if the bounds of the force between two indentations allow a force beyond
+    /// `best`.
     pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
         match self {
             Extreme::Smallest => lower_bound(low, high) < best.compression,
@@ -236,7 +246,8 @@ fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// Ascending indentations: evenly spaced between two exact ends, except for a shorter last interval, or at given points.
+/// Ascending indentations: evenly spaced between two exact ends, except for a shorter last
+/// interval, or at given points.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -244,7 +255,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid of `intervals` equal intervals from `low` to `high` in m; a single point where both coincide.
+    /// Creates a grid of `intervals` equal intervals from `low` to `high` in m; a single point
+    /// where both coincide.
     pub fn new(low: f64, high: f64, intervals: usize) -> Self {
         let width = (high - low) / intervals as f64;
         // A range too narrow for two different points is also one point at each end.
@@ -287,7 +299,8 @@ impl Grid {
         }
     }
 
-    /// Returns false for a grid at given points, and for a grid of two ends without points between them.
+    /// Returns false for a grid at given points, and for a grid of two ends without points between
+    /// them.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
     }
@@ -296,7 +309,8 @@ impl Grid {
         self.points[self.points.len() - 1]
     }
 
-    /// Returns the index of the first point that is at least `indentation`. The indentation must not exceed the last point.
+    /// Returns the index of the first point that is at least `indentation`. The indentation must
+    /// not exceed the last point.
     #[inline]
     pub fn first_at_least(&self, indentation: f64) -> usize {
         if !self.is_even() {
@@ -321,7 +335,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A grid has the requested number of equal intervals, both ends exact; the search finds the same point as a scan.
+        /// A grid has the requested number of equal intervals, both ends exact; the search finds
+        /// the same point as a scan.
         #[test]
         fn points_are_even_and_found(
             low in -1.0..1.0_f64,

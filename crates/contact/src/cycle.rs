@@ -15,8 +15,8 @@ use asperity_data::Warning;
 /// Number of samples of the force curve of a stage, if none is given.
 const SAMPLES: usize = 512;
 
-/// Options of [`Contact::load_with`]: the number of points of the force curve, further indentations at which it is computed,
-/// and a function that is called before each stage.
+/// Options of [`Contact::load_with`]: the number of points of the force curve, further indentations
+/// at which it is computed, and a function that is called before each stage.
 ///
 /// ```
 /// use asperity_contact::{Contact, ContactError, LoadOptions, Modulus, Move, Profile};
@@ -25,10 +25,18 @@ const SAMPLES: usize = 512;
 /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).build()?;
 /// let stages = [Move::ToIndentation(5.0e-8), Move::ToSeparation];
 /// // The forces at given indentations, beside a short curve.
-/// let cycle = contact.load_with(&stages, LoadOptions::default().samples(2).indentations(&[1.0e-8, 2.0e-8]))?;
+/// let cycle = contact.load_with(
+///     &stages,
+///     LoadOptions::default()
+///         .samples(2)
+///         .indentations(&[1.0e-8, 2.0e-8]),
+/// )?;
 /// assert!(cycle.at(0)[1].force > cycle.at(0)[0].force);
 /// // Only one stage: then the loading is stopped.
-/// let stopped = contact.load_with(&stages, LoadOptions::default().before_stage(&mut |stage| stage == 0));
+/// let stopped = contact.load_with(
+///     &stages,
+///     LoadOptions::default().before_stage(&mut |stage| stage == 0),
+/// );
 /// assert_eq!(stopped.err(), Some(ContactError::Interrupted));
 /// # Ok::<(), ContactError>(())
 /// ```
@@ -40,8 +48,9 @@ pub struct LoadOptions<'a> {
 }
 
 impl<'a> LoadOptions<'a> {
-    /// Sets the number of points at which the force curve of each loading stage is computed, from 2 to a million. The default
-    /// is 512. The preload and the pull-off force are exact for any number of points.
+    /// Sets the number of points at which the force curve of each loading stage is computed, from 2
+    /// to a million. The default is 512. The preload and the pull-off force are exact for any
+    /// number of points.
     #[must_use]
     pub fn samples(self, samples: u64) -> Self {
         LoadOptions {
@@ -50,7 +59,8 @@ impl<'a> LoadOptions<'a> {
         }
     }
 
-    /// Sets further indentations in m, in ascending order, at which forces are computed. [`Cycle::at`] returns the points.
+    /// Sets further indentations in m, in ascending order, at which forces are computed.
+    /// [`Cycle::at`] returns the points.
     #[must_use]
     pub fn indentations(self, indentations: &'a [f64]) -> Self {
         LoadOptions {
@@ -59,8 +69,8 @@ impl<'a> LoadOptions<'a> {
         }
     }
 
-    /// Sets a function that is called before each stage with the index of the stage, from 0. If the function returns false, the
-    /// loading ends with [`ContactError::Interrupted`].
+    /// Sets a function that is called before each stage with the index of the stage, from 0. If the
+    /// function returns false, the loading ends with [`ContactError::Interrupted`].
     #[must_use]
     pub fn before_stage(self, proceed: &'a mut dyn FnMut(usize) -> bool) -> Self {
         LoadOptions {
@@ -70,21 +80,28 @@ impl<'a> LoadOptions<'a> {
     }
 }
 
-/// Result of [`Contact::load`], which loads a separated body through several stages: the force curve, figures such as the
-/// pull-off force, and the patches in contact at the end.
+/// Result of [`Contact::load`], which loads a separated body through several stages: the force
+/// curve, figures such as the pull-off force, and the patches in contact at the end.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
-/// let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// let gaps: Vec<f64> = (-512..=512)
+///     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+///     .collect();
 /// let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// assert!((cycle.preload().unwrap() / 1.0e-4 - 1.0).abs() < 1e-12);
 /// // The loss in the jumps into and out of contact is the area of the loop.
 /// let curve = cycle.curve();
 /// let area: f64 = (1..curve.force.len())
-///     .map(|i| 0.5 * (curve.force[i] + curve.force[i - 1]) * (curve.indentation[i] - curve.indentation[i - 1]))
+///     .map(|i| {
+///         0.5 * (curve.force[i] + curve.force[i - 1])
+///             * (curve.indentation[i] - curve.indentation[i - 1])
+///     })
 ///     .sum();
 /// assert!((area / cycle.dissipated_energy().unwrap() - 1.0).abs() < 0.01);
 /// # Ok::<(), asperity_contact::ContactError>(())
@@ -98,15 +115,17 @@ pub struct Cycle {
     leg: Leg,
 }
 
-/// Force curve of all loading stages as columns of equal length, with one value for each point. The points are in the order
-/// of the motion.
+/// Force curve of all loading stages as columns of equal length, with one value for each point. The
+/// points are in the order of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let curve = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?.curve();
 /// let least = curve.force.iter().copied().fold(f64::INFINITY, f64::min);
 /// assert!((least / (-1.5 * std::f64::consts::PI * 0.05 * 1.0e-4) - 1.0).abs() < 1e-4);
@@ -122,8 +141,8 @@ pub struct Curve {
     pub indentation: Vec<f64>,
     /// Force F in N at each point; compression is positive.
     pub force: Vec<f64>,
-    /// Displacement D = d + F/k in m at each point: the position of the drive of the instrument. k is the stiffness of the
-    /// instrument in N/m.
+    /// Displacement D = d + F/k in m at each point: the position of the drive of the instrument. k
+    /// is the stiffness of the instrument in N/m.
     pub displacement: Vec<f64>,
     /// Contact length in m at each point: the sum of the lengths of all contact patches.
     pub contact_length: Vec<f64>,
@@ -134,32 +153,41 @@ pub struct Curve {
 }
 
 impl Contact {
-    /// Moves the body, which is separated at first, to the target of each loading stage, one after the other.
+    /// Moves the body, which is separated at first, to the target of each loading stage, one after
+    /// the other.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and [`ContactError::Stage`] for a
-    /// target that the contact cannot reach.
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and
+    /// [`ContactError::Stage`] for a target that the contact cannot reach.
     pub fn load(&self, stages: &[Move]) -> Result<Cycle, ContactError> {
         self.load_with(stages, LoadOptions::default())
     }
 
-    /// Moves the body as [`Contact::load`] does, with [`LoadOptions`] such as the number of points of the force curve.
+    /// Moves the body as [`Contact::load`] does, with [`LoadOptions`] such as the number of points
+    /// of the force curve.
     ///
     /// # Errors
-    /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of its range. Returns
-    /// [`ContactError::Interrupted`] if the function of [`LoadOptions::before_stage`] returned false.
+    /// Returns the errors of [`Contact::load`], and [`ContactError::Value`] for an option out of
+    /// its range. Returns [`ContactError::Interrupted`] if the function of
+    /// [`LoadOptions::before_stage`] returned false.
     ///
     /// ```
     /// use asperity_contact::{Contact, LoadOptions, Modulus, Move, Profile};
     ///
-    /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+    /// # let gaps: Vec<f64> = (-512..=512)
+    /// #     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+    /// #     .collect();
     /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+    /// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+    /// #     .work_of_adhesion(0.05)
+    /// #     .build()?;
     /// let stages = [Move::ToForce(1.0e-4), Move::ToSeparation];
     /// let coarse = contact.load_with(&stages, LoadOptions::default().samples(2))?;
     /// // The pull-off force is exact for any number of samples.
     /// let fine = contact.load(&stages)?;
-    /// assert!((coarse.pull_off_force().unwrap() / fine.pull_off_force().unwrap() - 1.0).abs() < 1e-12);
+    /// assert!(
+    ///     (coarse.pull_off_force().unwrap() / fine.pull_off_force().unwrap() - 1.0).abs() < 1e-12
+    /// );
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn load_with(
@@ -209,8 +237,8 @@ impl Contact {
         })
     }
 
-    /// Computes the unloading to separation from each of several turning points. A turning point is where a loading from
-    /// separation reaches one of the targets `ends`.
+    /// Computes the unloading to separation from each of several turning points. A turning point is
+    /// where a loading from separation reaches one of the targets `ends`.
     ///
     /// [`Reversal::forces`] are computed at `indentations`, which are in m and in ascending order.
     ///
@@ -219,9 +247,13 @@ impl Contact {
     ///
     /// // Five springs, which attach one after the other.
     /// let profile = Profile::from_heights(&[0.0, -4.0e-8, -1.0e-8, -4.0e-8, -9.0e-8], 1.0e-6)?;
-    /// let contact = Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-4);
+    /// let contact =
+    ///     Contact::builder(&profile, Modulus::effective(1.0e6)?).work_of_adhesion(2.0e-4);
     /// let turns = [0.0, 1.0e-8, 5.0e-8].map(Move::ToIndentation);
-    /// let found = contact.edges(Edges::Grid).build()?.reversals(&turns, &[-1.0e-8, 0.0])?;
+    /// let found = contact
+    ///     .edges(Edges::Grid)
+    ///     .build()?
+    ///     .reversals(&turns, &[-1.0e-8, 0.0])?;
     /// for (reversal, force) in found.iter().zip([25.07e-9, 40.13e-9, 130.53e-9]) {
     ///     assert!((reversal.adhesion_force().unwrap() - force).abs() < 0.01e-9);
     ///     assert_eq!(reversal.forces.len(), 2);
@@ -230,9 +262,9 @@ impl Contact {
     /// ```
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for indentations that do not
-    /// ascend. Returns [`ContactError::Stage`] for a target that the contact cannot reach, and for a target at which the
-    /// body is not in contact.
+    /// Returns [`ContactError::Value`] for a target that is not between −1e50 and 1e50, and for
+    /// indentations that do not ascend. Returns [`ContactError::Stage`] for a target that the
+    /// contact cannot reach, and for a target at which the body is not in contact.
     pub fn reversals(
         &self,
         ends: &[Move],
@@ -296,8 +328,9 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl History {
-    /// Returns the premises of the model that the loading of a profile does not meet: a contact that ends inside the profile of
-    /// a curved body, an unloading to separation, and enough springs in contact.
+    /// Returns the premises of the model that the loading of a profile does not meet: a contact
+    /// that ends inside the profile of a curved body, an unloading to separation, and enough
+    /// springs in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
         let most_springs = self
@@ -313,15 +346,16 @@ impl History {
 }
 
 impl Reversal {
-    /// Returns the premises of the model that the loading of a profile to the turning point does not meet: a contact that ends
-    /// inside the profile of a curved body, and enough springs in contact.
+    /// Returns the premises of the model that the loading of a profile to the turning point does
+    /// not meet: a contact that ends inside the profile of a curved body, and enough springs in
+    /// contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         warnings_of_contact(profile, self.reaches_ends, self.turn.springs)
     }
 }
 
-/// Returns the premises that a contact does not meet. `reaches_ends` is true if an outermost spring was in contact, and
-/// `most_springs` is the largest number of springs in contact.
+/// Returns the premises that a contact does not meet. `reaches_ends` is true if an outermost spring
+/// was in contact, and `most_springs` is the largest number of springs in contact.
 fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if reaches_ends && profile.is_curved() {
@@ -337,33 +371,38 @@ fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64)
 }
 
 impl Cycle {
-    /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite sign. Returns `None` if
-    /// the smallest force is above zero, or if the unloading ends in contact while the force still falls.
+    /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite
+    /// sign. Returns `None` if the smallest force is above zero, or if the unloading ends in
+    /// contact while the force still falls.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
     }
 
-    /// Returns the indentation in m at which the pull-off force acts; `None` if [`Cycle::pull_off_force`] is `None`.
+    /// Returns the indentation in m at which the pull-off force acts; `None` if
+    /// [`Cycle::pull_off_force`] is `None`.
     #[must_use]
     pub fn pull_off_indentation(&self) -> Option<f64> {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N: the largest force on loading before the last unloading. An earlier contact that ended in
-    /// separation does not count. Returns `None` if the body is never in contact on that loading.
+    /// Returns the preload in N: the largest force on loading before the last unloading. An earlier
+    /// contact that ended in separation does not count. Returns `None` if the body is never in
+    /// contact on that loading.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
     }
 
-    /// Returns the energy in J dissipated in the contact during all stages together; `None` if the last stage ends in contact.
+    /// Returns the energy in J dissipated in the contact during all stages together; `None` if the
+    /// last stage ends in contact.
     #[must_use]
     pub fn dissipated_energy(&self) -> Option<f64> {
         self.figures.dissipated_energy
     }
 
-    /// Returns the figures of the loading, such as the preload, the pull-off force and the dissipated energy.
+    /// Returns the figures of the loading, such as the preload, the pull-off force and the
+    /// dissipated energy.
     #[must_use]
     pub fn figures(&self) -> Figures {
         self.figures
@@ -393,30 +432,45 @@ impl Cycle {
         curve
     }
 
-    /// Returns the points of the force curve at the [`LoadOptions::indentations`] that a stage passes, in ascending order of
-    /// the indentation. `stage` is the index of the stage, from 0.
+    /// Returns the points of the force curve at the [`LoadOptions::indentations`] that a stage
+    /// passes, in ascending order of the indentation. `stage` is the index of the stage, from 0.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
         self.at.get(stage).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the stage.
+    /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the
+    /// stage.
     #[must_use]
     pub fn stages(&self) -> &[LegRecord] {
         &self.history.legs
     }
 
-    /// Returns the premises of the model that this loading does not meet, such as a contact that reaches the ends of the profile
-    /// of a curved body. The list is empty if all premises hold that can be known from the heights and the loading.
+    /// Returns the premises of the model that this loading does not meet, such as a contact that
+    /// reaches the ends of the profile of a curved body. The list is empty if all premises hold
+    /// that can be known from the heights and the loading.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
     ///
-    /// // Heights of a scan along a sphere of 200 µm. They are not those of its equivalent profile x²/R.
-    /// let cut: Vec<f64> = (-512..=512).map(|i| -(f64::from(i) * 1.0e-7).powi(2) / 4.0e-4).collect();
-    /// let contact = Contact::builder(&Profile::from_heights(cut, 1.0e-7)?, Modulus::effective(1.0e6)?);
-    /// let cycle = contact.work_of_adhesion(0.03).build()?.load(&[Move::ToForce(5.0e-6), Move::ToSeparation])?;
-    /// let names: Vec<&str> = cycle.warnings().iter().map(|warning| warning.name()).collect();
+    /// // Heights of a scan along a sphere of 200 µm. They are not those of its equivalent profile
+    /// // x²/R.
+    /// let cut: Vec<f64> = (-512..=512)
+    ///     .map(|i| -(f64::from(i) * 1.0e-7).powi(2) / 4.0e-4)
+    ///     .collect();
+    /// let contact = Contact::builder(
+    ///     &Profile::from_heights(cut, 1.0e-7)?,
+    ///     Modulus::effective(1.0e6)?,
+    /// );
+    /// let cycle = contact
+    ///     .work_of_adhesion(0.03)
+    ///     .build()?
+    ///     .load(&[Move::ToForce(5.0e-6), Move::ToSeparation])?;
+    /// let names: Vec<&str> = cycle
+    ///     .warnings()
+    ///     .iter()
+    ///     .map(|warning| warning.name())
+    ///     .collect();
     /// assert_eq!(names, ["cut_like_heights"]);
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
@@ -428,7 +482,8 @@ impl Cycle {
         warnings
     }
 
-    /// Returns the state of each contact patch at the end of the last stage, such as its force, from left to right.
+    /// Returns the state of each contact patch at the end of the last stage, such as its force,
+    /// from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
         let end = self.history.legs.last().and_then(LegRecord::end_in_contact);

@@ -7,8 +7,8 @@ use thiserror::Error;
 /// Largest number of steps of one motion of the stepwise solver.
 pub const STEP_LIMIT: u64 = 10_000_000;
 
-/// Largest value, in SI units, of any quantity of a contact. Its inverse is the smallest length, modulus or stiffness. Products
-/// of such values are finite.
+/// Largest value, in SI units, of any quantity of a contact. Its inverse is the smallest length,
+/// modulus or stiffness. Products of such values are finite.
 pub const LARGEST: f64 = 1e50;
 
 /// Reason why a value is refused, or why a body does not move to a target.
@@ -17,11 +17,23 @@ pub const LARGEST: f64 = 1e50;
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// let flat = Profile::from_gaps(vec![0.0; 8], 1.0e-6)?;
-/// let contact = Contact::builder(&flat, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-/// let refused = contact.load(&[Move::ToForce(1.0e-3), Move::ToForce(-1.0)]).unwrap_err();
+/// let contact = Contact::builder(&flat, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .build()?;
+/// let refused = contact
+///     .load(&[Move::ToForce(1.0e-3), Move::ToForce(-1.0)])
+///     .unwrap_err();
 /// assert_eq!(refused.stage(), Some(1));
-/// assert!(refused.smallest_force().is_some_and(|force| -1.0 < force && force < 0.0));
-/// assert!(refused.to_string().starts_with("stage 2: the contact detaches before -1 N; smallest force within reach: "));
+/// assert!(
+///     refused
+///         .smallest_force()
+///         .is_some_and(|force| -1.0 < force && force < 0.0)
+/// );
+/// assert!(
+///     refused.to_string().starts_with(
+///         "stage 2: the contact detaches before -1 N; smallest force within reach: "
+///     )
+/// );
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -47,7 +59,8 @@ pub enum ContactError {
         /// Reason why the stage cannot be computed, as an error of another variant.
         reason: Box<ContactError>,
     },
-    /// An array that the computation needs does not fit into memory. The message states its size in MiB.
+    /// An array that the computation needs does not fit into memory. The message states its size in
+    /// MiB.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
     /// A target is infinite or not a number; the field has the value of the target.
@@ -56,7 +69,8 @@ pub enum ContactError {
     /// A body that is separated cannot move to a tensile force.
     #[error("a pulling force needs a contact; allowed from separation: at least 0 N")]
     NothingToPull,
-    /// The body is not in contact at a target of [`Contact::reversals`](crate::Contact::reversals), where it should turn back.
+    /// The body is not in contact at a target of [`Contact::reversals`](crate::Contact::reversals),
+    /// where it should turn back.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
     /// The contact detaches before the force falls to the force of the target.
@@ -68,13 +82,14 @@ pub enum ContactError {
     /// The force of the target is not reached at any finite indentation on this foundation.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
-    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps; the field has the length of a step in m.
+    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps; the field has the
+    /// length of a step in m.
     #[error(
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
     )]
     TooManySteps(f64),
-    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg belongs to the stepwise
-    /// solver.
+    /// A motion or a search needs a [`Leg`](crate::motion::Leg) of the exact solver, but the leg
+    /// belongs to the stepwise solver.
     #[error(
         "a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver"
     )]
@@ -82,14 +97,15 @@ pub enum ContactError {
     /// The program has a defect; the field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
-    /// The computation ended because a function of the caller requested this, such as the function of
-    /// [`LoadOptions::before_stage`](crate::LoadOptions::before_stage).
+    /// The computation ended because a function of the caller requested this, such as the function
+    /// of [`LoadOptions::before_stage`](crate::LoadOptions::before_stage).
     #[error("interrupted")]
     Interrupted,
 }
 
 impl ContactError {
-    /// Returns the index of the refused stage of a loading, from 0; `None` for an error that does not concern one stage.
+    /// Returns the index of the refused stage of a loading, from 0; `None` for an error that does
+    /// not concern one stage.
     pub fn stage(&self) -> Option<usize> {
         if let ContactError::Stage { index, .. } = self {
             Some(*index)
@@ -98,8 +114,8 @@ impl ContactError {
         }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a target force lies below this force; `None` for other
-    /// errors.
+    /// Returns the smallest force in N that the contact bears, if a target force lies below this
+    /// force; `None` for other errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() {
             Some(*smallest)
@@ -138,7 +154,8 @@ impl ContactError {
         }
     }
 
-    /// Adds the stage to the reason. Lack of memory, interruptions and defects concern the whole loading and remain unchanged.
+    /// Adds the stage to the reason. Lack of memory, interruptions and defects concern the whole
+    /// loading and remain unchanged.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

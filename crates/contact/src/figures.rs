@@ -1,18 +1,22 @@
-//! The figures of a loading history, such as its preload and pull-off force, and the marked points of its force curve.
+//! The figures of a loading history, such as its preload and pull-off force, and the marked points
+//! of its force curve.
 
 use super::body::Reversal;
 use super::branches::{Branch, ROUNDING};
 use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
-/// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the history has no such value.
+/// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the
+/// history has no such value.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let pressed = contact.load(&[Move::ToForce(1.0e-4)])?.figures();
 /// assert_eq!((pressed.adhesion_force, pressed.dissipated_energy), (None, None));
 /// let loop_ = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?.figures();
@@ -21,20 +25,24 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact that ended in separation
-    /// does not count. `None` if the body is never in contact on that loading.
+    /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact
+    /// that ended in separation does not count. `None` if the body is never in contact on that
+    /// loading.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
-    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign. `None` if the smallest
-    /// force is above zero, or if the unloading ends in contact while the force still falls.
+    /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign.
+    /// `None` if the smallest force is above zero, or if the unloading ends in contact while the
+    /// force still falls.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n. The value is `None` if no force pulls, or if the preload does not press.
+    /// Adhesion coefficient F_a/F_n. The value is `None` if no force pulls, or if the preload does
+    /// not press.
     pub adhesion_coefficient: Option<f64>,
-    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is `None`. It has a larger
-    /// relative error than the adhesion force.
+    /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is
+    /// `None`. It has a larger relative error than the adhesion force.
     pub pull_off_indentation: Option<f64>,
-    /// Energy in J dissipated in the contact during all stages together; `None` if the last stage ends in contact.
+    /// Energy in J dissipated in the contact during all stages together; `None` if the last stage
+    /// ends in contact.
     pub dissipated_energy: Option<f64>,
 }
 
@@ -53,8 +61,8 @@ impl Figures {
         )
     }
 
-    /// Computes the figures of a loading from separation to the target `leg`, followed by the unloading `reversal` back to
-    /// separation.
+    /// Computes the figures of a loading from separation to the target `leg`, followed by the
+    /// unloading `reversal` back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         Figures::at(
@@ -64,8 +72,8 @@ impl Figures {
         )
     }
 
-    /// Computes the figures from the point of the largest force with the target of its stage, the pull-off point, and the
-    /// released energy of all stages in J.
+    /// Computes the figures from the point of the largest force with the target of its stage, the
+    /// pull-off point, and the released energy of all stages in J.
     fn at(
         pressed: Option<(Move, CurvePoint)>,
         pull_off: Option<CurvePoint>,
@@ -97,7 +105,9 @@ impl Figures {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// let found = Mark::all(cycle.stages()).into_iter().map(|(mark, _)| mark);
 /// assert!(found.eq([Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]));
@@ -105,21 +115,22 @@ impl Figures {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// First point in contact after the first jump from separation into contact. The mark exists only if the force at this
-    /// point is tensile.
+    /// First point in contact after the first jump from separation into contact. The mark exists
+    /// only if the force at this point is tensile.
     JumpIn,
     /// Point at which the preload acts, as [`Branch::preload`] finds it.
     Preload,
-    /// Point at which the pull-off force acts, as [`Branch::pull_off`] finds it. The mark exists only if the force is tensile.
+    /// Point at which the pull-off force acts, as [`Branch::pull_off`] finds it. The mark exists
+    /// only if the force is tensile.
     PullOff,
-    /// Last point in contact of the last unloading, before the body jumps out of contact. The mark exists only if the force
-    /// at this point is tensile, but less tensile than the pull-off force.
+    /// Last point in contact of the last unloading, before the body jumps out of contact. The mark
+    /// exists only if the force at this point is tensile, but less tensile than the pull-off force.
     JumpOut,
 }
 
 impl Mark {
-    /// Finds the points of a force curve that have a mark, in the order of the variants of [`Mark`]. `legs` has the record of
-    /// each loading stage.
+    /// Finds the points of a force curve that have a mark, in the order of the variants of
+    /// [`Mark`]. `legs` has the record of each loading stage.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
         let into_contact = |leg: &LegRecord| {
             let pair = leg
@@ -174,7 +185,8 @@ impl Mark {
     }
 }
 
-/// Returns the end of a stage. The force that remains at a target force of zero is rounding and becomes zero.
+/// Returns the end of a stage. The force that remains at a target force of zero is rounding and
+/// becomes zero.
 fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
     match target {
         Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint { force: 0.0, ..end },
@@ -278,7 +290,8 @@ mod tests {
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
-        // The pull-off is a minimum within the stage, and the rest of the unloading has no smaller force.
+        // The pull-off is a minimum within the stage, and the rest of the unloading has no smaller
+        // force.
         let ends_at = |force: f64, rest: Option<f64>| {
             let mut pulled = pulled(-1.0, 0);
             pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];
@@ -293,7 +306,8 @@ mod tests {
         ];
         assert_eq!(ends, [None, None, Some(1.0)]);
         assert_eq!([ends_at(-0.9, Some(-1.1)), ends_at(-0.9, None)], [None; 2]);
-        // A coefficient that overflows is `None`, and so is that of a target force of zero, where a rounding remains.
+        // A coefficient that overflows is `None`, and so is that of a target force of zero, where a
+        // rounding remains.
         for pressed in [pressed(0.0), pressed(1e-320)] {
             assert_eq!(
                 figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient,

@@ -14,8 +14,9 @@ pub struct Foundation {
 }
 
 impl Foundation {
-    /// Returns the length in contact of this number of cells in m. It is never above the length of the foundation. It equals
-    /// that length where the cells cover the foundation, although N Δx may differ by a rounding.
+    /// Returns the length in contact of this number of cells in m. It is never above the length of
+    /// the foundation. It equals that length where the cells cover the foundation, although N Δx
+    /// may differ by a rounding.
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
@@ -26,8 +27,9 @@ impl Foundation {
         }
     }
 
-    /// Returns half the distance between the outermost edges of the contact in m; zero in separation. `patches` and `point`
-    /// describe one state. Separated regions between patches are whole cells; the outermost edges may lie inside a cell.
+    /// Returns half the distance between the outermost edges of the contact in m; zero in
+    /// separation. `patches` and `point` describe one state. Separated regions between patches are
+    /// whole cells; the outermost edges may lie inside a cell.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let outermost = patches
             .first()
@@ -43,10 +45,11 @@ impl Foundation {
     }
 }
 
-/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): the largest stretch of the springs of a patch.
+/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): the largest stretch of the
+/// springs of a patch.
 ///
-/// If the work of adhesion on opening exceeds the work on closing, springs attach by the closing rule and detach by the opening
-/// rule. Between both limits the edges of a patch do not move.
+/// If the work of adhesion on opening exceeds the work on closing, springs attach by the closing
+/// rule and detach by the opening rule. Between both limits the edges of a patch do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     /// Largest stretch in m of a single spring before it detaches.
@@ -62,9 +65,11 @@ impl HessRule {
         closing: 0.0,
     };
 
-    /// Creates the rule for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in J/m².
+    /// Creates the rule for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in
+    /// J/m².
     ///
-    /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just attached.
+    /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just
+    /// attached.
     pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
         let stretch = |work: f64| {
             // The quotient γ/E* first: scaling both by one power of two then changes no bit.
@@ -78,7 +83,8 @@ impl HessRule {
         }
     }
 
-    /// Returns the largest stretch of a patch of one spring in m: on unloading before it detaches, on loading as it attaches.
+    /// Returns the largest stretch of a patch of one spring in m: on unloading before it detaches,
+    /// on loading as it attaches.
     pub fn stretch(&self, direction: Direction) -> f64 {
         match direction {
             Direction::Loading => self.closing,
@@ -91,7 +97,8 @@ impl HessRule {
         self.opening == self.closing
     }
 
-    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs` springs.
+    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs`
+    /// springs.
     ///
     /// Rounding keeps the order: the value never falls with the number of springs.
     pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {
@@ -105,7 +112,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// All cells are as long as the foundation, to the last bit; fewer have their own length, and more are no longer.
+        /// All cells are as long as the foundation, to the last bit; fewer have their own length,
+        /// and more are no longer.
         #[test]
         fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
             let spacing = length / springs as f64;

@@ -1,4 +1,5 @@
-//! Loading histories: targets, records of motions with their force curves, contact patches and work counts.
+//! Loading histories: targets, records of motions with their force curves, contact patches and work
+//! counts.
 
 use super::error::ContactError;
 use super::target::Move;
@@ -7,14 +8,17 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Record of one loading stage, the motion of a body to one target: the force curve, its extremes and the energies.
+/// Record of one loading stage, the motion of a body to one target: the force curve, its extremes
+/// and the energies.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// let [loading, unloading] = cycle.stages() else { panic!("two stages") };
 /// assert_eq!(loading.attached, unloading.detached);
@@ -28,29 +32,32 @@ pub struct LegRecord {
     pub target: Move,
     /// Direction of the motion. It is `Loading` for a stage in which the body stays in place.
     pub direction: Direction,
-    /// Points of the force curve, in the order of the motion. A jump into or out of contact has two points, before and after
-    /// the jump.
+    /// Points of the force curve, in the order of the motion. A jump into or out of contact has two
+    /// points, before and after the jump.
     pub curve: Vec<CurvePoint>,
-    /// Point of the largest force on loading, exact to rounding. On unloading it is the first point of the motion.
+    /// Point of the largest force on loading, exact to rounding. On unloading it is the first point
+    /// of the motion.
     pub largest: CurvePoint,
-    /// Point of the smallest force of the motion. On unloading this force is exact to rounding. On loading it is the
-    /// smallest force in `curve`.
+    /// Point of the smallest force of the motion. On unloading this force is exact to rounding. On
+    /// loading it is the smallest force in `curve`.
     pub smallest: CurvePoint,
     /// Number of springs that attached in this stage.
     pub attached: u64,
     /// Number of springs that detached in this stage.
     pub detached: u64,
-    /// Elastic energy in J that springs release when they detach, minus the elastic energy that springs gain when they
-    /// attach. The sum over all stages of a closed loop is the dissipated energy.
+    /// Elastic energy in J that springs release when they detach, minus the elastic energy that
+    /// springs gain when they attach. The sum over all stages of a closed loop is the dissipated
+    /// energy.
     pub released_energy: f64,
-    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The sum of `released_energy`
-    /// and `jump_energy` over all stages is the loop area ∮F dD of the history. A jump may begin in one stage and continue
-    /// in the next stage of the same direction. Each of the two stages then has its own part of the energy.
+    /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The
+    /// sum of `released_energy` and `jump_energy` over all stages is the loop area ∮F dD of the
+    /// history. A jump may begin in one stage and continue in the next stage of the same direction.
+    /// Each of the two stages then has its own part of the energy.
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
-    /// Point of the smallest force on the rest of an unloading that ends in contact, if the body went on to separation from
-    /// there. `None` for any other motion, and if the rest is not known.
+    /// Point of the smallest force on the rest of an unloading that ends in contact, if the body
+    /// went on to separation from there. `None` for any other motion, and if the rest is not known.
     pub smallest_of_rest: Option<CurvePoint>,
 }
 
@@ -72,7 +79,8 @@ impl LegRecord {
         }
     }
 
-    /// Creates the record of a motion of a separated body that touches nothing, from one indentation to another in m.
+    /// Creates the record of a motion of a separated body that touches nothing, from one
+    /// indentation to another in m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
         let [start, end] = [from, to].map(CurvePoint::free);
         let direction = if to > from {
@@ -98,8 +106,9 @@ impl LegRecord {
         }
     }
 
-    /// Creates the record of a motion from the ascending points of its curve, the points of its smallest and largest force, the
-    /// points before and after the motion, and the released elastic energy in J.
+    /// Creates the record of a motion from the ascending points of its curve, the points of its
+    /// smallest and largest force, the points before and after the motion, and the released elastic
+    /// energy in J.
     pub(super) fn moved(
         (target, direction): (Move, Direction),
         mut curve: Vec<CurvePoint>,
@@ -171,7 +180,8 @@ impl LegRecord {
     }
 }
 
-/// Result of [`load_body`](crate::motion::load_body): the records of all stages, the patches at the end and the computing work.
+/// Result of [`load_body`](crate::motion::load_body): the records of all stages, the patches at the
+/// end and the computing work.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, load_body};
@@ -179,9 +189,22 @@ impl LegRecord {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-/// let history = load_body(&mut Body::new(&contact, 64), &[Move::ToForce(1.0e-4)], |_, _| Ok(()))?;
-/// assert_eq!((history.legs.len(), history.contacts.len(), history.work.loading_passes), (1, 1, 1));
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
+/// let history = load_body(
+///     &mut Body::new(&contact, 64),
+///     &[Move::ToForce(1.0e-4)],
+///     |_, _| Ok(()),
+/// )?;
+/// assert_eq!(
+///     (
+///         history.legs.len(),
+///         history.contacts.len(),
+///         history.work.loading_passes
+///     ),
+///     (1, 1, 1)
+/// );
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -194,8 +217,9 @@ pub struct History {
     pub work: Work,
 }
 
-/// Counts of computing work, such as how often the rule of Hess was evaluated and how often the solver passed over the
-/// [contact tree](crate::motion::ContactTree). Unlike times, they are the same on every machine.
+/// Counts of computing work, such as how often the rule of Hess was evaluated and how often the
+/// solver passed over the [contact tree](crate::motion::ContactTree). Unlike times, they are the
+/// same on every machine.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -203,7 +227,9 @@ pub struct History {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// // A round body has one local minimum of the gap, and no node at which patches merge.
 /// let mut body = Body::new(&contact, 64);
 /// body.advance(Move::ToForce(1.0e-4))?;
@@ -220,7 +246,8 @@ pub struct Work {
     pub random_phases: u64,
     /// Number of Fourier transforms over the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the places where two patches can merge.
+    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the places where two
+    /// patches can merge.
     pub tree_nodes: u64,
     /// Number of times that the solver passed over the contact tree to compute a loading.
     pub loading_passes: u64,
@@ -231,13 +258,15 @@ pub struct Work {
     pub passes_without_preload: u64,
     /// Number of times that the rule of Hess was evaluated for a patch.
     pub hess_evaluations: u64,
-    /// Number of events that were sorted by indentation to find extremes of the force. An event is an indentation at which
-    /// springs attach or detach.
+    /// Number of events that were sorted by indentation to find extremes of the force. An event is
+    /// an indentation at which springs attach or detach.
     pub events_sorted: u64,
-    /// Number of springs that attached during the loading history. In result files this field is `joins`.
+    /// Number of springs that attached during the loading history. In result files this field is
+    /// `joins`.
     #[cfg_attr(feature = "serde", serde(rename = "joins"))]
     pub attached: u64,
-    /// Number of springs that detached during the loading history. In result files this field is `leaves`.
+    /// Number of springs that detached during the loading history. In result files this field is
+    /// `leaves`.
     #[cfg_attr(feature = "serde", serde(rename = "leaves"))]
     pub detached: u64,
     /// Number of small steps of the indentation by the [stepwise solver](crate::motion::Stepwise).
@@ -264,7 +293,9 @@ impl Work {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-5), Move::ToForce(-1.0e-5)])?;
 /// let directions = [Direction::Loading, Direction::Unloading];
 /// assert!(cycle.stages().iter().map(|stage| stage.direction).eq(directions));
@@ -313,14 +344,15 @@ impl CurvePoint {
         }
     }
 
-    /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body at this point. The
-    /// instrument has the stiffness k = `stiffness` in N/m.
+    /// Returns the displacement D = d + F/k in m of the drive of an instrument that holds the body
+    /// at this point. The instrument has the stiffness k = `stiffness` in N/m.
     pub fn displacement(&self, stiffness: f64) -> f64 {
         self.indentation + self.force / stiffness
     }
 }
 
-/// A contact patch: a run of neighbouring springs in contact. In JSON it is the array `[first, last]`.
+/// A contact patch: a run of neighbouring springs in contact. In JSON it is the array
+/// `[first, last]`.
 ///
 /// ```
 /// use asperity_contact::Patch;
@@ -344,12 +376,14 @@ impl Patch {
         self.first..self.last + 1
     }
 
-    /// Returns the index of the spring in the middle of the patch. Of two springs in the middle it is the left one.
+    /// Returns the index of the spring in the middle of the patch. Of two springs in the middle it
+    /// is the left one.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Returns the contact patches from left to right. `contact` has one item for each spring, true for a spring in contact.
+    /// Returns the contact patches from left to right. `contact` has one item for each spring, true
+    /// for a spring in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for spring in contact
@@ -380,7 +414,8 @@ pub(super) enum Goal {
     Force(f64),
     /// A displacement in m of an instrument that is not rigid.
     Displacement(f64),
-    /// Detachment of the last patch. The number is the indentation of the body afterwards in m, where the target gives one.
+    /// Detachment of the last patch. The number is the indentation of the body afterwards in m,
+    /// where the target gives one.
     Separation(Option<f64>),
 }
 
@@ -397,8 +432,8 @@ impl From<Move> for Goal {
     }
 }
 
-/// Returns the direction and the goal of the motion of a body at `here` to a target, with an instrument of this stiffness in
-/// N/m. `None` if the body is there already.
+/// Returns the direction and the goal of the motion of a body at `here` to a target, with an
+/// instrument of this stiffness in N/m. `None` if the body is there already.
 pub(super) fn plan(
     target: Move,
     here: CurvePoint,

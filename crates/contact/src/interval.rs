@@ -1,6 +1,8 @@
-//! Intervals of the indentations of a motion, in which extremes and crossings of the force are searched.
+//! Intervals of the indentations of a motion, in which extremes and crossings of the force are
+//! searched.
 //!
-//! An interval is divided at its middle event, until the bounds of the force exclude a part or a part has no event inside.
+//! An interval is divided at its middle event, until the bounds of the force exclude a part or a
+//! part has no event inside.
 
 use super::adhesive::levels::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
@@ -41,7 +43,8 @@ pub struct Interval {
 pub struct Intervals(Vec<Interval>);
 
 impl Intervals {
-    /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs parallel to the contact.
+    /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs
+    /// parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let of = |&[low, high]: &[ContactState; 2]| {
             let steps = Rc::new(vec![Step {
@@ -68,7 +71,8 @@ impl Intervals {
         )
     }
 
-    /// Returns the index range of the intervals that overlap the indentations from `from` to `to` in m.
+    /// Returns the index range of the intervals that overlap the indentations from `from` to `to`
+    /// in m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let first = self
             .0
@@ -146,8 +150,8 @@ impl Interval {
             .map(|piece| piece.slider)
     }
 
-    /// Returns the contact at the indentation `at` (m), if no event lies between `from` and `at`: no edge jumps, and no patch
-    /// merges or splits. The force is convex in `at`.
+    /// Returns the contact at the indentation `at` (m), if no event lies between `from` and `at`:
+    /// no edge jumps, and no patch merges or splits. The force is convex in `at`.
     fn steady(&self, from: f64, at: f64) -> ContactState {
         let mut edges = EdgeSum::default();
         self.sliders(from)
@@ -162,15 +166,16 @@ impl Interval {
         .beside(self.instrument)
     }
 
-    /// Returns the derivative of the compression with respect to the indentation, in cells, at `at` in m, if no event lies
-    /// between the lower end and `at`.
+    /// Returns the derivative of the compression with respect to the indentation, in cells, at `at`
+    /// in m, if no event lies between the lower end and `at`.
     fn stiffness(&self, at: f64) -> f64 {
         let from = self.low.indentation;
         let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
         self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
-    /// Returns the indentation in m of the smallest force between the lower end and `last`, if no event lies between.
+    /// Returns the indentation in m of the smallest force between the lower end and `last`, if no
+    /// event lies between.
     fn flattest(&self, last: f64) -> f64 {
         let low = self.low.indentation;
         if self.stiffness(low) >= 0.0 {
@@ -206,8 +211,8 @@ impl Interval {
         }
     }
 
-    /// Replaces `best` by the contact of the extreme force inside, if its force is beyond `best`. No force at an end is beyond
-    /// `best`.
+    /// Replaces `best` by the contact of the extreme force inside, if its force is beyond `best`.
+    /// No force at an end is beyond `best`.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -232,9 +237,9 @@ impl Interval {
         self.between(self.low, middle).extreme(extreme, best);
     }
 
-    /// Computes ∫ |C − E| dd over the interval in cells times m², on loading (`loads`) or unloading. C is the compression of
-    /// contact and instrument. E is its extreme so far, the largest on loading and the smallest on unloading. Where C turns
-    /// back from E the body jumps.
+    /// Computes ∫ |C − E| dd over the interval in cells times m², on loading (`loads`) or
+    /// unloading. C is the compression of contact and instrument. E is its extreme so far, the
+    /// largest on loading and the smallest on unloading. Where C turns back from E the body jumps.
     pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let [low, high] = [
@@ -276,8 +281,9 @@ impl Interval {
             + (self.work(from, flattest) - least * (flattest - from))
     }
 
-    /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the compression. The integral is
-    /// half of the growth of ∫ (d − c)² dx minus the squared stretch with which springs attach at the sliding edges.
+    /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the
+    /// compression. The integral is half of the growth of ∫ (d − c)² dx minus the squared stretch
+    /// with which springs attach at the sliding edges.
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
         let surface = |at: f64| {
@@ -290,8 +296,8 @@ impl Interval {
             + self.instrument * (high - low) * (high + low))
     }
 
-    /// Returns the smallest indentation in the interval with at least this compression. The compression at the lower end is
-    /// smaller.
+    /// Returns the smallest indentation in the interval with at least this compression. The
+    /// compression at the lower end is smaller.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
             return None;
@@ -309,7 +315,8 @@ impl Interval {
         found.or_else(|| (self.high.compression >= wanted).then_some(to))
     }
 
-    /// Returns the largest indentation in the interval with at most this compression. The compression at the upper end is larger.
+    /// Returns the largest indentation in the interval with at most this compression. The
+    /// compression at the upper end is larger.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {
@@ -343,7 +350,8 @@ impl Piece {
     }
 }
 
-/// Largest number of halvings of an interval in a search, more than any two floating-point numbers need.
+/// Largest number of halvings of an interval in a search, more than any two floating-point numbers
+/// need.
 const HALVINGS: usize = 2200;
 /// Number of guesses by interpolation before a crossing is searched by halving alone.
 const GUESSES: usize = 20;
@@ -364,24 +372,25 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
     high
 }
 
-/// Finds the smallest number in (low, high] at which `value` is at least zero. `value` rises through zero once; at `low` it is
-/// negative.
+/// Finds the smallest number in (low, high] at which `value` is at least zero. `value` rises
+/// through zero once; at `low` it is negative.
 pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
     bisect(low, high, |at| value(at) >= 0.0)
 }
 
-/// Finds the largest number in [low, high) at which `value` is at most zero. `value` rises through zero once; at `high` it is
-/// positive.
+/// Finds the largest number in \[low, high) at which `value` is at most zero. `value` rises through
+/// zero once; at `high` it is positive.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (from, to) = enclose(low, high, &value, |value| value > 0.0);
     bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
 }
 
-/// Narrows an interval around a crossing by interpolation. Its lower end stays before the crossing, its upper end past it.
+/// Narrows an interval around a crossing by interpolation. Its lower end stays before the crossing,
+/// its upper end past it.
 ///
-/// The value at an end that stays is halved (the Illinois rule), so that both ends move. An interval that narrows slowly is
-/// halved as well.
+/// The value at an end that stays is halved (the Illinois rule), so that both ends move. An
+/// interval that narrows slowly is halved as well.
 fn enclose(
     mut low: f64,
     mut high: f64,
@@ -424,7 +433,8 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of halving.
+    /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of
+    /// halving.
     #[test]
     fn a_rising_zero_is_found_in_few_evaluations() {
         let evaluations = Cell::new(0);

@@ -4,34 +4,41 @@
 //!
 //! # Names by task
 //!
-//! * To set up a [`Contact`]: a [`ContactBuilder`] takes a [`Profile`], a [`Modulus`] and the edge model [`Edges`].
-//! * To load it: [`Contact::load`] takes one [`Move`] for each stage, and [`Contact::load_with`] also takes [`LoadOptions`].
-//!   [`Contact::reversals`] computes a [`Reversal`], the unloading to separation, for each of many turning points.
-//! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and a [`LegRecord`] of each
-//!   stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names a point of the curve, a [`Branch`] joins stages in
-//!   one direction, and a [`Patch`] is a run of springs in contact. The module [`motion`] also returns a [`History`] of all
-//!   stages and counts of computing [`Work`].
-//! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by theory.
+//! * To set up a [`Contact`]: a [`ContactBuilder`] takes a [`Profile`], a [`Modulus`] and the edge
+//!   model [`Edges`].
+//! * To load it: [`Contact::load`] takes one [`Move`] for each stage, and [`Contact::load_with`]
+//!   also takes [`LoadOptions`]. [`Contact::reversals`] computes a [`Reversal`], the unloading to
+//!   separation, for each of many turning points.
+//! * Results: a [`Cycle`] has the force [`Curve`], the [`Figures`] such as the pull-off force, and
+//!   a [`LegRecord`] of each stage with its [`Direction`] and its [`CurvePoint`]s. A [`Mark`] names
+//!   a point of the curve, a [`Branch`] joins stages in one direction, and a [`Patch`] is a run of
+//!   springs in contact. The module [`motion`] also returns a [`History`] of all stages and counts
+//!   of computing [`Work`].
+//! * To check results: [`ClosedForm`] computes the forces of a sphere, a cone and other bodies by
+//!   theory.
 //! * Errors: [`ContactError`] names the value or the stage that is refused.
 //!
 //! Programs that decide during the motion where a body moves next use the module [`motion`].
 //!
 //! # Rules
 //!
-//! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and detaches by the equilibrium
-//! rules of the method of dimensionality reduction, with the rule of Hess for adhesion. A *patch* is a run of neighbouring
-//! springs in contact. The gap c of a spring is its depth below the highest point of the profile, d is the indentation, and
-//! Δl_max(n) is the largest stretch that a patch of n springs bears. The numbers of equations are those of Popov and Filippov
-//! (2012). The rules are:
+//! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and
+//! detaches by the equilibrium rules of the method of dimensionality reduction, with the rule of
+//! Hess for adhesion. A *patch* is a run of neighbouring springs in contact. The gap c of a spring
+//! is its depth below the highest point of the profile, d is the indentation, and Δl_max(n) is the
+//! largest stretch that a patch of n springs bears. The numbers of equations are those of Popov and
+//! Filippov (2012). The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;
 //! * *grow*: a free spring beside a patch of n springs attaches when d ≥ c − Δl_max(n), eq. (10);
-//! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n), unless its gap is closed.
+//! * *detach*: the most stretched spring of a patch of n springs detaches when d ≤ c − Δl_max(n),
+//!   unless its gap is closed.
 //!
-//! A [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each indentation. A
-//! [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise) is the stepwise solver: it moves by small
-//! steps and relaxes to equilibrium after each step, as Popov and Filippov (2012) do. Any function that allocates may return
-//! [`ContactError::OutOfMemory`]; the documentation of a function lists all other errors.
+//! A [`Leg`](motion::Leg) describes a motion in one direction: which springs are in contact at each
+//! indentation. A [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise) is the
+//! stepwise solver: it moves by small steps and relaxes to equilibrium after each step, as Popov
+//! and Filippov (2012) do. Any function that allocates may return [`ContactError::OutOfMemory`];
+//! the documentation of a function lists all other errors.
 
 mod adhesive;
 mod body;
@@ -71,8 +78,9 @@ pub use target::Move;
 
 pub use asperity_data::Warning;
 
-/// Bodies that move from one target to the next, for models of instruments and for simulations of particles.
-/// [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the stepwise solver, serves to check it.
+/// Bodies that move from one target to the next, for models of instruments and for simulations of
+/// particles. [`Body`](motion::Body) is the exact solver. [`Stepwise`](motion::Stepwise), the
+/// stepwise solver, serves to check it.
 pub mod motion {
     pub use crate::adhesive::tree::ContactTree;
     pub use crate::body::{Body, Motion};

@@ -29,12 +29,12 @@ impl Modulus {
         Ok(Modulus(pascals))
     }
 
-    /// Computes the effective modulus E/(1 − ν²) of an isotropic elastic body against a rigid body. E is Young's modulus in Pa
-    /// and ν is Poisson's ratio.
+    /// Computes the effective modulus E/(1 − ν²) of an isotropic elastic body against a rigid body.
+    /// E is Young's modulus in Pa and ν is Poisson's ratio.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the same error if Poisson's
-    /// ratio is −1 or less, or more than 0.5.
+    /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the
+    /// same error if Poisson's ratio is −1 or less, or more than 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
         check(
             "Young's modulus",
@@ -53,8 +53,9 @@ impl Modulus {
         Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
     }
 
-    /// Computes the effective modulus E* of two elastic bodies: 1/E* = 1/E₁* + 1/E₂*, eq. (2) of Popov and Filippov (2012). E₁*
-    /// and E₂* are the effective moduli of the two bodies, each against a rigid body.
+    /// Computes the effective modulus E* of two elastic bodies: 1/E* = 1/E₁* + 1/E₂*, eq. (2) of
+    /// Popov and Filippov (2012). E₁* and E₂* are the effective moduli of the two bodies, each
+    /// against a rigid body.
     ///
     /// ```
     /// use asperity_contact::Modulus;

@@ -1,12 +1,14 @@
-//! Interface of the exact and of the stepwise solver. A body moves from target to target and records its history.
+//! Interface of the exact and of the stepwise solver. A body moves from target to target and
+//! records its history.
 
 use super::error::ContactError;
 use super::history::{History, LegRecord, Work};
 use super::leg::Leg;
 use super::target::Move;
 
-/// A rigid body that moves from target to target on its springs. The exact solver [`Body`](crate::motion::Body) and the
-/// stepwise solver [`Stepwise`](crate::motion::Stepwise) have this trait.
+/// A rigid body that moves from target to target on its springs. The exact solver
+/// [`Body`](crate::motion::Body) and the stepwise solver [`Stepwise`](crate::motion::Stepwise) have
+/// this trait.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody};
@@ -14,7 +16,9 @@ use super::target::Move;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let mut body = Body::new(&contact, 64);
 /// let pressed = body.advance(Move::ToForce(1.0e-4))?;
 /// // A target out of reach is refused, and the body stays in place.
@@ -23,25 +27,27 @@ use super::target::Move;
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
 pub trait MovingBody {
-    /// Moves the body to a target. Returns the [`LegRecord`] of this motion, with its force curve and its energies.
+    /// Moves the body to a target. Returns the [`LegRecord`] of this motion, with its force curve
+    /// and its energies.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach. The body then stays in place.
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError>;
 
-    /// Returns the [`Leg`] of the present motion. It gives the contact at each indentation of the motion.
+    /// Returns the [`Leg`] of the present motion. It gives the contact at each indentation of the
+    /// motion.
     fn leg(&self) -> Leg;
 
     /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
 
-    /// Returns the computing time in s for force curves and their extremes since the body was created, without the time to
-    /// find the patches.
+    /// Returns the computing time in s for force curves and their extremes since the body was
+    /// created, without the time to find the patches.
     fn curve_seconds(&self) -> f64;
 }
 
-/// Moves the body `solver` through loading stages with these targets. `after` is called at the end of each stage with the
-/// record and the leg of the stage.
+/// Moves the body `solver` through loading stages with these targets. `after` is called at the end
+/// of each stage with the record and the leg of the stage.
 ///
 /// # Errors
 /// Returns the error of the first stage that fails, or the first error that `after` returns.
@@ -52,7 +58,9 @@ pub trait MovingBody {
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// let mut forces = Vec::new();
 /// let stages = [Move::ToForce(1.0e-5), Move::ToForce(2.0e-5)];
 /// load_body(&mut Body::new(&contact, 16), &stages, |record, _| {

@@ -1,26 +1,32 @@
-//! Form of the body behind a profile: stated by the author of the profile, or read from the heights.
+//! Form of the body behind a profile: stated by the author of the profile, or read from the
+//! heights.
 
 /// Number of parts of equal length whose mean gaps show whether a body is curved.
 const PARTS: usize = 16;
 
-/// Smallest fall of the outermost part on each side of the summit, divided by the mean fall of the parts on this side, for a
-/// curved body. A cone has 1, a sphere nearly 2. The longest wave of a roughness, which turns up again at the ends of the
-/// profile, has about a half.
+/// Smallest fall of the outermost part on each side of the summit, divided by the mean fall of the
+/// parts on this side, for a curved body. A cone has 1, a sphere nearly 2. The longest wave of a
+/// roughness, which turns up again at the ends of the profile, has about a half.
 const LEAST_FALL_AT_ENDS: f64 = 0.75;
 
-/// Largest rms difference of smooth heights from a parabola, divided by the depth of the parabola. Heights in a file have at
-/// least four digits.
+/// Largest rms difference of smooth heights from a parabola, divided by the depth of the parabola.
+/// Heights in a file have at least four digits.
 const SMOOTH: f64 = 1e-3;
 
-/// Form of the body behind a profile, without its roughness, as the author of the profile states it.
+/// Form of the body behind a profile, without its roughness, as the author of the profile states
+/// it.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, NominalForm, Profile};
 ///
 /// // The equivalent profile x²/R of a sphere, on a length that is too short for the contact.
-/// let gaps: Vec<f64> = (-50..=50).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
+/// let gaps: Vec<f64> = (-50..=50)
+///     .map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4)
+///     .collect();
 /// let sphere = Profile::from_gaps(gaps, 1.0e-7)?.with_nominal_form(NominalForm::Curved);
-/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// assert_eq!(cycle.warnings()[0].name(), "contact_at_ends");
 /// # Ok::<(), asperity_contact::ContactError>(())
@@ -32,13 +38,13 @@ pub enum NominalForm {
     Unstated,
     /// The body is nominally flat. Its contact may reach the ends of the profile.
     Flat,
-    /// The body is curved, such as a sphere or a cone, and the heights are those of its equivalent profile. Its contact must
-    /// end inside the profile.
+    /// The body is curved, such as a sphere or a cone, and the heights are those of its equivalent
+    /// profile. Its contact must end inside the profile.
     Curved,
 }
 
-/// Returns true if the mean gaps of 16 parts of a profile grow from the smallest one to both ends as those of a curved body do: at
-/// the ends they grow almost as fast as on the way.
+/// Returns true if the mean gaps of 16 parts of a profile grow from the smallest one to both ends
+/// as those of a curved body do: at the ends they grow almost as fast as on the way.
 pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     let part = gaps.len() / PARTS;
     if part == 0 {
@@ -59,8 +65,8 @@ pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     falls_to_end(&left) && falls_to_end(right)
 }
 
-/// Returns true if mean gaps, from the summit of the body to one of its ends, grow from part to part, and at the end as fast
-/// as on the way.
+/// Returns true if mean gaps, from the summit of the body to one of its ends, grow from part to
+/// part, and at the end as fast as on the way.
 fn falls_to_end(means: &[f64]) -> bool {
     let [.., before, last] = means else {
         return false;
@@ -70,8 +76,8 @@ fn falls_to_end(means: &[f64]) -> bool {
     always_grow && last - before >= LEAST_FALL_AT_ENDS * mean_growth
 }
 
-/// Returns the radius R in m of the sphere whose cut x²/2R has these gaps, in m at points with this spacing in m. Returns `None`
-/// for gaps that are rough, and for gaps of another form.
+/// Returns the radius R in m of the sphere whose cut x²/2R has these gaps, in m at points with this
+/// spacing in m. Returns `None` for gaps that are rough, and for gaps of another form.
 pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     let [offset, slope, bend] = parabola(gaps)?;
     let middle = 0.5 * (gaps.len() - 1) as f64;
@@ -91,8 +97,9 @@ pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     (is_smooth && radius.is_finite()).then_some(radius)
 }
 
-/// Returns the coefficients [a, b, c] of the parabola a + b x + c x² of least squares through values at whole numbers x, which
-/// count from the middle. Returns `None` for fewer than five values.
+/// Returns the coefficients [a, b, c] of the parabola a + b x + c x² of least squares through
+/// values at whole numbers x, which count from the middle. Returns `None` for fewer than five
+/// values.
 fn parabola(values: &[f64]) -> Option<[f64; 3]> {
     if values.len() < 5 {
         return None;

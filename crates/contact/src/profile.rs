@@ -1,4 +1,5 @@
-//! The rigid profile above the springs: its gaps at equally spaced points, and the contact trees that follow from them.
+//! The rigid profile above the springs: its gaps at equally spaced points, and the contact trees
+//! that follow from them.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::tree::ContactTree;
@@ -11,17 +12,18 @@ use std::sync::{Arc, OnceLock};
 /// Largest number of points of a profile.
 const MOST_POINTS: usize = 1 << 28;
 
-/// Equivalent line of a rigid body: heights at equally spaced points. Heights are positive towards the half-space, so the
-/// highest point touches first.
+/// Equivalent line of a rigid body: heights at equally spaced points. Heights are positive towards
+/// the half-space, so the highest point touches first.
 ///
-/// The equivalent line is not a cut through the body. A body of revolution with the depth f(r) has the equivalent line
-/// g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr, so a sphere of the radius R has x²/R, while a cut through it has x²/(2R). For a rough
-/// surface both lines have the same rms height, but the rms gradient of a cut is 29 % smaller. With a cut in place of the
-/// equivalent line the pull-off force of a sphere is twice too large. `asperity_surface` makes the equivalent line of forms and
-/// of measured surfaces.
+/// The equivalent line is not a cut through the body. A body of revolution with the depth f(r) has
+/// the equivalent line g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr, so a sphere of the radius R has x²/R,
+/// while a cut through it has x²/(2R). For a rough surface both lines have the same rms height, but
+/// the rms gradient of a cut is 29 % smaller. With a cut in place of the equivalent line the
+/// pull-off force of a sphere is twice too large. `asperity_surface` makes the equivalent line of
+/// forms and of measured surfaces.
 ///
-/// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the last point. Clones of a
-/// profile share their memory.
+/// N points at a spacing Δx cover the length N Δx: half a spacing lies beyond the first and the
+/// last point. Clones of a profile share their memory.
 ///
 /// ```
 /// use asperity_contact::Profile;
@@ -43,8 +45,8 @@ pub struct Profile {
     nominal_form: NominalForm,
 }
 
-/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge model. A tree is built when a
-/// contact first needs it.
+/// The gaps under a profile, and the contact trees, which depend only on the gaps and the edge
+/// model. A tree is built when a contact first needs it.
 #[derive(Debug)]
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
@@ -54,11 +56,13 @@ pub struct Springs {
 }
 
 impl Profile {
-    /// Creates a profile from the heights in m of an equivalent line, at points with this spacing in m. Heights that are
-    /// measured along a line are a cut, not an equivalent line: analyse them with `asperity_surface::Topography`.
+    /// Creates a profile from the heights in m of an equivalent line, at points with this spacing
+    /// in m. Heights that are measured along a line are a cut, not an equivalent line: analyse them
+    /// with `asperity_surface::Topography`.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height out of its range.
+    /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height
+    /// out of its range.
     pub fn from_heights(heights: impl Into<Vec<f64>>, spacing: f64) -> Result<Self, ContactError> {
         let mut heights = heights.into();
         let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
@@ -78,9 +82,9 @@ impl Profile {
         })
     }
 
-    /// Creates a profile from the gaps in m of an equivalent line, at points with this spacing in m. A gap is the depth of a
-    /// point below the highest point, so at least one gap is 0. The gaps of a sphere of the radius R are x²/R, twice the depths
-    /// of its cut.
+    /// Creates a profile from the gaps in m of an equivalent line, at points with this spacing in
+    /// m. A gap is the depth of a point below the highest point, so at least one gap is 0. The gaps
+    /// of a sphere of the radius R are x²/R, twice the depths of its cut.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -91,8 +95,8 @@ impl Profile {
     /// ```
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a profile without points, for a spacing or a gap out of its range, or if the
-    /// smallest gap is not 0.
+    /// Returns [`ContactError::Value`] for a profile without points, for a spacing or a gap out of
+    /// its range, or if the smallest gap is not 0.
     pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
         let gaps = gaps.into();
         let points = gaps.len();
@@ -142,12 +146,13 @@ impl Profile {
         })
     }
 
-    /// Places the profile on a foundation, a row of springs, of the length `length` in m. The foundation may be longer than
-    /// the profile. `first` is the index of the leftmost spring under the profile.
+    /// Places the profile on a foundation, a row of springs, of the length `length` in m. The
+    /// foundation may be longer than the profile. `first` is the index of the leftmost spring under
+    /// the profile.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a length that is not from 1e-50 to 1e50 m, or if the profile would extend beyond the
-    /// right end of the foundation.
+    /// Returns [`ContactError::Value`] for a length that is not from 1e-50 to 1e50 m, or if the
+    /// profile would extend beyond the right end of the foundation.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -183,7 +188,8 @@ impl Profile {
         Ok(Profile { summit, ..self })
     }
 
-    /// States the form of the body. [`Cycle::warnings`](crate::Cycle::warnings) depends on it; forces and energies do not.
+    /// States the form of the body. [`Cycle::warnings`](crate::Cycle::warnings) depends on it;
+    /// forces and energies do not.
     #[must_use]
     pub fn with_nominal_form(self, nominal_form: NominalForm) -> Self {
         Profile {
@@ -197,9 +203,9 @@ impl Profile {
         self.nominal_form
     }
 
-    /// Returns true if the body is curved, so that its contact is meant to end inside the profile. If nobody has stated the form,
-    /// the heights decide: the mean gaps of 16 parts of the profile grow from the smallest one to both ends, and at the ends
-    /// almost as fast as on the way.
+    /// Returns true if the body is curved, so that its contact is meant to end inside the profile.
+    /// If nobody has stated the form, the heights decide: the mean gaps of 16 parts of the profile
+    /// grow from the smallest one to both ends, and at the ends almost as fast as on the way.
     pub fn is_curved(&self) -> bool {
         match self.nominal_form {
             NominalForm::Curved => true,
@@ -208,8 +214,9 @@ impl Profile {
         }
     }
 
-    /// Returns the doubt about heights of which nobody has stated that they are an equivalent profile. Returns `None` if the
-    /// form is stated, and for a flat profile, which is its own equivalent.
+    /// Returns the doubt about heights of which nobody has stated that they are an equivalent
+    /// profile. Returns `None` if the form is stated, and for a flat profile, which is its own
+    /// equivalent.
     pub fn doubt(&self) -> Option<Warning> {
         if self.nominal_form != NominalForm::Unstated || self.deepest() == 0.0 {
             return None;
@@ -230,8 +237,9 @@ impl Profile {
         self.spacing
     }
 
-    /// Returns the length in m of the foundation, the row of springs under the profile. It is the number of points times their
-    /// distance, unless [`Profile::on_foundation`] has set another length.
+    /// Returns the length in m of the foundation, the row of springs under the profile. It is the
+    /// number of points times their distance, unless [`Profile::on_foundation`] has set another
+    /// length.
     pub fn length(&self) -> f64 {
         self.length
     }
@@ -251,23 +259,27 @@ impl Profile {
         self.springs.deepest
     }
 
-    /// Returns the height of each point in m. Rounding may change the last digit of a height that was given.
+    /// Returns the height of each point in m. Rounding may change the last digit of a height that
+    /// was given.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
 
-    /// Returns the position x in m of the point with this index, from the left end of the foundation.
+    /// Returns the position x in m of the point with this index, from the left end of the
+    /// foundation.
     pub fn position(&self, index: usize) -> f64 {
         self.place(index as f64 + 0.5)
     }
 
-    /// Returns the position in m of a place that is given in cells from the left end of the first cell under the body.
+    /// Returns the position in m of a place that is given in cells from the left end of the first
+    /// cell under the body.
     pub(super) fn place(&self, cells: f64) -> f64 {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) of the edge model `edges` in the memory of an old tree, `memory`. Without this
-    /// call, the first contact with adhesion builds the tree in new memory.
+    /// Builds the [contact tree](ContactTree) of the edge model `edges` in the memory of an old
+    /// tree, `memory`. Without this call, the first contact with adhesion builds the tree in new
+    /// memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
@@ -279,15 +291,16 @@ impl Profile {
     /// let profile = Profile::from_gaps(vec![0.0, 3.0e-8, 1.0e-8], 1.0e-6)?;
     /// profile.build_tree(Edges::SubCell, ContactTree::default())?;
     /// // The next profile reuses the memory.
-    /// Profile::from_gaps(vec![2.0e-8, 0.0], 1.0e-6)?.build_tree(Edges::SubCell, profile.into_tree())?;
+    /// Profile::from_gaps(vec![2.0e-8, 0.0], 1.0e-6)?
+    ///     .build_tree(Edges::SubCell, profile.into_tree())?;
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn build_tree(&self, edges: Edges, memory: ContactTree) -> Result<(), ContactError> {
         self.springs.tree_in(memory, edges).map(|_| ())
     }
 
-    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can reuse. The tree is empty
-    /// if the profile has none, or if a clone or a contact still uses it.
+    /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can
+    /// reuse. The tree is empty if the profile has none, or if a clone or a contact still uses it.
     pub fn into_tree(self) -> ContactTree {
         let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
         let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);
@@ -338,7 +351,8 @@ fn value(name: String, value: f64, allowed: &'static str) -> ContactError {
     }
 }
 
-/// Returns the smallest and the largest value. The error is the index of the first value whose magnitude is not at most `most`.
+/// Returns the smallest and the largest value. The error is the index of the first value whose
+/// magnitude is not at most `most`.
 fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
     // In parallel: a sequence of comparisons would wait for each one.
     let (mut smallest, mut largest, mut is_number) =

@@ -1,8 +1,8 @@
-//! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step, relaxes to equilibrium and
-//! repeats.
+//! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step,
+//! relaxes to equilibrium and repeats.
 //!
-//! The error is of the order of the step Δd, and each step costs a few sweeps over the whole profile. This solver shares only
-//! the rules and the sums with the exact solver.
+//! The error is of the order of the step Δd, and each step costs a few sweeps over the whole
+//! profile. This solver shares only the rules and the sums with the exact solver.
 
 use super::adhesive::levels::EdgeCells;
 use super::contact::Contact;
@@ -16,7 +16,8 @@ use super::target::Move;
 use super::totals::ContactTotals;
 use asperity_data::resized;
 
-/// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each step.
+/// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each
+/// step.
 ///
 /// ```
 /// use asperity_contact::motion::{Body, MovingBody, Stepwise};
@@ -42,7 +43,8 @@ pub struct Stepwise<'a> {
     direction: Direction,
     indentation: f64,
     totals: ContactTotals,
-    /// Σ e² in m² over the springs detached on the present motion, minus the same sum over the springs attached.
+    /// Σ e² in m² over the springs detached on the present motion, minus the same sum over the
+    /// springs attached.
     squared_stretch: f64,
     /// True for each spring in contact.
     holds: Vec<bool>,
@@ -52,9 +54,10 @@ pub struct Stepwise<'a> {
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body that moves by steps of `step` in m. Its patches consist of whole springs, as with
-    /// [`Edges::Grid`](crate::Edges::Grid). The force curve of each motion has `samples` points, at least 2. `stop` is called
-    /// before each step. If `stop` returns true, the motion ends with [`ContactError::Interrupted`].
+    /// Creates a separated body that moves by steps of `step` in m. Its patches consist of whole
+    /// springs, as with [`Edges::Grid`](crate::Edges::Grid). The force curve of each motion has
+    /// `samples` points, at least 2. `stop` is called before each step. If `stop` returns true, the
+    /// motion ends with [`ContactError::Interrupted`].
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -80,8 +83,8 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches or detaches a spring at the indentation `at` in m. A spring that detaches was held to exactly `at`, because the
-    /// overshoot of a step is no property of the contact.
+    /// Attaches or detaches a spring at the indentation `at` in m. A spring that detaches was held
+    /// to exactly `at`, because the overshoot of a step is no property of the contact.
     fn change(&mut self, index: usize, attaches: bool, at: f64) {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
@@ -165,7 +168,8 @@ impl<'a> Stepwise<'a> {
                     .rule()
                     .largest_stretch(Direction::Unloading, end - first);
                 for (place, &gap) in gaps[first..end].iter().enumerate() {
-                    // A spring stretched too far here is stretched too far in each part of the fragment as well.
+                    // A spring stretched too far here is stretched too far in each part of the
+                    // fragment as well.
                     if at <= gap - stretch && at < gap {
                         self.change(first + place, false, held_until);
                     }
@@ -199,13 +203,14 @@ impl<'a> Stepwise<'a> {
         state.point(self.contact.foundation)
     }
 
-    /// Returns an error, before the first step, for a motion that certainly needs more steps than allowed.
+    /// Returns an error, before the first step, for a motion that certainly needs more steps than
+    /// allowed.
     fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
         let start = self.indentation;
         let end = match goal {
             Goal::Indentation(end) => end,
-            // No spring is compressed by more than the indentation, and any patch holds the highest point to the stretch
-            // of one spring.
+            // No spring is compressed by more than the indentation, and any patch holds the highest
+            // point to the stretch of one spring.
             Goal::Force(force) if direction == Direction::Loading => {
                 force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
             }
@@ -336,8 +341,9 @@ impl<'a> Stepwise<'a> {
 }
 
 impl Stepwise<'_> {
-    /// Returns the point of the smallest force on the rest of an unloading, on which a copy of the body walks to separation.
-    /// Returns `None` for a loading, for a separated body, and if the copy takes too many steps.
+    /// Returns the point of the smallest force on the rest of an unloading, on which a copy of the
+    /// body walks to separation. Returns `None` for a loading, for a separated body, and if the
+    /// copy takes too many steps.
     fn rest(&self, direction: Direction) -> Result<Option<CurvePoint>, ContactError> {
         if direction == Direction::Loading || self.totals.springs == 0 {
             return Ok(None);

@@ -10,9 +10,16 @@ use serde::{Deserialize, Serialize};
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
 /// // Adhesion draws the sphere in until the force is zero; then it is pressed and pulled off.
-/// let cycle = contact.load(&[Move::ToTouch, Move::ToZeroForce, Move::ToForce(1.0e-5), Move::ToSeparation])?;
+/// let cycle = contact.load(&[
+///     Move::ToTouch,
+///     Move::ToZeroForce,
+///     Move::ToForce(1.0e-5),
+///     Move::ToSeparation,
+/// ])?;
 /// assert!(cycle.stages()[1].end() > 0.0 && cycle.stages()[3].end() < 0.0);
 /// # Ok::<(), asperity_contact::ContactError>(())
 /// ```
@@ -23,12 +30,13 @@ pub enum Move {
     ToForce(f64),
     /// Moves to this indentation in m; 0 is the first touch.
     ToIndentation(f64),
-    /// Moves until the drive of the instrument first reaches this displacement D = d + F/k in m. k is the stiffness of the
-    /// instrument in N/m.
+    /// Moves until the drive of the instrument first reaches this displacement D = d + F/k in m. k
+    /// is the stiffness of the instrument in N/m.
     ToDisplacement(f64),
     /// Moves to the indentation of first touch, d = 0.
     ToTouch,
-    /// Moves until the force is zero. From separation the body moves past first touch until the force is back at zero.
+    /// Moves until the force is zero. From separation the body moves past first touch until the
+    /// force is back at zero.
     ToZeroForce,
     /// Moves until the bodies separate.
     ToSeparation,

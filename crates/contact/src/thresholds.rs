@@ -1,10 +1,11 @@
-//! Springs that touch one by one. They describe contact without adhesion, where a spring is in contact exactly while its gap is
-//! closed, and the contact of the stepwise solver.
+//! Springs that touch one by one. They describe contact without adhesion, where a spring is in
+//! contact exactly while its gap is closed, and the contact of the stepwise solver.
 //!
-//! Without adhesion the contact depends on the indentation alone, and the force does not decrease with the indentation. A
-//! *cell*, the profile between two neighbouring springs, fills from its smaller gap to its larger one. Full cells are summed
-//! exactly, as whole numbers of quanta. A partly filled cell adds its part at each point inside it, which is accurate for any
-//! slope and indentation.
+//! Without adhesion the contact depends on the indentation alone, and the force does not decrease
+//! with the indentation. A *cell*, the profile between two neighbouring springs, fills from its
+//! smaller gap to its larger one. Full cells are summed exactly, as whole numbers of quanta. A
+//! partly filled cell adds its part at each point inside it, which is accurate for any slope and
+//! indentation.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::levels::Slider;
@@ -19,8 +20,8 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
-    /// Indentation in m from which each spring is in contact: −∞ always, +∞ never; the gaps where edges lie between springs.
-    /// Empty for a body that touches nothing.
+    /// Indentation in m from which each spring is in contact: −∞ always, +∞ never; the gaps where
+    /// edges lie between springs. Empty for a body that touches nothing.
     thresholds: &'a [f64],
     slides: bool,
     scale: GapScale,
@@ -67,7 +68,8 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the events and the partly filled cells to the intervals in which a crossing is searched.
+    /// Adds the events and the partly filled cells to the intervals in which a crossing is
+    /// searched.
     pub fn search(&self, intervals: &mut Intervals) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {
@@ -98,7 +100,8 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// Returns the half cells at both ends of the foundation, each with the gap of its spring in m; none for whole springs.
+    /// Returns the half cells at both ends of the foundation, each with the gap of its spring in m;
+    /// none for whole springs.
     fn ends(&self) -> impl Iterator<Item = (f64, Slider)> {
         let ends = [self.thresholds.first(), self.thresholds.last()]
             .into_iter()
@@ -107,10 +110,12 @@ impl<'a> Thresholds<'a> {
             .map(|&gap| (gap, Slider::half_cell(gap)))
     }
 
-    /// Returns what a range of neighbouring springs adds to the totals once all of them are in contact.
+    /// Returns what a range of neighbouring springs adds to the totals once all of them are in
+    /// contact.
     ///
-    /// They add one patch, minus one for each neighbour that touches earlier. Of equal thresholds the left spring counts as the
-    /// later. Where edges lie between springs, the range also adds the cells to these neighbours.
+    /// They add one patch, minus one for each neighbour that touches earlier. Of equal thresholds
+    /// the left spring counts as the later. Where edges lie between springs, the range also adds
+    /// the cells to these neighbours.
     #[inline]
     fn totals(&self, springs: Range<usize>) -> ContactTotals {
         let Range { start, end } = springs;

@@ -1,10 +1,12 @@
-//! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point gaps.
+//! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point
+//! gaps.
 
-/// Fixed-point scale of the gaps of one profile. Its unit, the quantum, is 2⁻⁶² of the smallest power of two above the largest
-/// gap.
+/// Fixed-point scale of the gaps of one profile. Its unit, the quantum, is 2⁻⁶² of the smallest
+/// power of two above the largest gap.
 ///
-/// Sums of quanta are integers and do not depend on the order of the springs. A spring that attaches and detaches again changes
-/// no bit. So loading and unloading agree bit for bit on the same contact.
+/// Sums of quanta are integers and do not depend on the order of the springs. A spring that
+/// attaches and detaches again changes no bit. So loading and unloading agree bit for bit on the
+/// same contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapScale {
     quanta_per_metre: f64,
@@ -17,7 +19,8 @@ impl Default for GapScale {
     }
 }
 
-/// Number of bits of a gap in quanta. Gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps an `i128`.
+/// Number of bits of a gap in quanta. Gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps
+/// an `i128`.
 const GAP_BITS: i32 = 62;
 
 /// Largest exponent of the scale, for which scale and quantum are both normal numbers.
@@ -55,14 +58,16 @@ impl GapScale {
     }
 }
 
-/// Number of low bits that squared quanta lose in a sum of squares, so that 2^28 squares fit an `i128`.
+/// Number of low bits that squared quanta lose in a sum of squares, so that 2^28 squares fit an
+/// `i128`.
 const SQUARE_BITS: u32 = 28;
 
-/// Sums the gaps and their squares over at most four springs, or over at most four cells (five springs), in the units of
-/// [`ContactTotals`].
+/// Sums the gaps and their squares over at most four springs, or over at most four cells (five
+/// springs), in the units of [`ContactTotals`].
 ///
-/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The profile is straight between springs. The
-/// mean square along a cell is therefore (mean gap)² + (difference)²/12.
+/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The profile is
+/// straight between springs. The mean square along a cell is therefore (mean gap)² +
+/// (difference)²/12.
 #[inline]
 pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     let (mut sum, mut squares, mut squared_differences) = (0_u64, 0_u128, 0_u128);
@@ -86,7 +91,8 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     ]
 }
 
-/// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer than all other sums.
+/// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer
+/// than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
     let [high, low] = [(number >> 64) as u64, number as u64];
@@ -95,21 +101,24 @@ fn twelfth(number: u128) -> u128 {
         + u128::from(low / 12)
 }
 
-/// The springs in contact at one indentation: their number, the number of patches, and the sums of their gaps and squared gaps.
+/// The springs in contact at one indentation: their number, the number of patches, and the sums of
+/// their gaps and squared gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactTotals {
     /// Number of springs in contact.
     pub springs: i64,
     /// Number of patches.
     pub fragments: i64,
-    /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a [`GapScale`].
+    /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a
+    /// [`GapScale`].
     pub quanta: i128,
     /// Sum of the squared gaps, in units of 2^28 squared quanta.
     pub squares: i128,
 }
 
 impl ContactTotals {
-    /// Computes the totals of one patch: of its springs, or with `slides` of the cells between its springs.
+    /// Computes the totals of one patch: of its springs, or with `slides` of the cells between its
+    /// springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
@@ -129,18 +138,20 @@ impl ContactTotals {
         totals
     }
 
-    /// Returns the number of whole springs, or with `slides` of whole cells, one fewer in each patch than springs.
+    /// Returns the number of whole springs, or with `slides` of whole cells, one fewer in each
+    /// patch than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         self.springs - if slides { self.fragments } else { 0 }
     }
 
-    /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times metres of `count` cells. It
-    /// is the force over the stiffness of one spring.
+    /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times
+    /// metres of `count` cells. It is the force over the stiffness of one spring.
     ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most 2u |result| + n 2^(e−62). The
-    /// gaps are summed exactly, n d is an exact product of two numbers, and only their difference is rounded. For a largest gap
-    /// below about 2^−938 m a quantum is 2^−1000 m and no smaller.
+    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most 2u |result| +
+    /// n 2^(e−62). The gaps are summed exactly, n d is an exact product of two numbers, and only
+    /// their difference is rounded. For a largest gap below about 2^−938 m a quantum is 2^−1000 m
+    /// and no smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
@@ -159,8 +170,9 @@ impl ContactTotals {
 
     /// Computes the sum of squared compressions Σ (d − c)² in m² of `count` springs or cells.
     ///
-    /// Sums of nested spans at one indentation are integers. They differ by the squares of the springs between the spans, each
-    /// with an error below 2^28 squared quanta. This is a relative error of 1e-15 for a stretch of 1e-7 of the largest gap.
+    /// Sums of nested spans at one indentation are integers. They differ by the squares of the
+    /// springs between the spans, each with an error below 2^28 squared quanta. This is a relative
+    /// error of 1e-15 for a stretch of 1e-7 of the largest gap.
     pub(super) fn squares_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let scale = SquareScale::new(*scale, indentation.abs());
         let (squares, remainder) = scale.at(self, count, indentation);
@@ -198,7 +210,8 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit of sums of squared stretches. It is coarser than the quantum of the gaps where an indentation far exceeds all gaps.
+/// Unit of sums of squared stretches. It is coarser than the quantum of the gaps where an
+/// indentation far exceeds all gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -207,7 +220,8 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in m.
+    /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in
+    /// m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let GapScale {
             mut quanta_per_metre,
@@ -225,8 +239,8 @@ impl SquareScale {
         }
     }
 
-    /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer in this unit and a remainder
-    /// in m².
+    /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer
+    /// in this unit and a remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
         let (first, second) = (
@@ -277,8 +291,8 @@ mod tests {
         }
     }
 
-    // Sums of gaps and forces against exact arithmetic: the documented bound also holds where nearly all of a force
-    // cancels.
+    // Sums of gaps and forces against exact arithmetic: the documented bound also holds where
+    // nearly all of a force cancels.
 
     /// a + b and its rounding error.
     fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -323,8 +337,9 @@ mod tests {
         sum
     }
 
-    /// Checks that the compressions of these gaps are within the bound of [`ContactTotals::compression`], 2u |result| + a
-    /// quantum for each gap, at these indentations and where the gaps nearly balance.
+    /// Checks that the compressions of these gaps are within the bound of
+    /// [`ContactTotals::compression`], 2u |result| + a quantum for each gap, at these indentations
+    /// and where the gaps nearly balance.
     fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
         let scale = GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max));
         let mut totals = ContactTotals::default();
@@ -396,7 +411,8 @@ mod tests {
             for gap in [largest, share * largest, 0.0] {
                 let quanta = scale.quanta(gap);
                 prop_assert!((0..1_i64 << 62).contains(&quanta));
-                // Without rounding: a quantum is a power of two, and the digits of the quanta are the first ones of the gap.
+                // Without rounding: a quantum is a power of two, and the digits of the quanta are
+                // the first ones of the gap.
                 let left = gap - quanta as f64 * scale.quantum();
                 prop_assert!((0.0..scale.quantum()).contains(&left), "{} of {}", gap, largest);
             }

@@ -12,7 +12,8 @@ pub enum AxisScale {
 }
 
 impl AxisScale {
-    /// Returns the coordinate of a number. A number that is not positive has no finite coordinate on a logarithmic scale.
+    /// Returns the coordinate of a number. A number that is not positive has no finite coordinate
+    /// on a logarithmic scale.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -28,9 +29,9 @@ impl AxisScale {
         }
     }
 
-    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index: 1.5 is in the middle
-    /// between the values with the indices 1 and 2. Beyond the ends the index is extrapolated. For fewer than two values it
-    /// is 0.
+    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index:
+    /// 1.5 is in the middle between the values with the indices 1 and 2. Beyond the ends the index
+    /// is extrapolated. For fewer than two values it is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let at = self.coordinate(number);

@@ -17,8 +17,9 @@ pub struct Cholesky {
 }
 
 impl Cholesky {
-    /// Computes the factor of the symmetric `matrix`, which has `size` rows and is stored row by row. Only the lower
-    /// triangle of the matrix is used. Returns `None` unless the matrix is positive definite.
+    /// Computes the factor of the symmetric `matrix`, which has `size` rows and is stored row by
+    /// row. Only the lower triangle of the matrix is used. Returns `None` unless the matrix is
+    /// positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
@@ -61,16 +62,16 @@ impl Cholesky {
         right
     }
 
-    /// Returns the square root of element (i, i) of M⁻¹ for i = `index`. If M⁻¹ is the covariance matrix of fitted
-    /// parameters, this is the standard error of parameter i.
+    /// Returns the square root of element (i, i) of M⁻¹ for i = `index`. If M⁻¹ is the covariance
+    /// matrix of fitted parameters, this is the standard error of parameter i.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
         self.variance(&gradient).sqrt()
     }
 
-    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M⁻¹ is the covariance matrix of fitted parameters, this is the variance of a
-    /// quantity whose derivatives with respect to the parameters are v.
+    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M⁻¹ is the covariance matrix of fitted parameters,
+    /// this is the variance of a quantity whose derivatives with respect to the parameters are v.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
         gradient.iter().zip(solved).map(|(a, b)| a * b).sum()

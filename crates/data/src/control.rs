@@ -2,8 +2,8 @@
 
 use crate::parallel;
 
-/// Settings of a long computation: the number of threads, a function that stops it, and a function that receives its
-/// progress. The default uses all cores, never stops early and reports nothing.
+/// Settings of a long computation: the number of threads, a function that stops it, and a function
+/// that receives its progress. The default uses all cores, never stops early and reports nothing.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -33,20 +33,22 @@ impl Default for Control<'_> {
 }
 
 impl<'a> Control<'a> {
-    /// Sets the number of threads, at least 1. The result is the same to the bit for any number of threads.
+    /// Sets the number of threads, at least 1. The result is the same to the bit for any number of
+    /// threads.
     #[must_use]
     pub fn on_threads(self, threads: usize) -> Self {
         Control { threads, ..self }
     }
 
-    /// Sets the function that stops the computation. The computation ends with an error soon after `stop` returns true.
+    /// Sets the function that stops the computation. The computation ends with an error soon after
+    /// `stop` returns true.
     #[must_use]
     pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress, as the number of finished parts of the computation. The function is
-    /// called on the calling thread.
+    /// Sets the function that receives the progress, as the number of finished parts of the
+    /// computation. The function is called on the calling thread.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
         Control {
@@ -70,7 +72,8 @@ impl<'a> Control<'a> {
         (self.stop)()
     }
 
-    /// Calls the function set by [`reporting_to`](Control::reporting_to), if there is one, with the number of finished parts.
+    /// Calls the function set by [`reporting_to`](Control::reporting_to), if there is one, with the
+    /// number of finished parts.
     pub fn report(&mut self, done: u64) {
         if let Some(report) = &mut self.report {
             report(done);

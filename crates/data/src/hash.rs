@@ -1,4 +1,5 @@
-//! SHA-256 of files, which identifies copies of a file. The program `sha256sum` prints the same digits.
+//! SHA-256 of files, which identifies copies of a file. The program `sha256sum` prints the same
+//! digits.
 
 use super::read::{ReadError, open_regular};
 use sha2::{Digest, Sha256};
@@ -17,7 +18,8 @@ pub fn hexadecimal(hasher: Sha256) -> String {
         .collect()
 }
 
-/// Returns the SHA-256 of the content of a file, as 64 hexadecimal digits. Two files with the same SHA-256 are copies.
+/// Returns the SHA-256 of the content of a file, as 64 hexadecimal digits. Two files with the same
+/// SHA-256 are copies.
 pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
     let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);

@@ -6,8 +6,8 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line. If the value is an object, the pairs of key and text in `head` are written as the
-/// first entries of this object.
+/// Writes a value as JSON on one line. If the value is an object, the pairs of key and text in
+/// `head` are written as the first entries of this object.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,
@@ -32,7 +32,8 @@ pub fn write_json(
     writeln!(out)
 }
 
-/// JSON format that also escapes the control characters that JSON allows, which a terminal might obey.
+/// JSON format that also escapes the control characters that JSON allows, which a terminal might
+/// obey.
 #[derive(Default)]
 struct Printable {
     /// Entries that still have to be written first into the outermost object.

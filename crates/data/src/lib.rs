@@ -67,8 +67,8 @@ pub use write::{
     WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file,
 };
 
-/// Reads tables of numbers in text files, as instruments and programs write them: lines, separators, numbers, and names of
-/// columns.
+/// Reads tables of numbers in text files, as instruments and programs write them: lines,
+/// separators, numbers, and names of columns.
 #[cfg(feature = "files")]
 pub mod text_table {
     pub use crate::text_cells::{Decimal, ONE_MARK, Separator, TextCell};

@@ -1,24 +1,27 @@
 //! Functions for large arrays: they reuse memory, and return an error if the memory is too small.
 
-// The first use of new memory takes about as much time as one pass over it, because the system clears each page of memory at
-// its first access. An array whose length depends on the input reserves its memory before use. Without this, a failed
-// allocation would end the process.
+// The first use of new memory takes about as much time as one pass over it, because the system
+// clears each page of memory at its first access. An array whose length depends on the input
+// reserves its memory before use. Without this, a failed allocation would end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
 
 /// A buffer is released if its capacity is more than this many times the required number of values.
 const MOST_SPARE: usize = 4;
-/// Least number of values for this rule. A buffer for [`MOST_SPARE`] times as many is never released.
+/// Least number of values for this rule. A buffer for [`MOST_SPARE`] times as many is never
+/// released.
 const SMALL: usize = 1 << 16;
 
-/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. The number exceeds any block that
-/// the allocator of glibc keeps for reuse, so the check has no side effect.
+/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. The
+/// number exceeds any block that the allocator of glibc keeps for reuse, so the check has no side
+/// effect.
 const BESIDE: u64 = 33 << 20;
 /// Number of bytes below which the check passes at once.
 const FEW: u64 = 1 << 20;
 
-/// Error of a request for more memory than the system can provide. Its message states the requested memory in MiB.
+/// Error of a request for more memory than the system can provide. Its message states the requested
+/// memory in MiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
 pub struct OutOfMemory(u64);
@@ -29,7 +32,8 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system can provide `bytes` more bytes of memory now. Less than 1 MiB is never refused.
+/// Returns an error unless the system can provide `bytes` more bytes of memory now. Less than 1 MiB
+/// is never refused.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -44,8 +48,8 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// Returns an empty vector with room for `count` values. The vector reuses the memory of `values` if this memory is large
-/// enough. Returns an error if the memory of the system is too small.
+/// Returns an empty vector with room for `count` values. The vector reuses the memory of `values`
+/// if this memory is large enough. Returns an error if the memory of the system is too small.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -55,8 +59,9 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// Returns a vector of `count` values: first the values of `values`, then copies of `fill`. The vector reuses the memory of
-/// `values` if possible. Returns an error if the memory of the system is too small.
+/// Returns a vector of `count` values: first the values of `values`, then copies of `fill`. The
+/// vector reuses the memory of `values` if possible. Returns an error if the memory of the system
+/// is too small.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
@@ -67,7 +72,8 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects the `count` values of an iterator into a vector. Returns an error if the memory is too small.
+/// Collects the `count` values of an iterator into a vector. Returns an error if the memory is too
+/// small.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
@@ -81,7 +87,8 @@ pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// Reserves room for at least `more` further values in the vector `values`. Returns an error if the memory is too small.
+/// Reserves room for at least `more` further values in the vector `values`. Returns an error if the
+/// memory is too small.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values
         .try_reserve(more)

@@ -15,8 +15,9 @@ const PREFIX: usize = SIGNATURE.len() + SHORT_HEADER.len() + 2;
 /// Prefix and header together are a multiple of this number of bytes.
 const ALIGNMENT: usize = 64;
 
-/// Writes the signature and the header of a NumPy file. `descr` is the type of a value in Python's notation, such as `'<f8'`.
-/// `shape` has the lengths of the axes as in a Python tuple, without its brackets, such as `100,` or `3, 100`.
+/// Writes the signature and the header of a NumPy file. `descr` is the type of a value in Python's
+/// notation, such as `'<f8'`. `shape` has the lengths of the axes as in a Python tuple, without its
+/// brackets, such as `100,` or `3, 100`.
 pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;

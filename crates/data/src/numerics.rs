@@ -1,10 +1,11 @@
-//! Sums, means, quantiles, fitted straight lines, interpolation, quadrature, and Student's distribution.
+//! Sums, means, quantiles, fitted straight lines, interpolation, quadrature, and Student's
+//! distribution.
 
 use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Sum of numbers in which rounding errors are compensated (method of Neumaier). For n terms t the error of the sum is below
-/// 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
+/// Sum of numbers in which rounding errors are compensated (method of Neumaier). For n terms t the
+/// error of the sum is below 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
 ///
 /// ```
 /// let mut sum = asperity_data::CompensatedSum::default();
@@ -46,8 +47,8 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
-/// Returns the sample standard deviation (divisor n − 1) of n values. The argument `mean` must be the mean of these values.
-/// Fewer than two values give NaN.
+/// Returns the sample standard deviation (divisor n − 1) of n values. The argument `mean` must be
+/// the mean of these values. Fewer than two values give NaN.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     let squares = values
         .iter()
@@ -56,8 +57,8 @@ pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// Returns the median and reorders the values. The median of an even number of values is the mean of the middle two. Returns
-/// `None` without values.
+/// Returns the median and reorders the values. The median of an even number of values is the mean
+/// of the middle two. Returns `None` without values.
 ///
 /// ```
 /// assert_eq!(asperity_data::median(&mut [3.0, 1.0, 2.0, 10.0]), Some(2.5));
@@ -76,8 +77,9 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
 }
 
-/// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A `share` of 0 gives the
-/// first value, 0.5 the median, 1 the last value. Returns `None` without values, and for a share outside of 0 to 1.
+/// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A
+/// `share` of 0 gives the first value, 0.5 the median, 1 the last value. Returns `None` without
+/// values, and for a share outside of 0 to 1.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), Some(5.0));
@@ -117,7 +119,8 @@ pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)
 }
 
-/// Returns the slope of the least-squares line through points (x, y); `None` for fewer than two different x.
+/// Returns the slope of the least-squares line through points (x, y); `None` for fewer than two
+/// different x.
 ///
 /// ```
 /// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
@@ -134,18 +137,20 @@ pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     Some(product / square).filter(|slope| slope.is_finite())
 }
 
-/// Returns the nodes in (−1, 1) and the weights of the Gauss-Legendre quadrature with `COUNT` nodes.
+/// Returns the nodes in (−1, 1) and the weights of the Gauss-Legendre quadrature with `COUNT`
+/// nodes.
 pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
 
-/// Returns the nodes of the Gauss-Legendre quadrature on the interval (0, π/2), each with its weight. `COUNT` is the number
-/// of nodes.
+/// Returns the nodes of the Gauss-Legendre quadrature on the interval (0, π/2), each with its
+/// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT] {
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
 }
 
-/// Returns zero number `index` of the Legendre polynomial of this degree, with its weight in the quadrature.
+/// Returns zero number `index` of the Legendre polynomial of this degree, with its weight in the
+/// quadrature.
 fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
     let count = degree as f64;
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
@@ -170,8 +175,8 @@ thread_local! {
     static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// Returns the value that |t| exceeds with a probability of 5 %, where t has Student's distribution with `freedom` degrees of
-/// freedom, at least 1.
+/// Returns the value that |t| exceeds with a probability of 5 %, where t has Student's distribution
+/// with `freedom` degrees of freedom, at least 1.
 pub fn student_quantile(freedom: u32) -> f64 {
     if KNOWN.get().0 != freedom {
         KNOWN.set((freedom, student_t(freedom)));
@@ -192,7 +197,8 @@ fn student_t(freedom: u32) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Returns the probability that |t| of Student's distribution is at most `t` (Abramowitz and Stegun, 26.7.3 and 26.7.4).
+/// Returns the probability that |t| of Student's distribution is at most `t` (Abramowitz and
+/// Stegun, 26.7.3 and 26.7.4).
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
@@ -218,7 +224,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A compensated sum keeps small numbers that are added to a large one, which is then subtracted.
+        /// A compensated sum keeps small numbers that are added to a large one, which is then
+        /// subtracted.
         #[test]
         fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
             let large = 2.0_f64.powi(power);
@@ -230,8 +237,9 @@ mod tests {
     }
 
     proptest! {
-        /// A quantile is the value at which the polygon through the points (k/(n − 1), value k) has the abscissa `share`.
-        /// The median is the quantile 0.5, and a sample without values has neither.
+        /// A quantile is the value at which the polygon through the points (k/(n − 1), value k) has
+        /// the abscissa `share`. The median is the quantile 0.5, and a sample without values has
+        /// neither.
         #[test]
         fn quantiles_lie_on_the_polygon_of_the_values(
             mut values in prop::collection::vec(-1e3..1e3_f64, 0..40),

@@ -46,8 +46,8 @@ impl<E: Entries> Serialize for Object<E> {
     }
 }
 
-/// Makes an [`Object`], which is written as JSON, from keys and values: `object! { "key": value }`. An entry
-/// `"key"?: option` is omitted if the option is `None`.
+/// Makes an [`Object`], which is written as JSON, from keys and values: `object! { "key": value }`.
+/// An entry `"key"?: option` is omitted if the option is `None`.
 #[macro_export]
 macro_rules! object {
     (@entries) => { () };

@@ -12,7 +12,8 @@ thread_local! {
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `work` on this thread. The functions of this module then start no further threads inside `work`.
+/// Runs `work` on this thread. The functions of this module then start no further threads inside
+/// `work`.
 pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -20,8 +21,8 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some. The threads start no threads of their
-/// own.
+/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some. The threads
+/// start no threads of their own.
 ///
 /// # Errors
 /// Returns the error of the system if it starts none of at least one thread.
@@ -44,11 +45,13 @@ pub(crate) fn begin_threads<'scope>(
     }
 }
 
-/// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the results in order. Each thread
-/// first calls `worker`, and then computes its results with the function that `worker` returns.
+/// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the
+/// results in order. Each thread first calls `worker`, and then computes its results with the
+/// function that `worker` returns.
 ///
 /// # Errors
-/// Returns the error of the function that computes the results; of several errors, the one for the smallest number.
+/// Returns the error of the function that computes the results; of several errors, the one for the
+/// smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -92,15 +95,16 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Returns the number of threads for a computation: one for each core, or 1 inside [`on_this_thread`] and on threads that
-/// this module has started.
+/// Returns the number of threads for a computation: one for each core, or 1 inside
+/// [`on_this_thread`] and on threads that this module has started.
 pub fn threads() -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     if ONE_OF_MANY.get() { 1 } else { cores() }
 }
 
-/// Runs the functions `one` and `other`, and returns their results. If `worth` is true and a second thread is possible,
-/// `one` runs on the second thread at the same time as `other`. Otherwise one function runs after the other.
+/// Runs the functions `one` and `other`, and returns their results. If `worth` is true and a second
+/// thread is possible, `one` runs on the second thread at the same time as `other`. Otherwise one
+/// function runs after the other.
 pub fn in_parallel<A: Send, B>(
     worth: bool,
     one: impl FnOnce() -> A + Send,

@@ -2,11 +2,12 @@
 
 use crate::numerics::CompensatedSum;
 
-/// Number of terms that a sum of powers adds directly. The Euler-Maclaurin formula gives the sum of all other terms.
+/// Number of terms that a sum of powers adds directly. The Euler-Maclaurin formula gives the sum of
+/// all other terms.
 const DIRECT_TERMS: u64 = 64;
 
-/// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula. After 64 direct terms the first omitted one is below 1e-18 of
-/// the sum.
+/// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula. After 64 direct terms the first
+/// omitted one is below 1e-18 of the sum.
 const EULER_MACLAURIN: [f64; 5] = [
     1.0 / 12.0,
     -1.0 / 720.0,
@@ -15,8 +16,8 @@ const EULER_MACLAURIN: [f64; 5] = [
     1.0 / 47_900_160.0,
 ];
 
-/// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`; 0 if `last` is below `first`. The relative
-/// error of the sum is a few units in the last place.
+/// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`; 0 if `last` is
+/// below `first`. The relative error of the sum is a few units in the last place.
 ///
 /// ```
 /// let exact: f64 = (1..=100_000).rev().map(|k| f64::from(k).powi(-2)).sum();

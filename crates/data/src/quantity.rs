@@ -18,7 +18,8 @@ const DIMENSIONS: &[(&str, &str, &str)] = &[
     ("1", "prefix of a number", "k, M, G, Ki, Mi, Gi, %"),
 ];
 
-/// Error for a typed text that is not a number with the expected unit. The string is the whole message.
+/// Error for a typed text that is not a number with the expected unit. The string is the whole
+/// message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct QuantityError(pub String);
@@ -45,11 +46,12 @@ impl QuantityError {
     }
 }
 
-/// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for m is 1.0e-5.
+/// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for
+/// m is 1.0e-5.
 ///
-/// The text may omit the unit. An `m` alone after the number is the prefix milli, but for the unit `m` it is the metre: `50m`
-/// is then fifty metres. An angle may be in degrees, `30°` or `30 deg`. If `unit` is `1`, the text may end in `%`, or in
-/// `Ki`, `Mi` or `Gi` for powers of 1024.
+/// The text may omit the unit. An `m` alone after the number is the prefix milli, but for the unit
+/// `m` it is the metre: `50m` is then fifty metres. An angle may be in degrees, `30°` or `30 deg`.
+/// If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -79,7 +81,8 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
         .ok_or_else(too_large)
 }
 
-/// Appends a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`. Other texts stay unchanged.
+/// Appends a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`.
+/// Other texts stay unchanged.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let is_number = split_number(typed.trim()).is_some_and(|(.., suffix)| suffix.trim().is_empty());
     if is_number && !unit.is_empty() {
@@ -89,8 +92,8 @@ pub fn in_unit(typed: &str, unit: &str) -> String {
     }
 }
 
-/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number without a unit it
-/// returns an empty text.
+/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number
+/// without a unit it returns an empty text.
 pub fn unit_of(shown: &str) -> &str {
     shown
         .trim_start_matches(['=', ' '])
@@ -135,8 +138,8 @@ fn split_number(text: &str) -> Option<(&str, i32, &str)> {
     Some((digits, 0, rest))
 }
 
-/// Returns the power of ten and the further factor by which a suffix such as `MPa` converts a number to the SI unit `unit`.
-/// Returns `None` if the suffix belongs to another unit.
+/// Returns the power of ten and the further factor by which a suffix such as `MPa` converts a
+/// number to the SI unit `unit`. Returns `None` if the suffix belongs to another unit.
 fn suffix_factor(suffix: &str, unit: &str) -> Option<(i32, f64)> {
     let suffix = canonical(suffix);
     let unit = canonical(unit);
@@ -167,12 +170,14 @@ fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true if a unit may have an SI prefix. In a power of a metre the power would apply to the prefix too.
+/// Returns true if a unit may have an SI prefix. In a power of a metre the power would apply to the
+/// prefix too.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '(', '³'])
 }
 
-/// Formats a value with its unit for readers, to four significant digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`, `0.7`.
+/// Formats a value with its unit for readers, to four significant digits: `2.67 MPa`, `100 nm`,
+/// `50 mJ/m²`, `0.7`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
@@ -181,8 +186,8 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)
 }
 
-/// Magnitude below which a quantity with a unit is written as zero. It is far below the smallest prefix, so only rounding
-/// errors are as small.
+/// Magnitude below which a quantity with a unit is written as zero. It is far below the smallest
+/// prefix, so only rounding errors are as small.
 const ROUNDING: f64 = 1e-36;
 
 /// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
@@ -202,8 +207,8 @@ pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
     )
 }
 
-/// Formats a value with its unit, rounded to the second significant digit of its `uncertainty`, which is not written:
-/// `50.05 mJ/m²` for ± 0.13 mJ/m².
+/// Formats a value with its unit, rounded to the second significant digit of its `uncertainty`,
+/// which is not written: `50.05 mJ/m²` for ± 0.13 mJ/m².
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
@@ -212,7 +217,8 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     if !(uncertainty > 0.0 && uncertainty.is_finite() && value.is_finite()) {
         return format_quantity(value, unit);
     }
-    // Digits of the value and of the uncertainty, of which the first decimals are these powers of ten.
+    // Digits of the value and of the uncertainty, of which the first decimals are these powers of
+    // ten.
     let [first, last] = [value, uncertainty].map(|number| number.abs().log10().floor());
     let digits = (first - last + 2.0).clamp(0.0, 17.0) as usize;
     match digits {
@@ -270,7 +276,8 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     }
 }
 
-/// Formats a mantissa times a power of ten, with an exponent if the number is much smaller or larger than one.
+/// Formats a mantissa times a power of ten, with an exponent if the number is much smaller or
+/// larger than one.
 fn decimal(mantissa: &str, exponent: i32) -> String {
     match exponent {
         -3..6 => shifted(mantissa, exponent),

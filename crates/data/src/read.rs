@@ -1,7 +1,8 @@
 //! Reading of files that users name. Only regular files up to a largest size are read.
 //!
-//! To open a pipe would wait for its writer, to open a terminal for its user, and a device may never end. The size that the
-//! system states for a file may be zero or too small, so the bytes that are read are counted.
+//! To open a pipe would wait for its writer, to open a terminal for its user, and a device may
+//! never end. The size that the system states for a file may be zero or too small, so the bytes
+//! that are read are counted.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -46,15 +47,16 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading. Returns an error at once for a pipe, a terminal or another device.
+/// Opens a regular file for reading. Returns an error at once for a pipe, a terminal or another
+/// device.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
-    // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular file is opened,
-    // as far as its kind is known in advance.
+    // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular
+    // file is opened, as far as its kind is known in advance.
     check_regular(&path.metadata()?)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Opening returns at once, as does reading of files such as `/proc/kmsg`, which the system reports as regular
-    // although they are not. A terminal does not become that of the process.
+    // Opening returns at once, as does reading of files such as `/proc/kmsg`, which the system
+    // reports as regular although they are not. A terminal does not become that of the process.
     #[cfg(unix)]
     {
         use rustix::fs::OFlags;
@@ -83,7 +85,8 @@ pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError>
     into_text(read_regular(path, limit)?)
 }
 
-/// Reads a stream, such as standard input, to its end. A stream of more than `limit` bytes is an error.
+/// Reads a stream, such as standard input, to its end. A stream of more than `limit` bytes is an
+/// error.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
     // One more byte distinguishes a file of the limit from a longer one.

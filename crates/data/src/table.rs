@@ -1,6 +1,7 @@
 //! Tables of results, written as CSV, as a NumPy array or as JSON objects.
 //!
-//! A CSV file begins with comments that state how the table was made. A NumPy array has one field for each column.
+//! A CSV file begins with comments that state how the table was made. A NumPy array has one field
+//! for each column.
 
 use super::npy;
 use serde::ser::{Serialize, Serializer};
@@ -34,7 +35,8 @@ pub struct Table<'a> {
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table to which columns can still be added, begun by [`Table::of`]. [`TableOf::done`] returns the finished [`Table`].
+/// A table to which columns can still be added, begun by [`Table::of`]. [`TableOf::done`] returns
+/// the finished [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -42,7 +44,8 @@ pub struct TableOf<'a, T> {
 }
 
 impl<'a> Table<'a> {
-    /// Begins a table that has no columns yet. Each call of `rows` returns an iterator over all rows.
+    /// Begins a table that has no columns yet. Each call of `rows` returns an iterator over all
+    /// rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf {
             rows: Rc::new(move || Box::new(rows())),
@@ -53,8 +56,8 @@ impl<'a> Table<'a> {
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column whose entry in each row is computed by `value`. A missing entry is empty in CSV, `null` in JSON and NaN
-    /// in an array.
+    /// Adds a column whose entry in each row is computed by `value`. A missing entry is empty in
+    /// CSV, `null` in JSON and NaN in an array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -103,7 +106,8 @@ impl Table<'_> {
         (self.rows)()
     }
 
-    /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how the table was made.
+    /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how
+    /// the table was made.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         provenance
             .lines()

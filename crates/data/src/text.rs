@@ -1,12 +1,14 @@
 //! Text for readers: SI prefixes, grouped digits, and the escape of text from files and arguments.
 //!
-//! A control character can clear a screen, write to the clipboard or invalidate the XML of a picture. A bidirectional control
-//! changes the apparent order of text. Both are replaced by their codes; all other characters are kept.
+//! A control character can clear a screen, write to the clipboard or invalidate the XML of a
+//! picture. A bidirectional control changes the apparent order of text. Both are replaced by their
+//! codes; all other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// SI prefixes that are read, with their powers of ten. Of several prefixes for a power, the first one is written.
+/// SI prefixes that are read, with their powers of ten. Of several prefixes for a power, the first
+/// one is written.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -58,7 +60,8 @@ pub fn rounded_up(value: f64) -> f64 {
     }
 }
 
-/// Returns true for a character that could change how other text is displayed, such as a control or bidirectional control.
+/// Returns true for a character that could change how other text is displayed, such as a control or
+/// bidirectional control.
 pub fn is_control(c: char) -> bool {
     let bidirectional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let invisible = matches!(
@@ -70,8 +73,8 @@ pub fn is_control(c: char) -> bool {
     c.is_control() || bidirectional || invisible
 }
 
-/// Replaces each character for which [`is_control`] is true by its code in Rust, such as `\n` or `\u{1b}`. The result is one
-/// line.
+/// Replaces each character for which [`is_control`] is true by its code in Rust, such as `\n` or
+/// `\u{1b}`. The result is one line.
 pub fn printable(text: &str) -> Cow<'_, str> {
     escaped(text, is_control)
 }
@@ -81,7 +84,8 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Returns a path as text on one line, in which control characters are replaced as by [`printable`].
+/// Returns a path as text on one line, in which control characters are replaced as by
+/// [`printable`].
 pub fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
@@ -160,7 +164,8 @@ fn is_unit(word: &str) -> bool {
         || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
 }
 
-/// Returns true if a line must not break between a word and the next one, as inside `16 384` or before a unit.
+/// Returns true if a line must not break between a word and the next one, as inside `16 384` or
+/// before a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -208,8 +213,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 /// Number of characters after which a message cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Returns text from a file or a user as messages repeat it: on one line, cut after 80 characters, with control characters
-/// replaced as by [`printable`].
+/// Returns text from a file or a user as messages repeat it: on one line, cut after 80 characters,
+/// with control characters replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };

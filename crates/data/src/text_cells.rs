@@ -10,8 +10,9 @@ impl Separator {
     /// White space: the columns are separated by any number of blanks and tabs.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a comma, else white space. If
-    /// each word between blanks is a number with a comma inside, as in `0,5 1,25`, white space is the separator.
+    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a
+    /// comma, else white space. If each word between blanks is a number with a comma inside, as in
+    /// `0,5 1,25`, white space is the separator.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -23,8 +24,8 @@ impl Separator {
             .map_or(Separator::SPACE, Separator)
     }
 
-    /// Splits a line, which must have no blanks at its ends, into columns. Separators within quotation marks do not split the
-    /// line.
+    /// Splits a line, which must have no blanks at its ends, into columns. Separators within
+    /// quotation marks do not split the line.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -43,7 +44,8 @@ impl Separator {
     }
 }
 
-/// Returns a function that is called for the characters of a line in turn. It returns true outside quotation marks.
+/// Returns a function that is called for the characters of a line in turn. It returns true outside
+/// quotation marks.
 fn outside_quotes() -> impl FnMut(char) -> bool {
     let mut is_inside = false;
     move |c| {
@@ -52,7 +54,8 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
     }
 }
 
-/// Returns true for two or more words that are numbers with the same decimal mark, and with commas only inside words.
+/// Returns true for two or more words that are numbers with the same decimal mark, and with commas
+/// only inside words.
 fn has_decimal_commas(line: &str) -> bool {
     let mut decimal = Decimal::default();
     let is_number = |word: &str| {
@@ -87,8 +90,8 @@ const MISSING: [&str; 9] = [
     "bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*",
 ];
 
-/// Text that states which decimal marks and separators of thousands the numbers in a text table may have. Messages about a
-/// cell with [`TextCell::OtherMark`] contain it.
+/// Text that states which decimal marks and separators of thousands the numbers in a text table may
+/// have. Messages about a cell with [`TextCell::OtherMark`] contain it.
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
@@ -97,14 +100,14 @@ const GROUPING: [char; 8] = [
     ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
 ];
 
-/// Reader of the numbers in a text table. It takes the decimal mark and the separator of thousands from the first numbers
-/// that have them.
+/// Reader of the numbers in a text table. It takes the decimal mark and the separator of thousands
+/// from the first numbers that have them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
     /// Decimal mark.
     mark: Option<char>,
-    /// Comma or point that separates thousands. A number with both marks, as `1,234.5`, or with two groups, as `1,234,567`,
-    /// determines it.
+    /// Comma or point that separates thousands. A number with both marks, as `1,234.5`, or with two
+    /// groups, as `1,234,567`, determines it.
     group: Option<char>,
     /// True after a number whose comma cannot separate thousands, as `0,5`.
     is_certain: bool,
@@ -112,7 +115,8 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// Reads the content of a cell. The first number with a decimal mark determines the mark of all numbers after it.
+    /// Reads the content of a cell. The first number with a decimal mark determines the mark of all
+    /// numbers after it.
     pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
         // The minus sign of spreadsheets and papers.
         if cell.contains('\u{2212}') {
@@ -161,8 +165,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if the numbers read so far leave open whether their commas are decimal marks or separate thousands, as
-    /// in `1,234`.
+    /// Returns an error if the numbers read so far leave open whether their commas are decimal
+    /// marks or separate thousands, as in `1,234`.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful {
@@ -178,8 +182,8 @@ fn may_be_grouped(cell: &str) -> bool {
     ungrouped(cell, Some(',')).is_some_and(|(_, mark)| mark == Some(','))
 }
 
-/// Returns a number without the marks that separate its thousands, and this mark. A single comma or point separates thousands
-/// if it is the mark `known`, or if a decimal mark follows.
+/// Returns a number without the marks that separate its thousands, and this mark. A single comma or
+/// point separates thousands if it is the mark `known`, or if a decimal mark follows.
 fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
     let unsigned = cell.trim_start_matches(['+', '-']);
     let mark = unsigned

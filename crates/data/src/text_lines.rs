@@ -27,7 +27,8 @@ pub enum TextFault {
         /// Number of the line, from 1.
         line: usize,
     },
-    /// It cannot be decided whether the commas in the numbers are decimal marks or separate thousands.
+    /// It cannot be decided whether the commas in the numbers are decimal marks or separate
+    /// thousands.
     #[error("each comma in a number may be a decimal mark or separate thousands, as in 1,234")]
     DoubtfulCommas,
     /// There is not enough memory to convert the text to UTF-8.
@@ -40,8 +41,8 @@ impl TextFault {
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
-/// Calls `take` for each line of a text, with the number of the line from 1, and the line without white space around it. The
-/// comments above a CSV table of results are skipped.
+/// Calls `take` for each line of a text, with the number of the line from 1, and the line without
+/// white space around it. The comments above a CSV table of results are skipped.
 ///
 /// # Errors
 /// Returns the error of `take`, or a [`TextFault`] if the bytes cannot be read as text.
@@ -65,7 +66,8 @@ pub fn each_line<E: From<TextFault>>(
     Ok(())
 }
 
-/// Returns the bytes of a text without its byte order mark. UTF-16 becomes UTF-8, with U+FFFD for invalid characters.
+/// Returns the bytes of a text without its byte order mark. UTF-16 becomes UTF-8, with U+FFFD for
+/// invalid characters.
 fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
     let text = &bytes[mark..];
@@ -82,8 +84,8 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     ))
 }
 
-/// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252, in which older programs
-/// write µ and °.
+/// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252,
+/// in which older programs write µ and °.
 fn line_text(text: &[u8], line: usize) -> Result<Cow<'_, str>, TextFault> {
     if text.len() > TextFault::LONGEST_LINE {
         return Err(TextFault::LongLine { line });

@@ -58,7 +58,8 @@ pub struct TextColumn {
 /// Number of last lines in which names of columns are searched.
 const LAST_LINES: usize = 64;
 
-/// The last lines (at most 64) of a text file before its table of numbers. One of these lines may name the columns.
+/// The last lines (at most 64) of a text file before its table of numbers. One of these lines may
+/// name the columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeadLines(VecDeque<String>);
 
@@ -72,9 +73,10 @@ impl HeadLines {
             .push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Returns the name, the meaning and the unit of each of `count` columns, from the last line that has a name for each
-    /// column and from a line of units below it. A line may have up to `cells` cells, of which empty ones are ignored. If no
-    /// line has names, all names are empty. `is_unit` returns true for known units.
+    /// Returns the name, the meaning and the unit of each of `count` columns, from the last line
+    /// that has a name for each column and from a line of units below it. A line may have up to
+    /// `cells` cells, of which empty ones are ignored. If no line has names, all names are empty.
+    /// `is_unit` returns true for known units.
     pub fn columns(
         &self,
         count: usize,
@@ -143,8 +145,9 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|one| one == word)
 }
 
-/// Returns the cells of a line of names, if there are `count` of them. With the separator of the numbers there may be up to
-/// `most`. Otherwise the line is split at its own separator, or after closing brackets.
+/// Returns the cells of a line of names, if there are `count` of them. With the separator of the
+/// numbers there may be up to `most`. Otherwise the line is split at its own separator, or after
+/// closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = match line.split_once([':', '=']) {
         Some((key, cells))
@@ -196,9 +199,9 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Returns name, meaning and unit from the name of a column. The unit is in brackets, behind a slash, or the last word, as in
-/// `Lateral um`. An unknown unit is recognised in square brackets, behind a slash, or as a short word in round brackets. Thus
-/// `height (measured)` is a name.
+/// Returns name, meaning and unit from the name of a column. The unit is in brackets, behind a
+/// slash, or the last word, as in `Lateral um`. An unknown unit is recognised in square brackets,
+/// behind a slash, or as a short word in round brackets. Thus `height (measured)` is a name.
 fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let bracket = |(at, mark): (usize, &str)| {
         let unit = bare(cell[at + 1..].split([']', ')']).next()?);

@@ -1,13 +1,14 @@
-//! Premises of the model that a result does not meet: the list of warnings, their conditions and their words.
+//! Premises of the model that a result does not meet: the list of warnings, their conditions and
+//! their words.
 //!
-//! This is the only list. A number that is computed although a premise does not hold carries the [`Warning`] of this premise,
-//! and every report prints the same sentence.
+//! This is the only list. A number that is computed although a premise does not hold carries the
+//! [`Warning`] of this premise, and every report prints the same sentence.
 
 use crate::quantity::{format_quantity, format_rounded};
 use std::fmt::{Display, Formatter, Result};
 
-/// A premise of the model that a result does not meet, with the values that show it. `Display` writes one line: what does not
-/// hold, what follows for the numbers, and the step that helps.
+/// A premise of the model that a result does not meet, with the values that show it. `Display`
+/// writes one line: what does not hold, what follows for the numbers, and the step that helps.
 ///
 /// ```
 /// use asperity_data::Warning;
@@ -31,25 +32,28 @@ pub enum Warning {
         /// Largest pulling force in N on the rest of the unloading; `None` if it is not known.
         further: Option<f64>,
     },
-    /// Fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] springs were in contact at any moment of the loading.
+    /// Fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] springs were in contact at any moment of
+    /// the loading.
     FewSpringsInContact {
         /// Largest number of springs in contact.
         springs: u64,
     },
-    /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`] springs.
+    /// The shortest wave of the roughness has fewer than [`Warning::LEAST_SPRINGS_PER_WAVE`]
+    /// springs.
     FewSpringsPerWave {
         /// Number of springs on the shortest wave.
         springs: f64,
     },
-    /// A stated wavelength is not a whole part of the length, and the wave that is used differs by more than
-    /// [`Warning::LARGEST_CHANGE_OF_WAVE`].
+    /// A stated wavelength is not a whole part of the length, and the wave that is used differs by
+    /// more than [`Warning::LARGEST_CHANGE_OF_WAVE`].
     RoundedWaves {
         /// Longest and shortest wavelength in m as stated.
         stated: [f64; 2],
         /// Longest and shortest wavelength in m as used.
         used: [f64; 2],
     },
-    /// A nominally flat random roughness has fewer than [`Warning::LEAST_LONG_WAVES`] of its longest waves on the length.
+    /// A nominally flat random roughness has fewer than [`Warning::LEAST_LONG_WAVES`] of its
+    /// longest waves on the length.
     FewLongWaves {
         /// Number of the longest waves on the length of the profile.
         waves: f64,
@@ -61,25 +65,29 @@ pub enum Warning {
         /// True for a measured surface, whose units may be wrong.
         is_measured: bool,
     },
-    /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of JKR nor the rule of Hess applies.
+    /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of JKR nor the
+    /// rule of Hess applies.
     LongRangedAttraction {
         /// Tabor number.
         tabor_number: f64,
     },
-    /// The Tabor number is below [`Warning::JKR_TABOR_NUMBER`]: the energy dissipated in a loop is overestimated.
+    /// The Tabor number is below [`Warning::JKR_TABOR_NUMBER`]: the energy dissipated in a loop is
+    /// overestimated.
     FiniteRangedAttraction {
         /// Tabor number.
         tabor_number: f64,
     },
-    /// The heights of a file or an array count as the equivalent profile, and nobody has stated that they are one.
+    /// The heights of a file or an array count as the equivalent profile, and nobody has stated
+    /// that they are one.
     HeightsAsProfile,
-    /// Heights that count as the equivalent profile are smooth and curved as a cut through a round body would be.
+    /// Heights that count as the equivalent profile are smooth and curved as a cut through a round
+    /// body would be.
     CutLikeHeights {
         /// Radius in m of the sphere whose cut has these heights.
         radius: f64,
     },
-    /// A measured surface is longer than the profile, so that its longest waves are left out, and the rms height changes by more
-    /// than [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
+    /// A measured surface is longer than the profile, so that its longest waves are left out, and
+    /// the rms height changes by more than [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
     ScanLongerThanLength {
         /// Length of the scan in m.
         scan: f64,
@@ -88,15 +96,16 @@ pub enum Warning {
         /// Rms heights in m of the surface and of the profile.
         rms_heights: [f64; 2],
     },
-    /// The waves of a wavy sphere are so steep that the rule of Hess differs from the theory of JKR.
+    /// The waves of a wavy sphere are so steep that the rule of Hess differs from the theory of
+    /// JKR.
     SteepWaves {
         /// Ratio λ²/(AR) of wavelength λ, amplitude A and radius R.
         ratio: f64,
         /// Factor by which the waves raise the pull-off force of the sphere by the theory of JKR.
         jkr_factor: f64,
     },
-    /// The equivalent profile of a form from a table falls at a distance from the axis, so that the rule of Hess differs from
-    /// the theory of JKR.
+    /// The equivalent profile of a form from a table falls at a distance from the axis, so that the
+    /// rule of Hess differs from the theory of JKR.
     FallingProfile {
         /// Distance from the axis in m.
         from: f64,
@@ -151,51 +160,58 @@ impl Warning {
     /// Smallest number of springs in contact at which a force is accurate.
     pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
 
-    /// Smallest number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error
-    /// of about one per cent (docs/accuracy.md).
+    /// Smallest number of springs on the shortest wave. With this number the adhesion force of a
+    /// rough profile has an error of about one per cent (docs/accuracy.md).
     pub const LEAST_SPRINGS_PER_WAVE: u64 = 4;
 
-    /// Largest relative change by which a wavelength may be rounded to a whole part of the length without a warning.
+    /// Largest relative change by which a wavelength may be rounded to a whole part of the length
+    /// without a warning.
     pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
 
-    /// Largest relative change of the rms height by which a profile may be shorter than a scan without a warning.
+    /// Largest relative change of the rms height by which a profile may be shorter than a scan
+    /// without a warning.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
-    /// Smallest number of the longest waves on the length of a nominally flat body at which random profiles scatter little
-    /// (docs/learn.md).
+    /// Smallest number of the longest waves on the length of a nominally flat body at which random
+    /// profiles scatter little (docs/learn.md).
     pub const LEAST_LONG_WAVES: f64 = 4.0;
 
-    /// Largest rms gradient of the roughness for which slopes are small, as linear elasticity assumes.
+    /// Largest rms gradient of the roughness for which slopes are small, as linear elasticity
+    /// assumes.
     pub const LARGEST_GRADIENT: f64 = 1.0;
 
-    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the rule of Hess applies.
+    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the
+    /// rule of Hess applies.
     pub const LEAST_TABOR_NUMBER: f64 = 1.0;
 
-    /// Tabor number below which attraction of finite range dissipates less energy than the model computes.
+    /// Tabor number below which attraction of finite range dissipates less energy than the model
+    /// computes.
     pub const JKR_TABOR_NUMBER: f64 = 5.0;
 
     /// Number of measured profiles whose moments are as accurate as the moments of a map.
     pub const MANY_PROFILES: u64 = 100;
 
-    /// Share of long waves in the squared height of a scan above which the rms height depends on the length of the scan.
+    /// Share of long waves in the squared height of a scan above which the rms height depends on
+    /// the length of the scan.
     pub const MANY_LONG_WAVES: f64 = 0.3;
 
-    /// Share of long waves in the squared height of a scan above which the waves are likely to belong to a body or to a bow
-    /// of the scanner.
+    /// Share of long waves in the squared height of a scan above which the waves are likely to
+    /// belong to a body or to a bow of the scanner.
     pub const FORM_OF_SCAN: f64 = 0.9;
 
     /// Largest ratio of the rms heights of two samples of one roughness.
     pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
 
-    /// Smallest and largest factor by which adhesion near its boundary varies between single measured profiles
-    /// (docs/surface-estimate.md).
+    /// Smallest and largest factor by which adhesion near its boundary varies between single
+    /// measured profiles (docs/surface-estimate.md).
     pub const BOUNDARY_FACTORS: [f64; 2] = [1.4, 3.3];
 
     /// Ratio λ²/(AR) below which the equivalent profile of a wavy sphere falls somewhere.
     pub const LEAST_WAVE_RATIO: f64 = 12.391;
 
-    /// Returns a warning if a body has few springs in contact. `springs` is the largest number of springs in contact during
-    /// the loading; a body that never touches, with zero springs, has no warning.
+    /// Returns a warning if a body has few springs in contact. `springs` is the largest number of
+    /// springs in contact during the loading; a body that never touches, with zero springs, has no
+    /// warning.
     pub fn of_springs_in_contact(springs: u64) -> Option<Warning> {
         let is_few = (1..Self::LEAST_SPRINGS_IN_CONTACT).contains(&springs);
         is_few.then_some(Warning::FewSpringsInContact { springs })
@@ -207,19 +223,22 @@ impl Warning {
         is_few.then_some(Warning::FewSpringsPerWave { springs })
     }
 
-    /// Returns a warning if the longest and the shortest wavelength in m that are used differ from those that are stated.
+    /// Returns a warning if the longest and the shortest wavelength in m that are used differ from
+    /// those that are stated.
     pub fn of_waves(stated: [f64; 2], used: [f64; 2]) -> Option<Warning> {
         let change = |stated: f64, used: f64| (used / stated - 1.0).abs();
         let largest = change(stated[0], used[0]).max(change(stated[1], used[1]));
         (largest > Self::LARGEST_CHANGE_OF_WAVE).then_some(Warning::RoundedWaves { stated, used })
     }
 
-    /// Returns a warning if a nominally flat random roughness has few of its longest waves on the length of the profile.
+    /// Returns a warning if a nominally flat random roughness has few of its longest waves on the
+    /// length of the profile.
     pub fn of_long_waves(waves: f64) -> Option<Warning> {
         (waves < Self::LEAST_LONG_WAVES).then_some(Warning::FewLongWaves { waves })
     }
 
-    /// Returns a warning if the slopes of a roughness are not small. `is_measured` is true for a measured surface.
+    /// Returns a warning if the slopes of a roughness are not small. `is_measured` is true for a
+    /// measured surface.
     pub fn of_gradient(rms_gradient: f64, is_measured: bool) -> Option<Warning> {
         let is_steep = rms_gradient > Self::LARGEST_GRADIENT;
         is_steep.then_some(Warning::SteepRoughness {
@@ -237,8 +256,8 @@ impl Warning {
         has_finite_range.then_some(Warning::FiniteRangedAttraction { tabor_number })
     }
 
-    /// Returns a warning if a scan is longer than the profile, so that the profile has a smaller rms height. `rms_heights` are
-    /// those of the surface and of the profile in m.
+    /// Returns a warning if a scan is longer than the profile, so that the profile has a smaller
+    /// rms height. `rms_heights` are those of the surface and of the profile in m.
     pub fn of_scan(scan: f64, length: f64, rms_heights: [f64; 2]) -> Option<Warning> {
         // A profile as long as the scan has the same waves.
         let is_longer = scan > length * (1.0 + 1e-9);
@@ -251,13 +270,14 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and `jkr_factor` the factor by which the
-    /// waves raise the pull-off force by the theory of JKR.
+    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and
+    /// `jkr_factor` the factor by which the waves raise the pull-off force by the theory of JKR.
     pub fn of_wave_ratio(ratio: f64, jkr_factor: f64) -> Option<Warning> {
         (ratio < Self::LEAST_WAVE_RATIO).then_some(Warning::SteepWaves { ratio, jkr_factor })
     }
 
-    /// Returns a warning if the rms heights in m of two named surfaces differ too much for samples of one roughness.
+    /// Returns a warning if the rms heights in m of two named surfaces differ too much for samples
+    /// of one roughness.
     pub fn of_rms_heights(flattest: (String, f64), roughest: (String, f64)) -> Option<Warning> {
         let is_far = roughest.1 / flattest.1 > Self::LARGEST_RATIO_OF_HEIGHTS;
         is_far.then_some(Warning::SurfacesFarApart { flattest, roughest })
@@ -276,13 +296,14 @@ impl Warning {
 
 /// Consequences of the warnings for stated errors.
 impl Warning {
-    /// Returns true if the results are not those of the stated body, so that no error of them is known.
+    /// Returns true if the results are not those of the stated body, so that no error of them is
+    /// known.
     pub fn leaves_errors_unknown(&self) -> bool {
         matches!(self, Warning::ContactAtEnds { .. })
     }
 
-    /// Returns true if forces may be wrong by more than the errors due to the number of springs, the sample of profiles and the
-    /// measured spectrum together.
+    /// Returns true if forces may be wrong by more than the errors due to the number of springs,
+    /// the sample of profiles and the measured spectrum together.
     pub fn exceeds_errors(&self) -> bool {
         matches!(
             self,
@@ -299,7 +320,8 @@ impl Warning {
 
 /// Words of the warnings.
 impl Warning {
-    /// Returns the name of the premise: a key in `snake_case`, the same in every version, for counting and for tables.
+    /// Returns the name of the premise: a key in `snake_case`, the same in every version, for
+    /// counting and for tables.
     pub fn name(&self) -> &'static str {
         match self {
             Warning::ContactAtEnds { .. } => "contact_at_ends",

@@ -59,14 +59,14 @@ impl WriteError {
     }
 }
 
-/// Returns an error unless [`write_new`] could write the file now, and leaves no file behind. A program calls this function
-/// before a long computation.
+/// Returns an error unless [`write_new`] could write the file now, and leaves no file behind. A
+/// program calls this function before a long computation.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
 }
 
-/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe the function waits until
-/// another program reads it.
+/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe
+/// the function waits until another program reads it.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -82,8 +82,8 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file through a temporary file in the same folder. Other programs see the old file or the whole new one.
-/// An existing file is replaced only if `overwrite` is true.
+/// Writes a regular file through a temporary file in the same folder. Other programs see the old
+/// file or the whole new one. An existing file is replaced only if `overwrite` is true.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -108,8 +108,8 @@ pub fn write_new_file(
     sync_folder(folder_of(&place)).map_err(failed)
 }
 
-/// Removes the temporary files that killed processes have left in a folder: those older than a minute that no process holds
-/// locked. Files that cannot be removed stay.
+/// Removes the temporary files that killed processes have left in a folder: those older than a
+/// minute that no process holds locked. Files that cannot be removed stay.
 pub fn remove_abandoned(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -122,7 +122,8 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Returns true if a temporary file belongs to no process any more. Its process locks it just after its creation.
+/// Returns true if a temporary file belongs to no process any more. Its process locks it just after
+/// its creation.
 fn is_abandoned(path: &Path) -> bool {
     let Ok(file) = crate::read::open_regular(path) else {
         return false;
@@ -135,7 +136,8 @@ fn is_abandoned(path: &Path) -> bool {
 /// A file that is being written. It is removed unless it gets a name.
 struct Temporary {
     file: File,
-    /// Temporary path of the file; `None` on Linux, where the system removes the file however the process ends.
+    /// Temporary path of the file; `None` on Linux, where the system removes the file however the
+    /// process ends.
     name: Option<TempPath>,
 }
 
@@ -164,7 +166,8 @@ impl Temporary {
     }
 }
 
-/// An error of the package `tempfile` without the name of the temporary file, which it appends to its text.
+/// An error of the package `tempfile` without the name of the temporary file, which it appends to
+/// its text.
 fn without_path(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {
@@ -213,7 +216,8 @@ fn names() -> tempfile::Builder<'static, 'static> {
     names
 }
 
-/// Makes a file without a name in a folder; `None` where the system or the file system has no such files.
+/// Makes a file without a name in a folder; `None` where the system or the file system has no such
+/// files.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Option<File> {
     use rustix::fs::{CWD, Mode, OFlags, openat};
@@ -253,8 +257,8 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
         path
     };
     match File::open(path).and_then(|folder| folder.sync_all()) {
-        // Some systems cannot open a folder, some folders may not be read, and some file systems cannot synchronise one:
-        // there, names are as safe as the system makes them.
+        // Some systems cannot open a folder, some folders may not be read, and some file systems
+        // cannot synchronise one: there, names are as safe as the system makes them.
         Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => {
             Ok(())
         }
@@ -277,8 +281,8 @@ fn fill(
     buffered.flush()
 }
 
-/// Returns the path to which `path` leads through links, with the permissions of the file there, if it exists. Returns `None`
-/// for a pipe or a device.
+/// Returns the path to which `path` leads through links, with the permissions of the file there, if
+/// it exists. Returns `None` for a pipe or a device.
 fn target(
     path: &Path,
     overwrite: bool,

@@ -33,7 +33,8 @@ impl Baseline {
         }
     }
 
-    /// Returns the deviations of `values` from the line. The first value lies at the beginning of the line.
+    /// Returns the deviations of `values` from the line. The first value lies at the beginning of
+    /// the line.
     pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
         let middle = 0.5 * (self.count - 1.0);
         values
@@ -43,9 +44,9 @@ impl Baseline {
     }
 }
 
-/// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first sum belongs to the
-/// first value, the second to the first two values, and so on. Each new row is rotated into the triangular matrix of the
-/// rows before.
+/// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first
+/// sum belongs to the first value, the second to the first two values, and so on. Each new row is
+/// rotated into the triangular matrix of the rows before.
 pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
     let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
@@ -70,7 +71,8 @@ pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     values.enumerate().map(add).collect()
 }
 
-/// Returns orthonormal columns that span the given columns. A column that depends on the columns before it becomes zero.
+/// Returns orthonormal columns that span the given columns. A column that depends on the columns
+/// before it becomes zero.
 pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns {

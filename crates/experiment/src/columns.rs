@@ -1,4 +1,5 @@
-//! The columns of a measured curve: which columns hold displacement, force and segment, and in which units.
+//! The columns of a measured curve: which columns hold displacement, force and segment, and in
+//! which units.
 
 use crate::metadata::Metadata;
 use crate::options::CurveOptions;
@@ -7,9 +8,10 @@ use asperity_data::{format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// For displacement and force: name in words, SI unit, example of a unit, and known names of columns as letters. Preferred
-/// names come first. The displacement of the instrument is preferred to the displacement of the body, which lacks the
-/// deflection of the instrument. A force is preferred to a deflection.
+/// For displacement and force: name in words, SI unit, example of a unit, and known names of
+/// columns as letters. Preferred names come first. The displacement of the instrument is preferred
+/// to the displacement of the body, which lacks the deflection of the instrument. A force is
+/// preferred to a deflection.
 const QUANTITIES: [(&str, &str, &str, &str); 2] = [
     (
         "displacement",
@@ -32,8 +34,8 @@ const QUANTITIES: [(&str, &str, &str, &str); 2] = [
 const OF_BODY: &str = "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
 /// Names of a column of segments.
 const SEGMENT: &str = "segment segmentname segmenttype phase direction";
-/// Words for approach and for retraction in the names of columns side by side, and words for a pause in the names of
-/// segments.
+/// Words for approach and for retraction in the names of columns side by side, and words for a
+/// pause in the names of segments.
 const DIRECTIONS: [&str; 2] = [
     "approach approaching extend extension ext ex trace loading advance forward",
     "retraction retract retracting ret rt retrace withdraw unloading backward",
@@ -60,9 +62,11 @@ pub(crate) struct Choice {
     /// One pair, or two pairs: one for an approach, one for the retraction beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Travel of the piezo in m, over which forces without a column of displacements are evenly spaced.
+    /// Travel of the piezo in m, over which forces without a column of displacements are evenly
+    /// spaced.
     pub ramp: Option<f64>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the
+    /// instrument.
     pub of_body: Option<String>,
     /// The columns with their units, in words.
     pub assumed: String,
@@ -211,8 +215,8 @@ impl Choice {
     }
 }
 
-/// Returns the SI value of 1 in a column of a quantity, and the unit in words. The options have precedence over the file. A
-/// deflection becomes a force by the stiffness that the file states.
+/// Returns the SI value of 1 in a column of a quantity, and the unit in words. The options have
+/// precedence over the file. A deflection becomes a force by the stiffness that the file states.
 fn of_one(
     quantity: usize,
     stated: Option<&str>,
@@ -264,8 +268,8 @@ fn of_one(
     Ok((value, shown(text)))
 }
 
-/// Returns the SI value of 1 in a column of a deflection, which is a length or a voltage, and what makes it a force.
-/// Returns `None` for another unit.
+/// Returns the SI value of 1 in a column of a deflection, which is a length or a voltage, and what
+/// makes it a force. Returns `None` for another unit.
 fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), SurfaceError>> {
     let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
     let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
@@ -343,8 +347,9 @@ impl Named {
     }
 }
 
-/// Returns the indices of the columns of displacement and force that names identify, twice if approach and retraction are
-/// side by side. The error is the name of the quantity that no column names.
+/// Returns the indices of the columns of displacement and force that names identify, twice if
+/// approach and retraction are side by side. The error is the name of the quantity that no column
+/// names.
 fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     let of = |quantity: usize, direction: Option<usize>| {
         let is = |known: &str| {

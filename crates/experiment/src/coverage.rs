@@ -26,7 +26,8 @@ impl fmt::Display for Held {
     }
 }
 
-/// Even seeds give smooth spheres and odd seeds rough ones: 8 curves, or 200 with `TEST_EFFORT=200`.
+/// Even seeds give smooth spheres and odd seeds rough ones: 8 curves, or 200 with
+/// `TEST_EFFORT=200`.
 #[test]
 #[ignore = "fits of many curves take ten seconds or more"]
 fn intervals_hold_the_truth_of_most_spheres() {

@@ -1,4 +1,5 @@
-//! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing is positive.
+//! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing
+//! is positive.
 
 use crate::baseline::{ends, right_angled};
 use crate::error::{ExperimentError, refused};
@@ -17,57 +18,64 @@ const MOST_POINTS: usize = 4096;
 const FEWEST_POINTS: usize = 4 * FEWEST;
 /// Noise that is assumed for a curve without noise, as a share of the range of the force.
 const NO_NOISE: f64 = 1e-6;
-/// Force at the end of the approach, in standard deviations of the noise. A force below this value is a tension, so the
-/// sign of the file is in doubt.
+/// Force at the end of the approach, in standard deviations of the noise. A force below this value
+/// is a tension, so the sign of the file is in doubt.
 const PULLS: f64 = -5.0;
 
-/// Measured force curve in SI units. The displacement grows when the body is pressed on. The force is positive in
-/// compression; before contact it is zero except for noise and drift.
+/// Measured force curve in SI units. The displacement grows when the body is pressed on. The force
+/// is positive in compression; before contact it is zero except for noise and drift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredCurve {
-    /// Displacement of the instrument at each point, in m. If the file has only the displacement of the body, and no
-    /// stiffness of the instrument is known, these values are displacements of the body.
+    /// Displacement of the instrument at each point, in m. If the file has only the displacement of
+    /// the body, and no stiffness of the instrument is known, these values are displacements of the
+    /// body.
     pub displacement: Vec<f64>,
     /// Force at each point, in N.
     pub force: Vec<f64>,
-    /// Index, from 0, of the segment of each point. The body is pressed in segments with even indices, and pulled in
-    /// segments with odd indices.
+    /// Index, from 0, of the segment of each point. The body is pressed in segments with even
+    /// indices, and pulled in segments with odd indices.
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force, N: from the points before contact, or [`CurveOptions::noise`].
+    /// Standard deviation of the noise of the force, N: from the points before contact, or
+    /// [`CurveOptions::noise`].
     pub noise: f64,
-    /// Number of points of the file that are used. It is larger than the number of values of [`Self::force`] if the
-    /// curve is long, because neighbouring points are then averaged.
+    /// Number of points of the file that are used. It is larger than the number of values of
+    /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
     /// Displacement at the end of each segment, in m.
     pub(crate) turns: Vec<f64>,
-    /// Changes of the force that remain in the curve without contact, in N: over time, over the displacement, and from
-    /// before to after contact. A change that was not found is 0.
+    /// Changes of the force that remain in the curve without contact, in N: over time, over the
+    /// displacement, and from before to after contact. A change that was not found is 0.
     pub(crate) remaining: [f64; 3],
     /// Time and displacement of each point, as shares of the whole curve.
     pub(crate) shares: [Vec<f64>; 2],
-    /// Whether the zero of the force, a drift and a tilt were estimated from the points without contact and subtracted.
+    /// Whether the zero of the force, a drift and a tilt were estimated from the points without
+    /// contact and subtracted.
     pub(crate) is_estimated: [bool; 3],
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the
+    /// instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences on the assumptions and changes made when the curve was read, such as the columns and units.
+    /// Sentences on the assumptions and changes made when the curve was read, such as the columns
+    /// and units.
     pub statements: Vec<String>,
 }
 
 impl MeasuredCurve {
-    /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be compressed by gzip.
+    /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be
+    /// compressed by gzip.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read or has no columns of displacement and force. It also returns an
-    /// error if the curve has no points before contact, no points in contact, or no retraction. A curve without a
-    /// retraction is allowed if [`CurveOptions::segments`] selects only the first approach.
+    /// Returns an error if the file cannot be read or has no columns of displacement and force. It
+    /// also returns an error if the curve has no points before contact, no points in contact, or no
+    /// retraction. A curve without a retraction is allowed if [`CurveOptions::segments`] selects
+    /// only the first approach.
     pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
         MeasuredCurve::parse(path, &content(path)?, options)
     }
@@ -82,9 +90,16 @@ impl MeasuredCurve {
     /// use std::path::Path;
     ///
     /// let way = |i: i32| if i < 150 { i - 100 } else { 200 - i }; // nm
-    /// let rows: String = (0..300).map(way).map(|d| format!("{d},{}\n", 2 * d.max(0))).collect();
+    /// let rows: String = (0..300)
+    ///     .map(way)
+    ///     .map(|d| format!("{d},{}\n", 2 * d.max(0)))
+    ///     .collect();
     /// let text = format!("displacement [nm],force [nN]\n{rows}");
-    /// let curve = MeasuredCurve::parse(Path::new("curve.csv"), text.as_bytes(), &CurveOptions::default())?;
+    /// let curve = MeasuredCurve::parse(
+    ///     Path::new("curve.csv"),
+    ///     text.as_bytes(),
+    ///     &CurveOptions::default(),
+    /// )?;
     /// assert_eq!(curve.points().last(), Some((-99e-9, 0.0)));
     /// assert!(curve.statements[0].contains("2 segments"));
     /// # Ok::<(), asperity_experiment::ExperimentError>(())
@@ -97,11 +112,13 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
     }
 
-    /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a value that is not finite
-    /// is left out. The options `columns`, `units` and `ramp` have no effect, because they describe a file.
+    /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a
+    /// value that is not finite is left out. The options `columns`, `units` and `ramp` have no
+    /// effect, because they describe a file.
     ///
     /// # Errors
-    /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse a file with this curve.
+    /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse
+    /// a file with this curve.
     ///
     /// ```
     /// use asperity_experiment::{CurveOptions, MeasuredCurve};
@@ -113,7 +130,10 @@ impl MeasuredCurve {
     /// let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions::default())?;
     /// assert_eq!((curve.points, curve.segment[299]), (300, 1));
     /// assert!(curve.touch.abs() < 2e-9 && curve.pull_off_force().is_none());
-    /// assert!(MeasuredCurve::from_columns(&displacement, &force[1..], &CurveOptions::default()).is_err());
+    /// assert!(
+    ///     MeasuredCurve::from_columns(&displacement, &force[1..], &CurveOptions::default())
+    ///         .is_err()
+    /// );
     /// # Ok::<(), asperity_experiment::ExperimentError>(())
     /// ```
     pub fn from_columns(
@@ -269,8 +289,8 @@ impl MeasuredCurve {
             .zip(self.force.iter().copied())
     }
 
-    /// Returns the largest tensile force during the retractions in N, as a positive number; `None` if this force is at
-    /// most 5 times the [`Self::noise`].
+    /// Returns the largest tensile force during the retractions in N, as a positive number; `None`
+    /// if this force is at most 5 times the [`Self::noise`].
     pub fn pull_off_force(&self) -> Option<f64> {
         let pulled = self
             .force
@@ -281,7 +301,8 @@ impl MeasuredCurve {
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
-    /// Returns the curve with about `count` of its points, evenly chosen; `None` if it has fewer than twice as many.
+    /// Returns the curve with about `count` of its points, evenly chosen; `None` if it has fewer
+    /// than twice as many.
     pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
         let step = self.force.len() / count;
         if step < 2 {
@@ -302,8 +323,9 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns orthonormal columns for the zero of the force, the removed drift and the removed tilt, if these were
-    /// estimated from the curve. Each model refines the estimates. `has_zero` is true if the zero is a free parameter.
+    /// Returns orthonormal columns for the zero of the force, the removed drift and the removed
+    /// tilt, if these were estimated from the curve. Each model refines the estimates. `has_zero`
+    /// is true if the zero is a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let [time, displacement] = self.shares.clone();
         let columns = [vec![1.0; time.len()], time, displacement];
@@ -317,8 +339,8 @@ impl MeasuredCurve {
     }
 }
 
-/// Brings approach and retraction into the order of time, and says in words what was done. Columns side by side may begin
-/// at the turning point, and a file may begin with the retraction.
+/// Brings approach and retraction into the order of time, and says in words what was done. Columns
+/// side by side may begin at the turning point, and a file may begin with the retraction.
 fn in_order(
     displacement: &mut [f64],
     force: &mut [f64],
@@ -346,7 +368,8 @@ fn in_order(
     Some("the retraction comes first and was put behind the approach")
 }
 
-/// Returns the numbers of points that are used, that lie before or after contact, and that belong to pauses, in words.
+/// Returns the numbers of points that are used, that lie before or after contact, and that belong
+/// to pauses, in words.
 fn counted(
     points: &Points,
     kept: &[usize],

@@ -9,10 +9,12 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
-    /// The file of the curve cannot be read, or its content is no table with columns of displacement and force.
+    /// The file of the curve cannot be read, or its content is no table with columns of
+    /// displacement and force.
     #[error(transparent)]
     File(#[from] SurfaceError),
-    /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an option.
+    /// The curve cannot be read or fitted because of a property of the curve, of the scene or of an
+    /// option.
     #[error("{found}; allowed: {allowed}")]
     Refused {
         /// What was found in the curve, the scene or the options, in words.
@@ -20,7 +22,8 @@ pub enum ExperimentError {
         /// What is allowed instead, in words, with the option of the command line that helps.
         allowed: String,
     },
-    /// The computation of force curves for a fit failed, or the [`Control`](asperity_data::Control) of the fit stopped it.
+    /// The computation of force curves for a fit failed, or the [`Control`](asperity_data::Control)
+    /// of the fit stopped it.
     #[error(transparent)]
     Run(#[from] RunError),
 }

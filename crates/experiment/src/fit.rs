@@ -1,5 +1,5 @@
-//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit also finds the
-//! parameters that the curve cannot separate.
+//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit
+//! also finds the parameters that the curve cannot separate.
 
 use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
@@ -16,8 +16,8 @@ use crate::statistics::{Spread, block_error, correlated, correlation, spread, wi
 use asperity_data::{Control, format_rounded};
 use asperity_scene::{Document, Simulation};
 
-/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a logarithm above which a
-/// parameter is undetermined.
+/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a
+/// logarithm above which a parameter is undetermined.
 const CORRELATED: f64 = 0.95;
 const FLAT: f64 = 1.0;
 /// Number of points that are enough for a curve whose residuals are more than noise.
@@ -25,8 +25,8 @@ const ENOUGH: usize = 400;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the computed force of the
-/// scene with a [`MeasuredCurve`].
+/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the
+/// computed force of the scene with a [`MeasuredCurve`].
 ///
 /// ```
 /// use asperity_data::Control;
@@ -36,16 +36,32 @@ const NORMAL: f64 = 1.96;
 /// // The computed curve of a sphere with a work of adhesion of 0.05 J/m², by a rigid instrument.
 /// let scene = open("jkr-sphere")?.set("numerics.points", "256")?;
 /// let legs = run(&scene)?.history.legs;
-/// let points = legs.iter().flat_map(|leg| leg.curve.iter().map(|point| (point.indentation, point.force)));
+/// let points = legs.iter().flat_map(|leg| {
+///     leg.curve
+///         .iter()
+///         .map(|point| (point.indentation, point.force))
+/// });
 /// let free = (0..100).map(|i| (1e-8 * f64::from(i - 100), 0.0));
 /// let (displacement, force): (Vec<f64>, Vec<f64>) = free.chain(points).unzip();
-/// let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions { noise: Some(1e-8), ..CurveOptions::default() })?;
+/// let curve = MeasuredCurve::from_columns(
+///     &displacement,
+///     &force,
+///     &CurveOptions {
+///         noise: Some(1e-8),
+///         ..CurveOptions::default()
+///     },
+/// )?;
 ///
 /// let start = scene.set("adhesion.work", "0.03")?;
-/// let fit = Fit::of(&start).free(Parameter::Work).free(Free::within(Parameter::Offset, (-1e-7, 1e-7))?);
+/// let fit = Fit::of(&start)
+///     .free(Parameter::Work)
+///     .free(Free::within(Parameter::Offset, (-1e-7, 1e-7))?);
 /// let found = fit.run(&curve, Control::default())?;
 /// assert!((found.parameters[0].value / 0.05 - 1.0).abs() < 0.01);
-/// assert!(Fit::of(&start).run(&curve, Control::default()).is_err(), "no free parameter");
+/// assert!(
+///     Fit::of(&start).run(&curve, Control::default()).is_err(),
+///     "no free parameter"
+/// );
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -63,21 +79,22 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare [`Parameter`] the fit chooses
-    /// the range.
+    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare
+    /// [`Parameter`] the fit chooses the range.
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
         self
     }
 
-    /// Fits the free parameters to a curve on one thread, by a sequential Monte Carlo method. `control` reports the
-    /// number of force curves computed so far, and can stop the fit.
+    /// Fits the free parameters to a curve on one thread, by a sequential Monte Carlo method.
+    /// `control` reports the number of force curves computed so far, and can stop the fit.
     ///
     /// # Errors
-    /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene lacks a free parameter,
-    /// such as the radius of its form. It also returns an error if `numerics.solver` of the scene is `Stepwise`, if the
-    /// curve turns before contact, if a computation fails, or if `control` stops the fit.
+    /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene
+    /// lacks a free parameter, such as the radius of its form. It also returns an error if
+    /// `numerics.solver` of the scene is `Stepwise`, if the curve turns before contact, if a
+    /// computation fails, or if `control` stops the fit.
     pub fn run(
         &self,
         curve: &MeasuredCurve,
@@ -256,8 +273,9 @@ fn find(
     })
 }
 
-/// The first touch that a fit takes from the curve if it does not search the offset, in words. A displacement off by half the
-/// distance of two points shifts the modulus by more than its interval where the noise is small.
+/// The first touch that a fit takes from the curve if it does not search the offset, in words. A
+/// displacement off by half the distance of two points shifts the modulus by more than its interval
+/// where the noise is small.
 fn fixed_touch(curve: &MeasuredCurve) -> String {
     let distances = curve.displacement.iter().map(|at| (at - curve.touch).abs());
     let next = distances
@@ -271,8 +289,8 @@ fn fixed_touch(curve: &MeasuredCurve) -> String {
     )
 }
 
-/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and the number of curves
-/// computed.
+/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and
+/// the number of curves computed.
 struct Searched {
     found: Found,
     rests: Vec<f64>,
@@ -280,8 +298,8 @@ struct Searched {
     evaluations: usize,
 }
 
-/// Searches the parameters. If the residuals of a part of the points are more than noise, the search uses only these
-/// points, because further points would not reduce the residuals.
+/// Searches the parameters. If the residuals of a part of the points are more than noise, the
+/// search uses only these points, because further points would not reduce the residuals.
 fn searched(
     curve: &MeasuredCurve,
     document: &Document,
@@ -338,8 +356,8 @@ mod tests {
     use crate::reason::Reason;
     use asperity_contact::Move;
 
-    /// Asserts that the values differ from the truth by at most a few standard errors, and that the residuals are as large
-    /// as the noise.
+    /// Asserts that the values differ from the truth by at most a few standard errors, and that the
+    /// residuals are as large as the noise.
     fn assert_found(made: &Made, fit: &FitResult) {
         assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
         for one in &fit.parameters {
@@ -352,7 +370,8 @@ mod tests {
         }
     }
 
-    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it within its errors.
+    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it
+    /// within its errors.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
         let made = random(13, 1024);
@@ -388,7 +407,8 @@ mod tests {
         );
     }
 
-    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond its interval, which is said.
+    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond
+    /// its interval, which is said.
     #[test]
     fn an_offset_that_is_not_fitted_is_named() {
         let made = random(4, 512);
@@ -418,8 +438,8 @@ mod tests {
         );
     }
 
-    /// A point in the middle of the jump at pull-off changes neither the fit nor the number of curves computed for it; as far
-    /// from the model elsewhere, points are a misfit.
+    /// A point in the middle of the jump at pull-off changes neither the fit nor the number of
+    /// curves computed for it; as far from the model elsewhere, points are a misfit.
     #[test]
     fn a_point_inside_a_jump_counts_as_described() {
         let made = random(4, 512);
@@ -483,7 +503,8 @@ mod tests {
         assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
     }
 
-    /// The profile of a specimen is not the random one of the scene: no interval excludes the truth, and the reason says so.
+    /// The profile of a specimen is not the random one of the scene: no interval excludes the
+    /// truth, and the reason says so.
     #[test]
     fn another_random_profile_has_the_whole_range_as_interval() {
         let mut made = random(13, 1024);
@@ -502,8 +523,8 @@ mod tests {
         }
     }
 
-    /// For any start the upper bound of the work of adhesion is at most a few times the work that the noise hides, γ =
-    /// noise/(1.5 π R) = 1.1 mJ/m².
+    /// For any start the upper bound of the work of adhesion is at most a few times the work that
+    /// the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
     #[test]
     fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
         for (seed, work) in [(1, 0.05), (2, 1e-6)] {
@@ -529,9 +550,9 @@ mod tests {
         }
     }
 
-    /// A tension in contact counts as adhesion if a model without adhesion costs more by half the square of 1.96, which is
-    /// 1.9. Such a model costs 2.4 more for a tension of one standard deviation of the noise, and 1.5 more for half that
-    /// tension.
+    /// A tension in contact counts as adhesion if a model without adhesion costs more by half the
+    /// square of 1.96, which is 1.9. Such a model costs 2.4 more for a tension of one standard
+    /// deviation of the noise, and 1.5 more for half that tension.
     #[test]
     fn a_tension_beyond_the_noise_is_adhesion() {
         let bound = |times: f64| {
@@ -555,8 +576,8 @@ mod tests {
         assert!(bound(0.5).is_some() && bound(1.0).is_none());
     }
 
-    /// For a contact that stiffens, with hysteresis, parts of one curve give overlapping intervals, and the residual is
-    /// stated truly.
+    /// For a contact that stiffens, with hysteresis, parts of one curve give overlapping intervals,
+    /// and the residual is stated truly.
     #[test]
     fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
         let points = rubber(1e-9, 3, |indentation, direction| {
@@ -592,7 +613,8 @@ mod tests {
         );
     }
 
-    /// Ranges and starts are those of the curve: values of the scene for free parameters change no bit.
+    /// Ranges and starts are those of the curve: values of the scene for free parameters change no
+    /// bit.
     #[test]
     fn a_start_a_thousand_times_off_changes_nothing() {
         let curve = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
@@ -611,8 +633,8 @@ mod tests {
         assert!((1e6..4e6).contains(&start), "{start:e}");
     }
 
-    /// A model that does not describe a curve of many points is fitted to a part of them, and no other population is
-    /// computed to its end.
+    /// A model that does not describe a curve of many points is fitted to a part of them, and no
+    /// other population is computed to its end.
     #[test]
     fn few_curves_are_computed_where_the_model_does_not_describe_the_curve() {
         let stiffens = |indentation: f64, direction: f64| {

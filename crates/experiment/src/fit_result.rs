@@ -1,4 +1,5 @@
-//! Result of a fit: each parameter with its errors, how well the model describes the curve, and the scene that was found.
+//! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
+//! scene that was found.
 
 use crate::parameter::Parameter;
 use crate::reason::Reason;
@@ -16,15 +17,16 @@ pub struct FittedParameter {
     pub parameter: Parameter,
     /// Value with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, they are the ends of
-    /// [`Self::range`], unless the parameter is the offset or the zero.
+    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, they
+    /// are the ends of [`Self::range`], unless the parameter is the offset or the zero.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
-    /// Standard error of the value due to the noise of the force. If the model does not describe the curve, it is at
-    /// least the scatter of the value between parts of the curve (jackknife).
+    /// Standard error of the value due to the noise of the force. If the model does not describe
+    /// the curve, it is at least the scatter of the value between parts of the curve (jackknife).
     pub noise_error: f64,
-    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in the scene for the radius.
-    /// If this value lies outside of [`Self::range`], it is the nearer end of the range.
+    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in
+    /// the scene for the radius. If this value lies outside of [`Self::range`], it is the nearer
+    /// end of the range.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
@@ -38,8 +40,8 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower the
-    /// [`Self::interval`], the more digits the text has.
+    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower
+    /// the [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
         let half = 0.5 * (self.interval.1 - self.interval.0);
         format_within(
@@ -54,7 +56,8 @@ impl FittedParameter {
     }
 }
 
-/// Result of [`Fit::run`](crate::Fit::run). A residual is the measured force minus the computed force at a point.
+/// Result of [`Fit::run`](crate::Fit::run). A residual is the measured force minus the computed
+/// force at a point.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct FitResult {
@@ -67,15 +70,16 @@ pub struct FitResult {
     pub residual_over_noise: f64,
     /// Share of the points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
     pub beyond_five_sigma: f64,
-    /// Robust root mean square of the residuals divided by the noise, without the points before contact. Points near a
-    /// jump of the force and outliers count less. The model describes the curve if the value is at most 1.5.
+    /// Robust root mean square of the residuals divided by the noise, without the points before
+    /// contact. Points near a jump of the force and outliers count less. The model describes the
+    /// curve if the value is at most 1.5.
     pub misfit: f64,
-    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is not free, or if
-    /// the curve excludes a scene without adhesion at the level of 5 %.
+    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is
+    /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values; `None` without adhesion or without a radius of curvature, as for a
-    /// cone.
+    /// Tabor number of the scene with the fitted values; `None` without adhesion or without a
+    /// radius of curvature, as for a cone.
     pub tabor: Option<f64>,
     /// Reason why the model does not describe the curve; `None` if [`Self::misfit`] is at most 1.5.
     pub reason: Option<Reason>,
@@ -83,18 +87,18 @@ pub struct FitResult {
     pub warnings: Vec<Warning>,
     /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
     pub correlations: Vec<(Parameter, Parameter, f64)>,
-    /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself means that the curve does
-    /// not determine this parameter.
+    /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself
+    /// means that the curve does not determine this parameter.
     pub not_distinguished: Vec<(Parameter, Parameter)>,
-    /// Sentences about values that the fit took from the file or the points of the curve and did not search,
-    /// such as the stiffness of the instrument.
+    /// Sentences about values that the fit took from the file or the points of the curve and did
+    /// not search, such as the stiffness of the instrument.
     #[serde(skip)]
     pub assumptions: Vec<String>,
     /// Number of force curves that the fit computed.
     pub evaluations: usize,
-    /// Computed force in N at each point of the measured curve. The force includes the fitted force before contact and its
-    /// fitted linear changes with time (drift) and with displacement (tilt). It can be compared with
-    /// [`MeasuredCurve::force`](crate::MeasuredCurve::force).
+    /// Computed force in N at each point of the measured curve. The force includes the fitted force
+    /// before contact and its fitted linear changes with time (drift) and with displacement (tilt).
+    /// It can be compared with [`MeasuredCurve::force`](crate::MeasuredCurve::force).
     #[serde(skip)]
     pub model: Vec<f64>,
     /// Scene with the fitted values and with the loading of the measurement.
@@ -122,8 +126,9 @@ impl FitResult {
         self.misfit <= MISFIT
     }
 
-    /// Returns true if the model does not describe the curve and the profile of the scene is random. The specimen then
-    /// has another profile than the scene, and the fitted values are meaningless.
+    /// Returns true if the model does not describe the curve and the profile of the scene is
+    /// random. The specimen then has another profile than the scene, and the fitted values are
+    /// meaningless.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }

@@ -6,15 +6,18 @@ use crate::statistics::correlated;
 /// Smallest number of points without contact, and of points in contact.
 pub(crate) const FEWEST: usize = 10;
 const FEWEST_IN_CONTACT: usize = 4;
-/// Least gain by a contact over a straight line. The gain is the number of points times the decrease of the logarithm of
-/// the sum of squared residuals. A smaller gain is attributed to noise.
+/// Least gain by a contact over a straight line. The gain is the number of points times the
+/// decrease of the logarithm of the sum of squared residuals. A smaller gain is attributed to
+/// noise.
 const GAIN: f64 = 40.0;
-/// Deviation of the last points from the line before them, in standard errors, above which these points are in contact.
+/// Deviation of the last points from the line before them, in standard errors, above which these
+/// points are in contact.
 const DEVIATES: f64 = 4.0;
 /// Values of n: the last n-th of the points without contact is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// A segment is in contact from its first point if two shares are exceeded: the slope of its beginning by the first share
-/// of the slope in contact, and the change of the force before contact by the second share of the range of the force.
+/// A segment is in contact from its first point if two shares are exceeded: the slope of its
+/// beginning by the first share of the slope in contact, and the change of the force before contact
+/// by the second share of the range of the force.
 const STEEP: f64 = 0.5;
 const NOTABLE: f64 = 0.05;
 
@@ -29,11 +32,12 @@ pub(crate) enum NoBaseline {
     InContact,
 }
 
-/// Returns the number of values before contact at the beginning of a segment. The noise is assumed to be at least `least`.
+/// Returns the number of values before contact at the beginning of a segment. The noise is assumed
+/// to be at least `least`.
 ///
-/// The contact begins where a straight line before it and a parabola behind it describe the segment best. This place lies
-/// in the steep part of the contact. Its weak beginning is found by going back until the last points no longer deviate from
-/// the line through the points before.
+/// The contact begins where a straight line before it and a parabola behind it describe the segment
+/// best. This place lies in the steep part of the contact. Its weak beginning is found by going
+/// back until the last points no longer deviate from the line through the points before.
 pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
     let count = values.len();
     if count < 2 * FEWEST {
@@ -75,8 +79,8 @@ pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline
     Ok(free)
 }
 
-/// Reduces the number `free` of values without contact until the last of these values do not deviate from the line through
-/// the values before.
+/// Reduces the number `free` of values without contact until the last of these values do not
+/// deviate from the line through the values before.
 fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     let deviates = |free: usize, last: usize| {
         let line = Baseline::through(&values[..free - last]);
@@ -103,9 +107,10 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
-/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is the change from the
-/// first to the last point of the curve. The tilt is the change over the range of the displacement. The step is the
-/// difference of the force after and before contact that neither drift nor tilt explains.
+/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is
+/// the change from the first to the last point of the curve. The tilt is the change over the range
+/// of the displacement. The step is the difference of the force after and before contact that
+/// neither drift nor tilt explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Slopes {
     pub zero: f64,
@@ -115,9 +120,9 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
-    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or 0 before, force). Time
-    /// and displacement are shares of the whole curve. Slopes that are not selected are 0. Returns `None` if the points
-    /// cannot separate the slopes.
+    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or
+    /// 0 before, force). Time and displacement are shares of the whole curve. Slopes that are not
+    /// selected are 0. Returns `None` if the points cannot separate the slopes.
     pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let mut columns = vec![vec![1.0; points.len()]];
@@ -139,8 +144,8 @@ impl Slopes {
         })
     }
 
-    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the deviation expected from the
-    /// noise between neighbouring points.
+    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the
+    /// deviation expected from the noise between neighbouring points.
     pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
         let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
         let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
@@ -160,8 +165,8 @@ impl Slopes {
     }
 }
 
-/// Returns least-squares coefficients of columns for these values, with standard errors; `None` if a column depends on the
-/// columns before it.
+/// Returns least-squares coefficients of columns for these values, with standard errors; `None` if
+/// a column depends on the columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
     let basis = right_angled(columns);
     let mut rests = values.to_vec();
@@ -213,15 +218,16 @@ mod tests {
         values.map(|value| value + noise * gauss()).collect()
     }
 
-    /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the points.
+    /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the
+    /// points.
     fn hertz(count: usize, touch: f64) -> impl Iterator<Item = f64> {
         let share =
             move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
         (0..count).map(move |index| share(index).powf(1.5))
     }
 
-    /// Noise of up to 5 % of the largest force hides no contact; the later the contact is found, the less of it exceeds the
-    /// noise.
+    /// Noise of up to 5 % of the largest force hides no contact; the later the contact is found,
+    /// the less of it exceeds the noise.
     #[test]
     fn contacts_are_found_under_noise() {
         for (count, seed) in [(200, 1), (200, 2), (200, 3), (500, 4), (500, 5), (500, 6)] {
@@ -256,7 +262,8 @@ mod tests {
         }
     }
 
-    /// In a force without noise, as of a computed curve, the contact begins exactly where the force does.
+    /// In a force without noise, as of a computed curve, the contact begins exactly where the force
+    /// does.
     #[test]
     fn a_contact_without_noise_begins_where_the_force_does() {
         let parabola: Vec<f64> = (0..100)
@@ -266,7 +273,8 @@ mod tests {
         assert!((59..=62).contains(&free), "{free}");
     }
 
-    /// A weak contact, a few times the noise, long before the strong one does not count as part without contact.
+    /// A weak contact, a few times the noise, long before the strong one does not count as part
+    /// without contact.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
         for seed in 1..=6 {

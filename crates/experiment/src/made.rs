@@ -26,8 +26,9 @@ pub(crate) fn stiffness(scene: &Scene) -> f64 {
     scene.loading_stiffness.unwrap()
 }
 
-/// Returns displacements in m and forces in N at 500 almost evenly spaced displacements of approach and retraction. They
-/// are the points of a fine curve at which d + F/k first reaches these displacements.
+/// Returns displacements in m and forces in N at 500 almost evenly spaced displacements of approach
+/// and retraction. They are the points of a fine curve at which d + F/k first reaches these
+/// displacements.
 pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
     let mut fine = scene.clone();
     fine.numerics.samples = 1 << 18;
@@ -127,8 +128,9 @@ pub(crate) fn from_text(text: &str, options: &CurveOptions) -> Result<MeasuredCu
     from_bytes(text.as_bytes(), options)
 }
 
-/// Returns displacements in nm and forces in nN of a spring of 2 N/m that touches at 0 nm. The noise alternates by 0.1 nN
-/// and the zero is 1 nN. The spring is pressed from −100 to 50 nm and back in `count` points.
+/// Returns displacements in nm and forces in nN of a spring of 2 N/m that touches at 0 nm. The
+/// noise alternates by 0.1 nN and the zero is 1 nN. The spring is pressed from −100 to 50 nm and
+/// back in `count` points.
 pub(crate) fn of_spring(count: usize) -> Vec<(f64, f64)> {
     let point = |index: usize| {
         let way = 300.0 * index as f64 / (count - 1) as f64;
@@ -181,9 +183,9 @@ pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
         .fold("displacement [nm],force [nN]\n".to_owned(), line)
 }
 
-/// Returns the curve of a sphere without adhesion on rubber (Hertz), with R = 7.5 µm, E* = 2 MPa, k = 3 N/m, D₀ = 2 µm, and
-/// 100 points in each direction. The force is `times` the force of Hertz. `times` is a function of the indentation in m and
-/// of the direction, 1 or −1.
+/// Returns the curve of a sphere without adhesion on rubber (Hertz), with R = 7.5 µm, E* = 2 MPa, k
+/// = 3 N/m, D₀ = 2 µm, and 100 points in each direction. The force is `times` the force of Hertz.
+/// `times` is a function of the indentation in m and of the direction, 1 or −1.
 pub(crate) fn rubber(
     deviation: f64,
     seed: u64,
@@ -234,7 +236,8 @@ pub(crate) fn on_rubber(work: f64, modulus: f64) -> Document {
         .unwrap()
 }
 
-/// A random smooth or rough sphere on a compliant instrument, with noise of 1 % of its pull-off force.
+/// A random smooth or rough sphere on a compliant instrument, with noise of 1 % of its pull-off
+/// force.
 pub(crate) fn random(seed: u64, points: u64) -> Made {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let mut between = |low: f64, high: f64| low * (high / low).powf(generator.random::<f64>());

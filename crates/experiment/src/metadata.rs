@@ -3,7 +3,8 @@
 use asperity_data::parse_quantity;
 use asperity_data::text_table::{Decimal, Separator, TextCell};
 
-/// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the piezo, as letters.
+/// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the
+/// piezo, as letters.
 const STIFFNESS: [&str; 6] = [
     "springconstant",
     "forceconstant",
@@ -33,8 +34,8 @@ pub(crate) struct Metadata {
 }
 
 impl Metadata {
-    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind the key or the value;
-    /// without a unit the value is in SI units.
+    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind
+    /// the key or the value; without a unit the value is in SI units.
     pub fn take(&mut self, line: &str) {
         let parts = line
             .rsplit_once(": ")

@@ -11,18 +11,18 @@ use asperity_scene::{CheckedScene, RunError, Simulation};
 use asperity_surface::Form;
 use std::ops::Range;
 
-/// Number of points of the force curve of each segment without the points at jumps, and number of points of a coarse force
-/// curve.
+/// Number of points of the force curve of each segment without the points at jumps, and number of
+/// points of a coarse force curve.
 const SAMPLES: usize = 128;
 const FEW: usize = 64;
-/// Largest number of extensions of a loading that does not reach its last displacement, and number of halvings of the last
-/// extension.
+/// Largest number of extensions of a loading that does not reach its last displacement, and number
+/// of halvings of the last extension.
 const EXTENSIONS: usize = 8;
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that the points resolve.
 const NOTABLE: f64 = 2.0;
-/// Number of points on each side of a fold, each half as far from the fold as the point before. A jump needs none, because
-/// its ends are points.
+/// Number of points on each side of a fold, each half as far from the fold as the point before. A
+/// jump needs none, because its ends are points.
 const FAN: i32 = 8;
 
 /// Computation of a scene at the displacements of a measured curve.
@@ -30,7 +30,8 @@ pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: CheckedScene,
     simulation: &'a mut Simulation,
-    /// Contact of a scene and the radius of its form in m. Springs and tree are reused for all other values.
+    /// Contact of a scene and the radius of its form in m. Springs and tree are reused for all
+    /// other values.
     contact: Option<(Contact, f64)>,
     /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
     pub noise: f64,
@@ -109,9 +110,9 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns for each point of the curve the forces in N before and after the nearest jump of the model, minus the force
-    /// of the model at the point. A jump counts if it is at least `least` N and no further away than the neighbouring
-    /// points; otherwise `None`.
+    /// Returns for each point of the curve the forces in N before and after the nearest jump of the
+    /// model, minus the force of the model at the point. A jump counts if it is at least `least` N
+    /// and no further away than the neighbouring points; otherwise `None`.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -164,8 +165,8 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Computes the curve of each segment. Calls `take` with the curve, the index range of its points in the measured
-    /// curve, and the displacement at first touch.
+    /// Computes the curve of each segment. Calls `take` with the curve, the index range of its
+    /// points in the measured curve, and the displacement at first touch.
     fn each_segment(
         &mut self,
         values: &Values,
@@ -210,8 +211,8 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Returns the point of a segment at a displacement in m, or the end of the segment for a displacement that lies beyond it
-/// by noise.
+/// Returns the point of a segment at a displacement in m, or the end of the segment for a
+/// displacement that lies beyond it by noise.
 fn nearest(segment: &DisplacementCurve, at: f64) -> Option<DisplacementPoint> {
     let away = |point: &DisplacementPoint| (point.displacement - at).abs();
     let ends = || {
@@ -230,8 +231,8 @@ fn force_at(segment: &DisplacementCurve, at: f64) -> f64 {
 }
 
 impl Sampling {
-    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at an indentation in m, or for
-    /// `None` at first touch.
+    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at an
+    /// indentation in m, or for `None` at first touch.
     fn press(
         self,
         leg: &Leg,
@@ -242,7 +243,8 @@ impl Sampling {
             from.is_none().then(CurvePoint::default),
             from.unwrap_or_default(),
         );
-        // An indentation close behind the one at which the instrument is at its end: it takes a part of the way, or is pulled on.
+        // An indentation close behind the one at which the instrument is at its end: it takes a
+        // part of the way, or is pulled on.
         let displacement = |at: f64| {
             leg.point(at)
                 .map(|point| point.displacement(self.stiffness))
@@ -281,9 +283,9 @@ impl Sampling {
         )
     }
 
-    /// Returns the curve of a leg, which is one motion of the body, between two indentations over the displacement. Its
-    /// points are dense near the lower end for a high `power`. They include both ends of all resolved jumps, and the point
-    /// `free` without contact.
+    /// Returns the curve of a leg, which is one motion of the body, between two indentations over
+    /// the displacement. Its points are dense near the lower end for a high `power`. They include
+    /// both ends of all resolved jumps, and the point `free` without contact.
     pub fn over(
         self,
         leg: &Leg,
@@ -300,7 +302,8 @@ impl Sampling {
             .collect();
         at.sort_by(f64::total_cmp);
         let mut points = leg.curve(&at)?;
-        // Places where the instrument cannot hold the body any more, which may be close before a jump of the contact.
+        // Places where the instrument cannot hold the body any more, which may be close before a
+        // jump of the contact.
         let sign = if leg.direction() == Direction::Loading {
             1.0
         } else {
@@ -356,7 +359,8 @@ mod tests {
     use crate::scene::radius_of;
     use crate::statistics::scale;
 
-    /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of coarse forces.
+    /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of
+    /// coarse forces.
     fn rests(made: &Made) -> [Vec<f64>; 2] {
         let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
         curve.noise = made.noise;

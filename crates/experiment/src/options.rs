@@ -5,7 +5,8 @@ use asperity_scene::text::quoted;
 use std::fmt;
 use std::str::FromStr;
 
-/// Quantities whose signs are reversed on reading, so that the displacement grows on pressing and compression is positive.
+/// Quantities whose signs are reversed on reading, so that the displacement grows on pressing and
+/// compression is positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
@@ -20,27 +21,31 @@ pub enum Negate {
     Both,
 }
 
-/// Treatment of a drift of the force, which is a change along a straight line over time. Time is counted in points.
+/// Treatment of a drift of the force, which is a change along a straight line over time. Time is
+/// counted in points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Drift {
     /// Subtracts no drift from the force.
     #[default]
     Keep,
-    /// Subtracts the straight line over time that fits the force at the points without contact best.
+    /// Subtracts the straight line over time that fits the force at the points without contact
+    /// best.
     Remove,
-    /// Subtracts a straight line over time that rises by this force in N from the first to the last point.
+    /// Subtracts a straight line over time that rises by this force in N from the first to the last
+    /// point.
     Known(f64),
 }
 
-/// Treatment of a tilt of the force, which is a change along a straight line over the displacement. An example is the
-/// virtual deflection of a cantilever.
+/// Treatment of a tilt of the force, which is a change along a straight line over the displacement.
+/// An example is the virtual deflection of a cantilever.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 pub enum Tilt {
     /// Subtracts no tilt from the force.
     #[default]
     Keep,
-    /// Subtracts the straight line over the displacement that fits the force at the points without contact best.
+    /// Subtracts the straight line over the displacement that fits the force at the points without
+    /// contact best.
     Remove,
 }
 
@@ -83,8 +88,8 @@ fn positive_length(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Options for reading a [`MeasuredCurve`](crate::MeasuredCurve). By default columns, units, signs, zero and noise are
-/// found from the file and its points.
+/// Options for reading a [`MeasuredCurve`](crate::MeasuredCurve). By default columns, units, signs,
+/// zero and noise are found from the file and its points.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CurveOptions {
@@ -167,8 +172,8 @@ pub struct CurveOptions {
         arg(long, value_name = "FORCE", allow_hyphen_values = true, value_parser = positive_force)
     )]
     pub noise: Option<f64>,
-    /// Stiffness of the instrument in N/m, which converts displacements of the body to displacements of the instrument.
-    /// If it is `None`, the stiffness in the file is used.
+    /// Stiffness of the instrument in N/m, which converts displacements of the body to
+    /// displacements of the instrument. If it is `None`, the stiffness in the file is used.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub instrument: Option<f64>,
     /// Number of points before contact; default: found from the force

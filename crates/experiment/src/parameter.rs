@@ -1,4 +1,5 @@
-//! Parameters of a fit: their names, units and ranges, and the coordinates in which they are searched.
+//! Parameters of a fit: their names, units and ranges, and the coordinates in which they are
+//! searched.
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
@@ -114,8 +115,8 @@ impl Parameter {
         format!("two values{above}, the first below the second")
     }
 
-    /// Returns in words a further measurement that helps if a fit cannot separate these two parameters. If both are the
-    /// same parameter, the measurement determines this parameter.
+    /// Returns in words a further measurement that helps if a fit cannot separate these two
+    /// parameters. If both are the same parameter, the measurement determines this parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -175,15 +176,21 @@ impl Parameter {
     }
 }
 
-/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed from a text: `work`,
-/// or `work=10mJ/m^2..1J/m^2` with a range.
+/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed
+/// from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
 ///
 /// ```
 /// use asperity_experiment::{Free, Parameter};
 ///
-/// assert_eq!("work=10mJ/m^2..1J/m^2".parse(), Free::within(Parameter::Work, (0.01, 1.0)).map_err(|error| error.to_string()));
+/// assert_eq!(
+///     "work=10mJ/m^2..1J/m^2".parse(),
+///     Free::within(Parameter::Work, (0.01, 1.0)).map_err(|error| error.to_string())
+/// );
 /// let error = Free::within(Parameter::Modulus, (2e6, 1e6)).unwrap_err();
-/// assert_eq!(error.to_string(), "modulus: 2000000.0..1000000.0 Pa; allowed: two values above 0, the first below the second");
+/// assert_eq!(
+///     error.to_string(),
+///     "modulus: 2000000.0..1000000.0 Pa; allowed: two values above 0, the first below the second"
+/// );
 /// assert_eq!(Free::from(Parameter::Offset).range(), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,12 +202,13 @@ pub struct Free {
 }
 
 impl Free {
-    /// Makes a free parameter with the lower and the upper end of its range, in the SI unit of the parameter.
+    /// Makes a free parameter with the lower and the upper end of its range, in the SI unit of the
+    /// parameter.
     ///
     /// # Errors
-    /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if the parameter
-    /// cannot have these values. Only `Offset` and `Zero` can be negative, and of the others only a work of adhesion
-    /// can be 0.
+    /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if
+    /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative, and of the
+    /// others only a work of adhesion can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range) {
             return Ok(Free {
@@ -215,7 +223,8 @@ impl Free {
         )
     }
 
-    /// Returns both ends of the range in the SI unit of the parameter; `None` if the fit chooses the range.
+    /// Returns both ends of the range in the SI unit of the parameter; `None` if the fit chooses
+    /// the range.
     pub fn range(&self) -> Option<(f64, f64)> {
         self.range
     }
@@ -270,8 +279,9 @@ impl FromStr for Free {
     }
 }
 
-/// Coordinate in which a free parameter is searched: the value in a unit, the share of the work of adhesion (for the work
-/// on closing), or a logarithm. The coordinate of the work of adhesion is linear up to its unit, so that it reaches 0.
+/// Coordinate in which a free parameter is searched: the value in a unit, the share of the work of
+/// adhesion (for the work on closing), or a logarithm. The coordinate of the work of adhesion is
+/// linear up to its unit, so that it reaches 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,

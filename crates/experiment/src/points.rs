@@ -74,7 +74,8 @@ impl Points {
         start..end
     }
 
-    /// Reverses displacement and force so that pressing is positive: as `asked`, or else according to the first segment.
+    /// Reverses displacement and force so that pressing is positive: as `asked`, or else according
+    /// to the first segment.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.of(self.segment[0]);
         let is_wrong = |displacement: &[f64]| {
@@ -117,8 +118,8 @@ impl Points {
         Ok(negate)
     }
 
-    /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the body, which the column
-    /// `name` contains. Returns a sentence that says so.
+    /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the
+    /// body, which the column `name` contains. Returns a sentence that says so.
     pub fn put_on_spring(&mut self, name: &str, stiffness: f64) -> String {
         self.displacement
             .iter_mut()
@@ -137,8 +138,8 @@ impl Points {
         free_count(&reversed, least).ok()
     }
 
-    /// Returns the displacements in m at which the segments up to number `last` end. A single retraction begins at the
-    /// largest displacement.
+    /// Returns the displacements in m at which the segments up to number `last` end. A single
+    /// retraction begins at the largest displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let all = ends(self.displacement.iter().copied());
         let end = |number: usize| {
@@ -164,7 +165,8 @@ pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
     change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
 }
 
-/// Returns the indices of the points of the chosen segments without pauses; of all segments if none is chosen.
+/// Returns the indices of the points of the chosen segments without pauses; of all segments if none
+/// is chosen.
 pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let all = 0..points.force.len();
     let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;

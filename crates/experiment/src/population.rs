@@ -4,7 +4,8 @@
 const DISTINCT: f64 = 0.5;
 /// Share of different members above which the copies of a step have moved apart.
 const MOVED: f64 = 0.8;
-/// Residual in units of the noise above which a point counts less, because it is on the wrong side of a jump.
+/// Residual in units of the noise above which a point counts less, because it is on the wrong side
+/// of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
 /// Coordinates with the residuals of the curve, in units of its noise.
@@ -14,7 +15,8 @@ pub(crate) struct Member {
     pub rests: Vec<f64>,
 }
 
-/// Members with their costs at a noise, in units of the noise of the curve, and the best member so far with its cost.
+/// Members with their costs at a noise, in units of the noise of the curve, and the best member so
+/// far with its cost.
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
@@ -48,14 +50,16 @@ impl Population {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
 
-    /// Returns false if most members are copies, so that the extent of the population is meaningless.
+    /// Returns false if most members are copies, so that the extent of the population is
+    /// meaningless.
     pub fn has_spread(&self) -> bool {
         self.distinct() as f64 >= DISTINCT * self.members.len() as f64
     }
 }
 
-/// Returns the cost of a residual in units of the noise. The cost is half the square. A point on the wrong side of a jump
-/// counts by the logarithm, because measured displacements are not exact to the edge of a jump.
+/// Returns the cost of a residual in units of the noise. The cost is half the square. A point on
+/// the wrong side of a jump counts by the logarithm, because measured displacements are not exact
+/// to the edge of a jump.
 pub(crate) fn loss(rest: f64) -> f64 {
     let rest = rest.abs();
     if rest > WRONG_SIDE {
@@ -65,7 +69,8 @@ pub(crate) fn loss(rest: f64) -> f64 {
     }
 }
 
-/// Draws `count` members in proportion to their weights, at even distances. `share` is the position of the first one.
+/// Draws `count` members in proportion to their weights, at even distances. `share` is the position
+/// of the first one.
 pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);

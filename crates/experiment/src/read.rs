@@ -17,8 +17,8 @@ use std::path::Path;
 
 /// Largest magnitude of a displacement in m, and of a force in N, that a file may contain.
 const LARGEST: [f64; 2] = [1e3, 1e6];
-/// Distance from the central nine tenths of the displacements, in units of their range, beyond which a few displacements
-/// are errors of the file.
+/// Distance from the central nine tenths of the displacements, in units of their range, beyond
+/// which a few displacements are errors of the file.
 const WILD: f64 = 10.0;
 
 /// Columns of a file in SI units, without the points at which a value is missing.
@@ -34,13 +34,15 @@ pub(crate) struct Columns {
     pub missing: usize,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub stiffness: Option<(String, f64)>,
-    /// Name of the column of the displacement, if the column excludes the deflection of the instrument.
+    /// Name of the column of the displacement, if the column excludes the deflection of the
+    /// instrument.
     pub of_body: Option<String>,
     /// Columns and their units in words.
     pub assumed: String,
     /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
-    /// Number of points left out because they repeat the point before, and the place of the first of them.
+    /// Number of points left out because they repeat the point before, and the place of the first
+    /// of them.
     repeated: usize,
     first_repeated: Option<Place>,
     /// Number of the line or of the point in the file, for each point.
@@ -48,7 +50,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Reads the content of a file, which may be compressed by gzip. The name identifies binary formats, which are refused.
+    /// Reads the content of a file, which may be compressed by gzip. The name identifies binary
+    /// formats, which are refused.
     pub fn parse(
         name: &Path,
         bytes: &[u8],
@@ -70,7 +73,8 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Takes displacements in m and forces in N. A point with a value that is not finite is left out.
+    /// Takes displacements in m and forces in N. A point with a value that is not finite is left
+    /// out.
     pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
         if displacement.len() != force.len() {
             let found = format!(
@@ -116,8 +120,8 @@ impl Columns {
         words
     }
 
-    /// Joins an approach with the retraction beside it. The retraction begins at its end that is nearer to the end of the
-    /// approach.
+    /// Joins an approach with the retraction beside it. The retraction begins at its end that is
+    /// nearer to the end of the approach.
     fn joined(parts: Vec<Columns>) -> Columns {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
@@ -150,8 +154,9 @@ impl Columns {
         joined
     }
 
-    /// Adds a point with these values of displacement and force in the units of the file. A point with a missing value, or
-    /// equal to the point before, is not added. Returns true if the point was added.
+    /// Adds a point with these values of displacement and force in the units of the file. A point
+    /// with a missing value, or equal to the point before, is not added. Returns true if the point
+    /// was added.
     fn push(&mut self, values: [f64; 2], pair: &Pair, place: Place) -> Result<bool, SurfaceError> {
         if !values.iter().all(|value| value.is_finite()) {
             self.missing += 1;
@@ -196,7 +201,8 @@ impl Columns {
         Ok(true)
     }
 
-    /// Returns an error if a few displacements are far from all others. Such errors of a file would determine the range.
+    /// Returns an error if a few displacements are far from all others. Such errors of a file would
+    /// determine the range.
     fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
@@ -272,8 +278,8 @@ impl Points {
         }
     }
 
-    /// Adds the point at a place of the file. `value` returns the number in a column, NaN if it is missing, and `text`
-    /// returns its text.
+    /// Adds the point at a place of the file. `value` returns the number in a column, NaN if it is
+    /// missing, and `text` returns its text.
     fn take<'a>(
         &mut self,
         place: &Place,
@@ -304,8 +310,8 @@ impl Points {
         Ok(())
     }
 
-    /// Returns the points. Forces without a displacement get displacements that are evenly spaced over the travel of the
-    /// piezo, there and back.
+    /// Returns the points. Forces without a displacement get displacements that are evenly spaced
+    /// over the travel of the piezo, there and back.
     fn finished(mut self) -> Vec<Columns> {
         if let (Some(ramp), Some(all)) = (self.choice.ramp, self.parts.first_mut()) {
             let half = 0.5 * self.rows as f64;

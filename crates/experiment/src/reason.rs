@@ -11,35 +11,41 @@ use asperity_scene::{CheckedScene, Simulation};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-/// Largest jump of the force between two points on a rigid instrument, divided by the pull-off force. A sphere on a rigid
-/// instrument jumps by 5/9.
+/// Largest jump of the force between two points on a rigid instrument, divided by the pull-off
+/// force. A sphere on a rigid instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern must explain.
 const EXPLAINS: f64 = 0.4;
-/// Slope of the force, divided by the stiffness of the instrument, that the instrument does not allow. The slope is
-/// measured in a part of the way from first touch to the turning point, with a smallest number of points.
+/// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
+/// allow. The slope is measured in a part of the way from first touch to the turning point, with a
+/// smallest number of points.
 const STEEPER: f64 = 1.03;
 const PRESSED: f64 = 0.2;
 const FEWEST: usize = 5;
-/// Relative step of a numerical derivative. A change of the force, divided by its range, above the second number is a jump
-/// without a derivative.
+/// Relative step of a numerical derivative. A change of the force, divided by its range, above the
+/// second number is a jump without a derivative.
 const STEP: f64 = 1e-3;
 const LEAPS: f64 = 0.02;
-/// Residual in units of the median above which residuals are cut off. Such points are on the wrong side of a jump.
+/// Residual in units of the median above which residuals are cut off. Such points are on the wrong
+/// side of a jump.
 const CUT: f64 = 5.0;
 
-/// Reason why a model does not describe a measured curve. `Display` writes a reason as one sentence. If an option of
-/// `asperity fit` or a field of the scene can remove the cause, the sentence names it.
+/// Reason why a model does not describe a measured curve. `Display` writes a reason as one
+/// sentence. If an option of `asperity fit` or a field of the scene can remove the cause, the
+/// sentence names it.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact reaches the ends of the profile, which should be longer. The value is the length of the profile in m.
+    /// The contact reaches the ends of the profile, which should be longer. The value is the length
+    /// of the profile in m.
     #[error("{}", Warning::ContactAtEnds { length: *.0 })]
     ShortProfile(f64),
-    /// Too few springs are in contact for an accurate force. The value is the largest number of springs in contact.
+    /// Too few springs are in contact for an accurate force. The value is the largest number of
+    /// springs in contact.
     #[error("{}", Warning::FewSpringsInContact { springs: *.0 })]
     CoarseProfile(u64),
-    /// The measured force jumps by this value in N between two points, but the instrument of the scene is rigid.
+    /// The measured force jumps by this value in N between two points, but the instrument of the
+    /// scene is rigid.
     #[error(
         "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
         format_quantity(*.0, "N")
@@ -65,31 +71,34 @@ pub enum Reason {
         format_quantity(*.0, "N")
     )]
     Step(f64),
-    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below 5.
+    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below
+    /// 5.
     #[error("{}", Warning::of_tabor_number(*.0).map_or_else(String::new, |warning| warning.to_string()))]
     TaborNumber(f64),
-    /// The profile of the scene is one of many random profiles, and the specimen has another profile.
+    /// The profile of the scene is one of many random profiles, and the specimen has another
+    /// profile.
     #[error(
         "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
          many of them."
     )]
     OtherProfile,
-    /// Approach and retraction differ more than in an elastic contact with a single work of adhesion.
+    /// Approach and retraction differ more than in an elastic contact with a single work of
+    /// adhesion.
     #[error(
         "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
          closing. --free {} tries the second, --segments 2 fits the retraction alone.",
         Parameter::ClosingWork.name()
     )]
     Branches,
-    /// The measured force rises over the displacement with this slope in N/m, which is larger than the stiffness of the
-    /// instrument in the scene.
+    /// The measured force rises over the displacement with this slope in N/m, which is larger than
+    /// the stiffness of the instrument in the scene.
     #[error(
         "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
         format_quantity(*.0, "N/m")
     )]
     Stiffness(f64),
-    /// Approach and retraction deviate from the model in the same way. The stiffness of the instrument, the form or the
-    /// profile of the scene is likely to be wrong.
+    /// Approach and retraction deviate from the model in the same way. The stiffness of the
+    /// instrument, the form or the profile of the scene is likely to be wrong.
     #[error(
         "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
          another form or profile."
@@ -189,8 +198,8 @@ pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> O
     })
 }
 
-/// Returns the largest rise of the force in N between neighbouring points of a retraction. The force of a retraction rises
-/// only where contact is lost.
+/// Returns the largest rise of the force in N between neighbouring points of a retraction. The
+/// force of a retraction rises only where contact is lost.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
     let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
     let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
@@ -199,8 +208,8 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first approach or in the first
-/// fifth of a retraction.
+/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first
+/// approach or in the first fifth of a retraction.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     let (touch, turn) = (curve.touch, curve.turns[0]);
     let first = curve
@@ -225,8 +234,8 @@ fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
 }
 
-/// Returns true if another modulus or work of adhesion on the retractions explains most of the residuals, together with
-/// small changes of the free parameters. All effects are taken as linear.
+/// Returns true if another modulus or work of adhesion on the retractions explains most of the
+/// residuals, together with small changes of the free parameters. All effects are taken as linear.
 fn branches_differ(
     curve: &MeasuredCurve,
     model: &mut Model<'_>,
@@ -312,7 +321,8 @@ mod tests {
             .unwrap()
     }
 
-    /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3 N/m, by bisection of d
+    /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3
+    /// N/m, by bisection of d
     /// + F/k.
     fn hertz(modulus: f64, at: f64) -> f64 {
         let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
@@ -328,8 +338,8 @@ mod tests {
         force(low)
     }
 
-    /// The reason found for a curve of these points (displacement in µm from first touch, force in µN, noise of 1 nN) and a
-    /// scene.
+    /// The reason found for a curve of these points (displacement in µm from first touch, force in
+    /// µN, noise of 1 nN) and a scene.
     fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
         let mut text = "displacement [um],force [uN]\n".to_owned();
         for (index, (at, force)) in points.enumerate() {
@@ -359,8 +369,8 @@ mod tests {
         .unwrap()
     }
 
-    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as functions of displacement, m,
-    /// and time from 0 to 1.
+    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as
+    /// functions of displacement, m, and time from 0 to 1.
     fn curve(
         approach: impl Fn(f64, f64) -> f64,
         retraction: impl Fn(f64, f64) -> f64,

@@ -1,4 +1,5 @@
-//! The scene of a fit: the values at which a search begins, and the document with the fitted values.
+//! The scene of a fit: the values at which a search begins, and the document with the fitted
+//! values.
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
@@ -17,7 +18,8 @@ fn change(path: &str, value: f64) -> Change {
     (path.to_owned(), ron_float(value))
 }
 
-/// Returns the parameters of a fit as the scene states them. `governing` contains the works of adhesion.
+/// Returns the parameters of a fit as the scene states them. `governing` contains the works of
+/// adhesion.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let closing = governing.closing_work.unwrap_or(work);
@@ -41,7 +43,8 @@ pub(crate) fn radius_of(scene: &Scene) -> Option<f64> {
     scene.form.clone()?.radius_mut().copied()
 }
 
-/// Returns the largest work of adhesion on closing that a scene allows, in J/m²; infinite if the scene states none.
+/// Returns the largest work of adhesion on closing that a scene allows, in J/m²; infinite if the
+/// scene states none.
 pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
     scene
         .adhesion
@@ -49,8 +52,8 @@ pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
         .unwrap_or(f64::INFINITY)
 }
 
-/// Returns the document with works of adhesion in place of κ or e_el/γ. A document without adhesion gets the work `start`
-/// in J/m², if it is given.
+/// Returns the document with works of adhesion in place of κ or e_el/γ. A document without adhesion
+/// gets the work `start` in J/m², if it is given.
 pub(crate) fn written_out(
     document: &Document,
     governing: &Governing,
@@ -122,9 +125,10 @@ pub(crate) fn with_values(
 }
 
 impl MeasuredCurve {
-    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the scene, or else the
-    /// stiffness in the file of the curve. For a measured displacement of the body the instrument becomes rigid. The
-    /// second value is a sentence about this choice; `None` if scene and file do not differ.
+    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the
+    /// scene, or else the stiffness in the file of the curve. For a measured displacement of the
+    /// body the instrument becomes rigid. The second value is a sentence about this choice; `None`
+    /// if scene and file do not differ.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.
@@ -172,8 +176,9 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns the scene with two fields taken from the measured curve: the loading, and the stiffness of the instrument as
-    /// in [`Self::with_instrument`]. `offset` is the measured displacement in m at which the bodies first touch.
+    /// Returns the scene with two fields taken from the measured curve: the loading, and the
+    /// stiffness of the instrument as in [`Self::with_instrument`]. `offset` is the measured
+    /// displacement in m at which the bodies first touch.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this loading or this stiffness.

@@ -1,13 +1,15 @@
-//! The search for the parameters that describe a curve, with their errors. A population samples the probability of the
-//! parameters (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat. Soc. B 68, 411, 2006).
+//! The search for the parameters that describe a curve, with their errors. A population samples the
+//! probability of the parameters (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat.
+//! Soc. B 68, 411, 2006).
 //!
-//! The forces jump with the parameters. Neither derivatives nor a linearised fit can therefore show how well a curve
-//! determines the parameters, but a population can. Its members are drawn from the ranges and weighted as if the noise were
-//! large, so that jumps count little. The noise is then lowered step by step to the noise of the curve. At each step likely
-//! members are copied and unlikely members are dropped. Each member then moves by the difference of two others, which has
-//! the extent and direction of the population. Some moves are random steps of any size, so that copies separate again. In
-//! the end the members are distributed as the noise allows. The start is no member, because a start close to the result
-//! would be copied to the whole population.
+//! The forces jump with the parameters. Neither derivatives nor a linearised fit can therefore show
+//! how well a curve determines the parameters, but a population can. Its members are drawn from the
+//! ranges and weighted as if the noise were large, so that jumps count little. The noise is then
+//! lowered step by step to the noise of the curve. At each step likely members are copied and
+//! unlikely members are dropped. Each member then moves by the difference of two others, which has
+//! the extent and direction of the population. Some moves are random steps of any size, so that
+//! copies separate again. In the end the members are distributed as the noise allows. The start is
+//! no member, because a start close to the result would be copied to the whole population.
 
 use crate::baseline::{dot, ends};
 use crate::error::{ExperimentError, refused};
@@ -28,39 +30,42 @@ const MEMBERS: usize = 24;
 const FOR_EACH: usize = 8;
 /// Share of the members that still count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Largest number of moves of the population at each step, and number of moves at the end, each of which adds all members
-/// to the samples.
+/// Largest number of moves of the population at each step, and number of moves at the end, each of
+/// which adds all members to the samples.
 const MOVES: usize = 5;
 const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps, and number of decades below the whole range over which their lengths extend.
+/// Share of the moves that are random steps, and number of decades below the whole range over which
+/// their lengths extend.
 const RANDOM: f64 = 0.02;
 const DECADES: f64 = 6.0;
-/// Noise, divided by the noise of the curve, above which forces are computed coarsely, and the factor of the number of
-/// members until then.
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely, and the
+/// factor of the number of members until then.
 const COARSE: f64 = 10.0;
 const MORE: usize = 2;
-/// Divisor of the residual of the best member. The noise is lowered to this part of the residual, if the residual exceeds
-/// the noise of the curve.
+/// Divisor of the residual of the best member. The noise is lowered to this part of the residual,
+/// if the residual exceeds the noise of the curve.
 const DEEPER: f64 = 3.0;
-/// Residual in contact, in units of the noise, above which a population belongs to a model that does not describe the
-/// curve, and the share of this residual below which another population is better.
+/// Residual in contact, in units of the noise, above which a population belongs to a model that
+/// does not describe the curve, and the share of this residual below which another population is
+/// better.
 const SYSTEMATIC: f64 = 5.0;
 const BETTER: f64 = 0.9;
 /// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
-/// Largest number of populations, and the difference of costs by which a start must be better than a population to count as
-/// missed.
+/// Largest number of populations, and the difference of costs by which a start must be better than
+/// a population to count as missed.
 const ATTEMPTS: usize = 3;
 const MISSED: f64 = 3.0;
-/// Largest noise divided by the noise of the curve, and number of halvings to determine a step of its logarithm.
+/// Largest noise divided by the noise of the curve, and number of halvings to determine a step of
+/// its logarithm.
 const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
 /// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
 /// Residual in contact, in units of the noise, above which a model does not describe the curve.
 pub(crate) const MISFIT: f64 = 1.5;
-/// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few times the work that the
-/// noise hides.
+/// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few
+/// times the work that the noise hides.
 const CLOSE: f64 = 2.5;
 /// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
@@ -72,14 +77,15 @@ pub(crate) struct Found {
     pub best: Member,
     /// Residuals of the best member after a fit of the lines, in units of the noise.
     pub rests: Vec<f64>,
-    /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1 where the residual is.
+    /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1
+    /// where the residual is.
     pub noise: f64,
     /// Coordinates, distributed as the noise allows.
     pub samples: Vec<Vec<f64>>,
     /// Costs of each sample for each block of the curve; empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
-    /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no sample is close to zero
-    /// adhesion.
+    /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no
+    /// sample is close to zero adhesion.
     pub without_adhesion: f64,
 }
 
@@ -108,8 +114,8 @@ impl Search<'_> {
         Ok(Member { at, rests })
     }
 
-    /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals above `limit` count as
-    /// `limit`.
+    /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals
+    /// above `limit` count as `limit`.
     fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
         let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
         let mut refined = rests.to_vec();
@@ -130,8 +136,9 @@ impl Search<'_> {
         Ok(self.refined(&member.rests, limit))
     }
 
-    /// Returns residuals in which points inside a jump count as described. A residual above [`WRONG_SIDE`] becomes the
-    /// distance from the forces of a jump of the model, if the jump is within one point.
+    /// Returns residuals in which points inside a jump count as described. A residual above
+    /// [`WRONG_SIDE`] becomes the distance from the forces of a jump of the model, if the jump is
+    /// within one point.
     pub fn eased(&mut self, at: &[f64], rests: &[f64]) -> Result<Vec<f64>, ExperimentError> {
         let noise = self.space.curve.noise;
         self.model.noise = 1.0;
@@ -147,15 +154,15 @@ impl Search<'_> {
         Ok(rests.iter().zip(jumps).map(ease).collect())
     }
 
-    /// Returns the residual in contact, in units of the noise of the curve, after a fit of the lines at this noise; see
-    /// [`Space::misfit`].
+    /// Returns the residual in contact, in units of the noise of the curve, after a fit of the
+    /// lines at this noise; see [`Space::misfit`].
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
         self.space
             .misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
     }
 
-    /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of the [`loss`] of all
-    /// points.
+    /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
+    /// the [`loss`] of all points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         self.refined(&member.rests, WRONG_SIDE * noise)
             .iter()
@@ -194,9 +201,10 @@ impl Search<'_> {
         Ok(members)
     }
 
-    /// Finds the member with the smallest residuals, and samples of the coordinates. Another population is drawn in three
-    /// cases. The residuals exceed the noise, as one population in thirty ends in another minimum and one in 200 twice. The
-    /// population has missed a better start, which then becomes a member of the next one. The population has not spread.
+    /// Finds the member with the smallest residuals, and samples of the coordinates. Another
+    /// population is drawn in three cases. The residuals exceed the noise, as one population in
+    /// thirty ends in another minimum and one in 200 twice. The population has missed a better
+    /// start, which then becomes a member of the next one. The population has not spread.
     pub fn find(&mut self) -> Result<Found, ExperimentError> {
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
@@ -232,7 +240,8 @@ impl Search<'_> {
             if has_spread && !has_missed && !is_poor {
                 break;
             }
-            // Where the residuals are no noise, another population that comes to the same ones ends there.
+            // Where the residuals are no noise, another population that comes to the same ones ends
+            // there.
             let rival = self.misfit(&population.best, population.noise);
             let rival = if has_spread && !has_missed && rival > SYSTEMATIC {
                 BETTER * rival
@@ -293,8 +302,8 @@ impl Search<'_> {
         })
     }
 
-    /// Returns the smallest cost of a scene without adhesion minus the cost of the best member; infinite if no sample is
-    /// close to zero adhesion.
+    /// Returns the smallest cost of a scene without adhesion minus the cost of the best member;
+    /// infinite if no sample is close to zero adhesion.
     fn without_adhesion(
         &mut self,
         population: &Population,
@@ -315,9 +324,9 @@ impl Search<'_> {
         Ok(least)
     }
 
-    /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the residual. While the
-    /// noise is large the population has more members and coarse forces. It ends early if its residual is above the
-    /// residual of a rival at the noise of the rival.
+    /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the
+    /// residual. While the noise is large the population has more members and coarse forces. It
+    /// ends early if its residual is above the residual of a rival at the noise of the rival.
     fn anneal(
         &mut self,
         attempt: usize,
@@ -394,7 +403,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the next lower noise, at least `least`, and the weights of the members at this noise.
+    /// Returns the next lower noise, at least `least`, and the weights of the members at this
+    /// noise.
     fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
         let weights = |noise: f64| -> Vec<f64> {
             let pairs = population.members.iter().zip(&population.costs);
@@ -432,8 +442,8 @@ impl Search<'_> {
         (next, weights(next))
     }
 
-    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006) or by a random step along
-    /// one coordinate; rejected moves leave it where it is.
+    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006)
+    /// or by a random step along one coordinate; rejected moves leave it where it is.
     fn move_all(
         &mut self,
         population: &mut Population,

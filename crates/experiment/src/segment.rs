@@ -1,17 +1,19 @@
-//! The segments of a curve, in which the body is pressed and pulled in turn, and the pauses between them.
+//! The segments of a curve, in which the body is pressed and pulled in turn, and the pauses between
+//! them.
 
 use crate::baseline::ends;
 
-/// Share of the range by which the displacement comes back after a turning point, and share of the points that a smoothed
-/// displacement averages.
+/// Share of the range by which the displacement comes back after a turning point, and share of the
+/// points that a smoothed displacement averages.
 const TURN: f64 = 0.05;
 const SMOOTHING: f64 = 1e-3;
-/// Share of the range of the displacement within which a pause stays, smallest number of points of a pause, and least ratio
-/// of these points to the points of a motion.
+/// Share of the range of the displacement within which a pause stays, smallest number of points of
+/// a pause, and least ratio of these points to the points of a motion.
 const STILL: f64 = 0.01;
 const FEWEST: usize = 10;
 const MORE: f64 = 8.0;
-/// Mean step between points, over the range of the displacement, above which the rows are not in the order of time.
+/// Mean step between points, over the range of the displacement, above which the rows are not in
+/// the order of time.
 const SHUFFLED: f64 = 0.2;
 
 /// Label of the points in a part of a file.
@@ -41,7 +43,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// Finds segments by the labels of a column, or by the turning points of the displacement if there are no labels.
+    /// Finds segments by the labels of a column, or by the turning points of the displacement if
+    /// there are no labels.
     pub fn of(displacement: &[f64], labels: &[Label]) -> Self {
         let by_turning_points = || Segments {
             numbers: by_turning_points(displacement),
@@ -62,7 +65,8 @@ impl Segments {
         self.numbers[second..].fill(1);
     }
 
-    /// Marks the points beside each turning point as a pause, if many more points stay there than pass by.
+    /// Marks the points beside each turning point as a pause, if many more points stay there than
+    /// pass by.
     fn find_pauses(&mut self, displacement: &[f64]) {
         let (low, high) = ends(displacement.iter().copied());
         let near = STILL * (high - low);
@@ -84,7 +88,8 @@ impl Segments {
     }
 }
 
-/// Returns true if the displacement jumps to and fro from point to point, as it does for rows in a wrong order.
+/// Returns true if the displacement jumps to and fro from point to point, as it does for rows in a
+/// wrong order.
 pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let (low, high) = ends(displacement.iter().copied());
     let way: f64 = displacement
@@ -94,8 +99,8 @@ pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     way > SHUFFLED * (high - low) * displacement.len() as f64
 }
 
-/// Returns the index of the segment of each point. Segments end at turning points of the smoothed displacement. After a
-/// turning point the displacement comes back by a share of its range.
+/// Returns the index of the segment of each point. Segments end at turning points of the smoothed
+/// displacement. After a turning point the displacement comes back by a share of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let last = displacement.len() - 1;
     let half = (0.5 * SMOOTHING * last as f64) as usize;
@@ -136,8 +141,8 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Finds segments by the labels of a file. Neighbouring parts in one direction are one segment, and parts without motion
-/// are pauses. Returns `None` if the labels do not separate the directions.
+/// Finds segments by the labels of a file. Neighbouring parts in one direction are one segment, and
+/// parts without motion are pauses. Returns `None` if the labels do not separate the directions.
 fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
     let (low, high) = ends(displacement.iter().copied());
     let (mut numbers, mut is_still) = (

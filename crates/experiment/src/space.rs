@@ -49,8 +49,8 @@ fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
 }
 
 impl<'a> Space<'a> {
-    /// Checks parameters and scene. Returns the document with works of adhesion in place of κ, and the coordinates of the
-    /// fit.
+    /// Checks parameters and scene. Returns the document with works of adhesion in place of κ, and
+    /// the coordinates of the fit.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,
@@ -197,8 +197,9 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// Returns the free parameters with a larger range of the work of adhesion, if its range was not given and these
-    /// coordinates lie at its end. Rough bodies may be pulled off by a small part of the force of smooth bodies.
+    /// Returns the free parameters with a larger range of the work of adhesion, if its range was
+    /// not given and these coordinates lie at its end. Rough bodies may be pulled off by a small
+    /// part of the force of smooth bodies.
     pub fn extended(&self, at: &[f64], free: &[Free]) -> Option<Vec<Free>> {
         let place = self
             .coordinates
@@ -222,7 +223,8 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns consecutive parts of each segment in contact. Parts depend on each other less than points do.
+    /// Returns consecutive parts of each segment in contact. Parts depend on each other less than
+    /// points do.
     pub fn blocks(&self) -> Vec<Range<usize>> {
         let (mut blocks, mut from) = (Vec::new(), self.curve.free);
         for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
@@ -233,7 +235,8 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Returns the straight lines of the curve that each model refines; see [`MeasuredCurve::lines`].
+    /// Returns the straight lines of the curve that each model refines; see
+    /// [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
         let has_zero = self
             .coordinates
@@ -242,7 +245,8 @@ impl<'a> Space<'a> {
         self.curve.lines(has_zero)
     }
 
-    /// Returns the root mean square residual in contact, in units of the noise of the curve; see [`scale`].
+    /// Returns the root mean square residual in contact, in units of the noise of the curve; see
+    /// [`scale`].
     pub fn misfit(&self, rests: &[f64]) -> f64 {
         scale(&rests[self.curve.free..], WRONG_SIDE)
     }
@@ -255,8 +259,8 @@ mod tests {
     use crate::options::Drift;
     use std::f64::consts::PI;
 
-    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR) and F²/(π E* L³) for a
-    /// punch as long as the profile (Kendall).
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR)
+    /// and F²/(π E* L³) for a punch as long as the profile (Kendall).
     #[test]
     fn a_fit_begins_with_the_work_of_a_smooth_body() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);

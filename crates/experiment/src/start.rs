@@ -1,5 +1,5 @@
-//! Values at which a fit begins. They follow from the curve and the known parameters; the values of the scene for free
-//! parameters have no effect.
+//! Values at which a fit begins. They follow from the curve and the known parameters; the values of
+//! the scene for free parameters have no effect.
 
 use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
@@ -8,11 +8,11 @@ use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, Modulus};
 use std::f64::consts::PI;
 
-/// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the coordinate of the work of
-/// adhesion is linear. The limit is larger if the noise hides more.
+/// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the
+/// coordinate of the work of adhesion is linear. The limit is larger if the noise hides more.
 const LINEAR: f64 = 0.01;
-/// Smallest share of the way from first touch to the turning point that indents the body. The deflection of the instrument
-/// takes the rest.
+/// Smallest share of the way from first touch to the turning point that indents the body. The
+/// deflection of the instrument takes the rest.
 const LEAST: f64 = 0.05;
 /// Stiffness of an instrument divided by the mean slope of the force.
 const STIFFER: f64 = 10.0;
@@ -37,7 +37,8 @@ pub(crate) struct Starts {
     pub work: f64,
     /// Work of adhesion that the noise hides, J/m².
     pub least_work: f64,
-    /// Effective modulus, Pa, with which the body without adhesion would carry the largest force at the turning point.
+    /// Effective modulus, Pa, with which the body without adhesion would carry the largest force at
+    /// the turning point.
     pub modulus: f64,
     /// Stiffness of the instrument, N/m.
     pub stiffness: f64,

@@ -9,8 +9,9 @@ const RANGES: usize = 20;
 /// Number of parts into which each segment is divided as blocks of the curve.
 pub(crate) const PARTS: usize = 4;
 
-/// Returns a robust root mean square of residuals. Residuals above `cut` times this scale count as `cut` times the scale
-/// (Huber, Robust Statistics, proposal 2), so that single points on the wrong side of a jump count little.
+/// Returns a robust root mean square of residuals. Residuals above `cut` times this scale count as
+/// `cut` times the scale (Huber, Robust Statistics, proposal 2), so that single points on the wrong
+/// side of a jump count little.
 pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
     squares.sort_by(f64::total_cmp);
@@ -28,10 +29,11 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     (sum / count).sqrt()
 }
 
-/// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal jackknife; Giordano and
-/// Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for each block. Where a model does not describe a
-/// curve, its residuals are no independent noise, and each block would give another value. Blocks are joined, up to whole
-/// segments, and the largest error counts.
+/// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal
+/// jackknife; Giordano and Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for
+/// each block. Where a model does not describe a curve, its residuals are no independent noise, and
+/// each block would give another value. Blocks are joined, up to whole segments, and the largest
+/// error counts.
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let (count, average) = (values.len() as f64, mean(values));
     let influence = |block: usize| {
@@ -59,8 +61,8 @@ pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
 }
 
-/// Returns the factor by which correlation of the residuals along the curve increases the variance of their mean; 1 without
-/// correlation.
+/// Returns the factor by which correlation of the residuals along the curve increases the variance
+/// of their mean; 1 without correlation.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
@@ -155,7 +157,8 @@ mod tests {
 
     #[test]
     fn the_error_by_blocks_is_that_of_their_influence() {
-        // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8 blocks.
+        // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8
+        // blocks.
         let values: Vec<f64> = (0..64).map(|index| [-1.0, 1.0][index % 2]).collect();
         let costs = |slope: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
             values
@@ -168,7 +171,8 @@ mod tests {
         // Approach against retraction: joined to two segments, of influences of 8 and -8.
         let branches = block_error(&values, &costs(&|block| if block < 4 { 2.0 } else { -2.0 }));
         assert!(is_close(branches, 128.0_f64.sqrt()), "{branches}");
-        // One block has no scatter, and a mean influence, which a population aside of the minimum has, is no scatter.
+        // One block has no scatter, and a mean influence, which a population aside of the minimum
+        // has, is no scatter.
         let error = block_error(&values, &costs(&|_| 2.0));
         assert!(error.abs() < 1e-9, "{error}");
         assert_eq!(

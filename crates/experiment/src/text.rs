@@ -20,7 +20,8 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Returns the form of a line with at least `least` values, of which at least one is not missing.
+    /// Returns the form of a line with at least `least` values, of which at least one is not
+    /// missing.
     fn of(line: &str, least: usize) -> Option<Shape> {
         let separator = Separator::of(line);
         let (mut words, mut count, mut numbers) = (Vec::new(), 0, 0);
@@ -40,8 +41,8 @@ impl Shape {
     }
 }
 
-/// Returns the line at which the points begin, and their form. The first few like rows decide, or else the first row.
-/// Returns `None` if there is no row of numbers.
+/// Returns the line at which the points begin, and their form. The first few like rows decide, or
+/// else the first row. Returns `None` if there is no row of numbers.
 pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TextFault> {
     for least in [2, 1] {
         let (mut first, mut run) = (None, None::<(usize, Shape)>);
@@ -239,7 +240,8 @@ mod tests {
                 one.0, other.0, volts[0], volts[1]
             )
         });
-        // The retraction along the same direction as the approach, and with minus signs of a spreadsheet.
+        // The retraction along the same direction as the approach, and with minus signs of a
+        // spreadsheet.
         let side = joined(
             "Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n",
             300,

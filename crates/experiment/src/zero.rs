@@ -1,4 +1,5 @@
-//! The points of a curve without contact, and the zero, drift and tilt of the force at these points.
+//! The points of a curve without contact, and the zero, drift and tilt of the force at these
+//! points.
 
 use crate::baseline::{Baseline, ends};
 use crate::error::{ExperimentError, refused};
@@ -10,8 +11,9 @@ use std::ops::Range;
 
 /// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the lines of drift, tilt and step, divided by the noise between neighbouring points, above which the parts
-/// without contact are not straight. Lines that exceed this residual by the second number still count as drift or tilt.
+/// Residual of the lines of drift, tilt and step, divided by the noise between neighbouring points,
+/// above which the parts without contact are not straight. Lines that exceed this residual by the
+/// second number still count as drift or tilt.
 const CURVED: f64 = 1.5;
 const DOMINATES: f64 = 20.0;
 
@@ -85,8 +87,9 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Returns the displacement in m at which the contact seems to begin, behind the part before contact. For a retraction
-    /// without an approach it lies where compression ends, or half way to its end.
+    /// Returns the displacement in m at which the contact seems to begin, behind the part before
+    /// contact. For a retraction without an approach it lies where compression ends, or half way to
+    /// its end.
     pub fn touch(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -100,8 +103,8 @@ impl FreeParts {
         points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 
-    /// Subtracts zero, drift and tilt as the options request. Returns the drift, tilt and step that remain in N, and a
-    /// statement on all of them.
+    /// Subtracts zero, drift and tilt as the options request. Returns the drift, tilt and step that
+    /// remain in N, and a statement on all of them.
     pub fn take_off_lines(
         &self,
         points: &mut Points,
@@ -337,7 +340,8 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
-    /// A retraction alone touches where compression ends and the force is zero, here at the displacement zero.
+    /// A retraction alone touches where compression ends and the force is zero, here at the
+    /// displacement zero.
     #[test]
     fn a_retraction_alone_touches_where_it_leaves_compression() {
         let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
@@ -349,8 +353,8 @@ mod tests {
         assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
     }
 
-    /// Drift over time and tilt over the displacement are separated by the parts before and after contact; a difference of
-    /// the force before and after contact is neither.
+    /// Drift over time and tilt over the displacement are separated by the parts before and after
+    /// contact; a difference of the force before and after contact is neither.
     #[test]
     fn what_remains_without_contact_is_named_with_its_remedy() {
         let keep = |text: &str| {

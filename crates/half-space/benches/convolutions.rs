@@ -1,5 +1,6 @@
-//! Convolutions and times of contacts without adhesion, over areas from 1 to 60 %: eight cells for the shortest wave, each load from
-//! the start, one thread, residual 1e-8 rms heights. Times are those of the processor where the system states them.
+//! Convolutions and times of contacts without adhesion, over areas from 1 to 60 %: eight cells for
+//! the shortest wave, each load from the start, one thread, residual 1e-8 rms heights. Times are
+//! those of the processor where the system states them.
 
 use asperity_half_space::{AdhesiveSquare, Boundary, HalfSpace, Load, Square, random_map};
 use std::time::Instant;

@@ -1,12 +1,13 @@
-//! Contact with adhesion. The edge of the contact is a crack. It opens or closes where the energy that it releases over one
-//! cell, the virtual crack closure ½σg, passes the work of adhesion.
+//! Contact with adhesion. The edge of the contact is a crack. It opens or closes where the energy
+//! that it releases over one cell, the virtual crack closure ½σg, passes the work of adhesion.
 //!
-//! Here σ is the tension of a cell i in contact, and g the gap of an open cell j beside it. ½σg is exact for straight
-//! fronts along the grid and at 45°. A front moves by kinks, where the mean over the open neighbours is about 1.27 times
-//! that of the straight front, whatever the number of cells. A cell therefore opens where this mean passes [`OPENING`]
-//! times the work of adhesion. A cell closes where the mean over its neighbours in contact is below [`CLOSING`] times the
-//! work of adhesion on closing. Between both remains a hysteresis of the lattice, 5 to 12 % of the work of adhesion. A
-//! smaller dissipated energy is not a property of the contact.
+//! Here σ is the tension of a cell i in contact, and g the gap of an open cell j beside it. ½σg is
+//! exact for straight fronts along the grid and at 45°. A front moves by kinks, where the mean over
+//! the open neighbours is about 1.27 times that of the straight front, whatever the number of
+//! cells. A cell therefore opens where this mean passes [`OPENING`] times the work of adhesion. A
+//! cell closes where the mean over its neighbours in contact is below [`CLOSING`] times the work of
+//! adhesion on closing. Between both remains a hysteresis of the lattice, 5 to 12 % of the work of
+//! adhesion. A smaller dissipated energy is not a property of the contact.
 
 use super::error::HalfSpaceError;
 use super::half_space::{Square, check_cells, positive};
@@ -14,14 +15,16 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It was found once with
-/// spheres.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It
+/// was found once with spheres.
 pub const OPENING: f64 = 1.29;
-/// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a cell closes.
+/// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a
+/// cell closes.
 pub const CLOSING: f64 = 0.8;
 /// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;
-/// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the side Δ.
+/// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the
+/// side Δ.
 const OF_AN_EDGE: f64 = 0.4732;
 
 /// Force, contact area and elastic energy of an adhesive contact at one indentation.
@@ -37,7 +40,8 @@ pub struct AdhesiveState {
     pub elastic_energy: f64,
 }
 
-/// A rigid rough square that adheres to an elastic half-space and is moved by prescribed indentations.
+/// A rigid rough square that adheres to an elastic half-space and is moved by prescribed
+/// indentations.
 pub struct AdhesiveSquare {
     grid: Grid,
     /// Number of cells along a side of the body. One ring of cells around it never touches.
@@ -56,12 +60,12 @@ impl AdhesiveSquare {
         Grid::bytes(cells + 2, Boundary::Free) + (cells as u64 + 2).pow(2)
     }
 
-    /// Creates a square that is not yet in contact. `opening` is the work of adhesion in J/m² where the interface opens, and
-    /// `closing` the work of adhesion in J/m² where the interface closes.
+    /// Creates a square that is not yet in contact. `opening` is the work of adhesion in J/m² where
+    /// the interface opens, and `closing` the work of adhesion in J/m² where the interface closes.
     ///
     /// # Errors
-    /// Returns an error if the number of heights is not the square of an allowed number of cells along a side, if a value
-    /// is out of its range, or if the memory is too small.
+    /// Returns an error if the number of heights is not the square of an allowed number of cells
+    /// along a side, if a value is out of its range, or if the memory is too small.
     pub fn new(
         square: &Square<'_>,
         (opening, closing): (f64, f64),
@@ -126,14 +130,15 @@ impl AdhesiveSquare {
         })
     }
 
-    /// Returns the number of convolutions over the grid since the square was created, a measure of the computing work.
+    /// Returns the number of convolutions over the grid since the square was created, a measure of
+    /// the computing work.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
 
-    /// Moves the square to an indentation in m from first touch, and returns the state of the contact in equilibrium there.
-    /// `stop` is called before each step of the solver. If `stop` returns true, the solver ends with
-    /// [`HalfSpaceError::Stopped`].
+    /// Moves the square to an indentation in m from first touch, and returns the state of the
+    /// contact in equilibrium there. `stop` is called before each step of the solver. If `stop`
+    /// returns true, the solver ends with [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
     /// Returns an error if the indentation is not finite, or if `stop` returned true.
@@ -180,7 +185,8 @@ impl AdhesiveSquare {
         (-self.grid.pressure[at]).max(0.0)
     }
 
-    /// Returns the mean of ½σg over the neighbours of a cell on the other side of the edge; `None` without one.
+    /// Returns the mean of ½σg over the neighbours of a cell on the other side of the edge; `None`
+    /// without one.
     fn energy(&self, at: usize) -> Option<f64> {
         let ringed = self.cells + 2;
         let is_open = self.grid.outside[at] == 1.0;
@@ -283,9 +289,10 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// An ellipsoid on a square of 1 m, with radii of curvature of 1 m times and over `ratio` in directions turned by `angle`,
-    /// whose summit is off the middle of the grid by shares of a cell. A sphere with its mean radius has a contact radius at
-    /// pull-off, a³ = (9/8)πγR²/E*, of `critical` cells. With its work of adhesion, J/m².
+    /// An ellipsoid on a square of 1 m, with radii of curvature of 1 m times and over `ratio` in
+    /// directions turned by `angle`, whose summit is off the middle of the grid by shares of a
+    /// cell. A sphere with its mean radius has a contact radius at pull-off, a³ = (9/8)πγR²/E*, of
+    /// `critical` cells. With its work of adhesion, J/m².
     fn ellipsoid(
         cells: usize,
         critical: f64,
@@ -321,8 +328,8 @@ mod tests {
         ellipsoid(cells, critical, (place, (1.0, 0.0)), closing)
     }
 
-    /// Force at first touch and pull-off force, in units of (3/2)πγR, of a body that is pressed by `pressed` steps of a fifth of
-    /// a²/R.
+    /// Force at first touch and pull-off force, in units of (3/2)πγR, of a body that is pressed by
+    /// `pressed` steps of a fifth of a²/R.
     fn pulled((mut body, work): (AdhesiveSquare, f64), unit: f64, pressed: i32) -> [f64; 2] {
         let touch = moved(&mut body, 0.0).force;
         for step in 1..=pressed {
@@ -346,8 +353,9 @@ mod tests {
         body.move_to(indentation, &|| false).unwrap()
     }
 
-    /// Places of a sphere on the grid scatter by a few per cent, most where the summit is in the middle of a cell or on a
-    /// corner and whole rings detach at once; their mean is the force of Johnson, Kendall and Roberts.
+    /// Places of a sphere on the grid scatter by a few per cent, most where the summit is in the
+    /// middle of a cell or on a corner and whole rings detach at once; their mean is the force of
+    /// Johnson, Kendall and Roberts.
     #[test]
     fn a_sphere_pulls_off_as_johnson_kendall_and_roberts_say() {
         check_spheres(&[(32, 6.0, 4, 0.04, 0.08), (64, 13.0, 4, 0.02, 0.03)]);
@@ -362,7 +370,8 @@ mod tests {
         std::env::var("TEST_EFFORT").map_or(1, |of| of.parse().unwrap())
     }
 
-    /// Cells, cells of the contact radius at pull-off, number of places, and the allowed errors of the mean and of one.
+    /// Cells, cells of the contact radius at pull-off, number of places, and the allowed errors of
+    /// the mean and of one.
     fn check_spheres(sizes: &[(usize, f64, usize, f64, f64)]) {
         let places = [(0.3, 0.2), (0.1, 0.4), (0.15, 0.35), (0.45, 0.05)];
         for &(cells, critical, count, of_mean, of_one) in sizes {
@@ -371,7 +380,8 @@ mod tests {
                 let of = |place| pulled(sphere(cells, critical, place, closing), unit, 8);
                 let found: Vec<[f64; 2]> = places[..count].iter().map(|place| of(*place)).collect();
                 println!("{critical} cells, closing {closing}: {found:.4?}");
-                // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9 of the pull-off.
+                // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9
+                // of the pull-off.
                 if closing == 1.0 && critical > 10.0 {
                     let touch = found.iter().map(|[touch, _]| touch * 9.0 / 8.0);
                     touch.for_each(|touch| {
@@ -391,9 +401,9 @@ mod tests {
         }
     }
 
-    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other directions on the grid at
-    /// each angle, pulls off at the same force whatever its angle, and at little less than the sphere with its mean radius
-    /// (Johnson and Greenwood 2005).
+    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other
+    /// directions on the grid at each angle, pulls off at the same force whatever its angle, and at
+    /// little less than the sphere with its mean radius (Johnson and Greenwood 2005).
     #[test]
     fn an_ellipsoid_pulls_off_at_the_same_force_at_all_angles() {
         let (cells, critical) = (64, 13.0);
@@ -447,8 +457,9 @@ mod tests {
         );
     }
 
-    /// At every step the work of the force less the change of the elastic energy and of γA is dissipated, which is never
-    /// negative but for the error of the trapezoidal rule at jumps and for the lattice.
+    /// At every step the work of the force less the change of the elastic energy and of γA is
+    /// dissipated, which is never negative but for the error of the trapezoidal rule at jumps and
+    /// for the lattice.
     #[test]
     fn no_step_gains_energy() {
         let (mut body, work) = sphere(64, 13.0, (0.3, 0.2), 1.0);
@@ -485,7 +496,8 @@ mod tests {
         assert!(dissipated > 0.0);
     }
 
-    /// The energy that a loop of a sphere dissipates is that of the line, which has it exactly, and a share for the lattice.
+    /// The energy that a loop of a sphere dissipates is that of the line, which has it exactly, and
+    /// a share for the lattice.
     #[test]
     fn a_loop_dissipates_the_energy_of_its_jumps() {
         let (cells, critical) = (128, 20.0);
@@ -507,8 +519,9 @@ mod tests {
         assert!((0.95..1.25).contains(&(lost / exact)), "{}", lost / exact);
     }
 
-    /// Rough squares of two Hurst exponents, from hardly to strongly adhesive, pressed and pulled off: each loop ends
-    /// separated, and dissipates energy. An effort of 175 makes seven hundred loops.
+    /// Rough squares of two Hurst exponents, from hardly to strongly adhesive, pressed and pulled
+    /// off: each loop ends separated, and dissipates energy. An effort of 175 makes seven hundred
+    /// loops.
     #[test]
     fn loops_of_rough_squares_end() {
         check_rough_loops(0..effort());
@@ -582,8 +595,9 @@ mod tests {
         }
     }
 
-    /// A loop in other units is the same loop: forces are in units of E*L², energies of E*L³, works of adhesion of E*L. The
-    /// units are powers of two, so that no crack ends elsewhere by rounding.
+    /// A loop in other units is the same loop: forces are in units of E*L², energies of E*L³, works
+    /// of adhesion of E*L. The units are powers of two, so that no crack ends elsewhere by
+    /// rounding.
     #[test]
     fn a_loop_scales_with_its_modulus_and_side() {
         let cells = 32;
@@ -637,7 +651,8 @@ mod tests {
         }
     }
 
-    /// Kendall's punch is round; a square one pulls off a little earlier at its corners, the same at all sizes.
+    /// Kendall's punch is round; a square one pulls off a little earlier at its corners, the same
+    /// at all sizes.
     #[test]
     fn a_flat_square_pulls_off_as_a_punch() {
         let of = |cells: usize| {

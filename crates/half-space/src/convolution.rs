@@ -1,4 +1,5 @@
-//! Convolution of a square grid of real numbers with a kernel that is real and even in both directions.
+//! Convolution of a square grid of real numbers with a kernel that is real and even in both
+//! directions.
 
 use asperity_data::{OutOfMemory, resized};
 use asperity_fourier::{
@@ -7,15 +8,16 @@ use asperity_fourier::{
 };
 use std::sync::Arc;
 
-/// Number of bytes of the columns of one row that are transformed together. Memory is read in rows, and columns are
-/// computed contiguously.
+/// Number of bytes of the columns of one row that are transformed together. Memory is read in rows,
+/// and columns are computed contiguously.
 const BLOCK: usize = 128;
 
 /// Rows of a block that are gathered together, so that their numbers stay in the cache.
 const TILE: usize = 16;
 
-/// A planned convolution of numbers of the type T. Rows are transformed first. Then each block of columns is gathered,
-/// transformed, multiplied, transformed back and stored, in one pass over the memory.
+/// A planned convolution of numbers of the type T. Rows are transformed first. Then each block of
+/// columns is gathered, transformed, multiplied, transformed back and stored, in one pass over the
+/// memory.
 pub struct Convolution<T> {
     /// Number of rows and columns of the grid.
     cells: usize,
@@ -35,15 +37,16 @@ impl<T: FftNum + Default> Convolution<T> {
     /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
-    /// Returns the number of bytes of a planned convolution, together with the memory of its planning.
+    /// Returns the number of bytes of a planned convolution, together with the memory of its
+    /// planning.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
         let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * Self::apart(padded);
         (size_of::<T>() * (padded * half + 2 * complex) + 8 * half * half) as u64
     }
 
-    /// Returns the distance of the rows of the half spectra. It is no power of two, which would fall on the same lines of
-    /// the cache.
+    /// Returns the distance of the rows of the half spectra. It is no power of two, which would
+    /// fall on the same lines of the cache.
     fn stride(padded: usize) -> usize {
         (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
     }
@@ -53,8 +56,9 @@ impl<T: FftNum + Default> Convolution<T> {
         padded + Self::TOGETHER
     }
 
-    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves over the padded grid,
-    /// is `transform`. Wave numbers beyond the half of the grid are negative ones.
+    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves
+    /// over the padded grid, is `transform`. Wave numbers beyond the half of the grid are negative
+    /// ones.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -70,8 +74,8 @@ impl<T: FftNum + Default> Convolution<T> {
         Ok(planned)
     }
 
-    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid padded to at least twice its
-    /// size.
+    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid
+    /// padded to at least twice its size.
     pub fn by_kernel(
         cells: usize,
         padded: usize,
@@ -135,8 +139,8 @@ impl<T: FftNum + Default> Convolution<T> {
         })
     }
 
-    /// Convolves a grid: `from` writes each of its rows, and `to` reads each row of the result. Both have the `context`, so
-    /// that a row is made and used while it is in the cache.
+    /// Convolves a grid: `from` writes each of its rows, and `to` reads each row of the result.
+    /// Both have the `context`, so that a row is made and used while it is in the cache.
     pub fn apply<C>(
         &mut self,
         context: &mut C,

@@ -7,7 +7,8 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HalfSpaceError {
-    /// The number of cells along a side is not a power of two from 32 to 8192; the field has this number.
+    /// The number of cells along a side is not a power of two from 32 to 8192; the field has this
+    /// number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
     /// The number of heights of the square is not the number of cells of the solver.

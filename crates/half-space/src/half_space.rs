@@ -8,8 +8,8 @@ use asperity_data::check_room;
 /// Largest number of cells along a side.
 const FINEST: usize = 8192;
 
-/// A rigid rough square above an elastic half-space. It is divided into equal square cells, with the same number of cells along
-/// each side.
+/// A rigid rough square above an elastic half-space. It is divided into equal square cells, with
+/// the same number of cells along each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Square<'a> {
     /// Height of each cell in m, row by row. The highest cell touches first.
@@ -23,10 +23,11 @@ pub struct Square<'a> {
 /// What is prescribed for a contact: its force or its indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
-    /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of the repeated squares.
+    /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of
+    /// the repeated squares.
     Force(f64),
-    /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`], because the displacement of
-    /// a periodic half-space has no zero.
+    /// Indentation in m from first touch. It can be prescribed only with [`Boundary::Free`],
+    /// because the displacement of a periodic half-space has no zero.
     Indentation(f64),
 }
 
@@ -35,24 +36,27 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap between the square and the half-space at each cell in m. [`Pressed::residual`] describes its error in contact,
-    /// where it should be zero.
+    /// Gap between the square and the half-space at each cell in m. [`Pressed::residual`] describes
+    /// its error in contact, where it should be zero.
     pub gap: Vec<f64>,
-    /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is positive.
+    /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is
+    /// positive.
     pub force: f64,
-    /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the highest point of the square
-    /// below the mean plane of the deformed half-space.
+    /// Indentation from first touch in m. With [`Boundary::Periodic`] it is the depth of the
+    /// highest point of the square below the mean plane of the deformed half-space.
     pub indentation: f64,
     /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
-    /// Largest error of the gap of any cell, divided by the rms height of the square. The error is the absolute value of the
-    /// gap of a cell in contact, and the depth of penetration of any other cell. For a flat square, whose rms height is
-    /// zero, the error is divided by the given indentation, or by F/(E* L) for a given force F and the side L.
+    /// Largest error of the gap of any cell, divided by the rms height of the square. The error is
+    /// the absolute value of the gap of a cell in contact, and the depth of penetration of any
+    /// other cell. For a flat square, whose rms height is zero, the error is divided by the given
+    /// indentation, or by F/(E* L) for a given force F and the side L.
     pub residual: f64,
-    /// True if `residual` is at most the required tolerance and no pressure is negative. False if the solver ended
-    /// before, because it had used all its steps.
+    /// True if `residual` is at most the required tolerance and no pressure is negative. False if
+    /// the solver ended before, because it had used all its steps.
     pub is_reached: bool,
-    /// Number of convolutions that the solver computed on the grid of the cells of the square, a measure of the computing work.
+    /// Number of convolutions that the solver computed on the grid of the cells of the square, a
+    /// measure of the computing work.
     pub convolutions: u64,
 }
 
@@ -64,7 +68,8 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Returns the memory in bytes that a solver takes for squares with this number of cells along a side.
+    /// Returns the memory in bytes that a solver takes for squares with this number of cells along
+    /// a side.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells)
             .map(|cells| Grid::bytes(cells, boundary))
@@ -74,7 +79,8 @@ impl HalfSpace {
     /// Creates a solver for squares with this number of cells along a side.
     ///
     /// # Errors
-    /// Returns an error if the number of cells is not a power of two from 32 to 8192, or if the memory is too small.
+    /// Returns an error if the number of cells is not a power of two from 32 to 8192, or if the
+    /// memory is too small.
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, HalfSpaceError> {
         check_cells(cells)?;
         check_room(HalfSpace::bytes(cells, boundary))?;
@@ -84,13 +90,14 @@ impl HalfSpace {
         Ok(HalfSpace { boundary, grids })
     }
 
-    /// Computes the contact of a square with the half-space under a load, without adhesion. The solver improves the pressures
-    /// in steps until [`Pressed::residual`] is at most `tolerance`. `stop` is called before each step. If `stop` returns true,
-    /// the solver ends with [`HalfSpaceError::Stopped`].
+    /// Computes the contact of a square with the half-space under a load, without adhesion. The
+    /// solver improves the pressures in steps until [`Pressed::residual`] is at most `tolerance`.
+    /// `stop` is called before each step. If `stop` returns true, the solver ends with
+    /// [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
-    /// Returns an error if the number of heights is not the number of cells of this solver, if a value is out of its range, or
-    /// if `stop` returned true.
+    /// Returns an error if the number of heights is not the number of cells of this solver, if a
+    /// value is out of its range, or if `stop` returned true.
     pub fn press(
         &mut self,
         square: &Square<'_>,
@@ -354,8 +361,8 @@ mod tests {
         random_map(cells, power, seed).unwrap()
     }
 
-    /// Rough squares of three Hurst exponents under all loads up to full contact: the conditions of contact hold, and
-    /// near full contact nothing takes longer.
+    /// Rough squares of three Hurst exponents under all loads up to full contact: the conditions of
+    /// contact hold, and near full contact nothing takes longer.
     #[test]
     fn rough_squares_are_solved_at_any_load() {
         for (boundary, hurst) in [
@@ -410,8 +417,9 @@ mod tests {
         }
     }
 
-    /// At light loads the area of contact is about 2F/(E*h′), h′ the rms gradient, once the part of the cells at the edge that is
-    /// out of contact is taken off: a tenth of a cell for each side of a cell along the edge.
+    /// At light loads the area of contact is about 2F/(E*h′), h′ the rms gradient, once the part of
+    /// the cells at the edge that is out of contact is taken off: a tenth of a cell for each side
+    /// of a cell along the edge.
     #[test]
     fn the_area_at_light_loads_is_proportional_to_the_force() {
         let (cells, last) = (128, 8.0);
@@ -487,7 +495,8 @@ mod tests {
         assert!((one.indentation / other.indentation - 1.0).abs() < 1e-9);
     }
 
-    /// A contact in other units is the same contact: pressures are in units of E*, forces of E*L², lengths of L.
+    /// A contact in other units is the same contact: pressures are in units of E*, forces of E*L²,
+    /// lengths of L.
     #[test]
     fn a_contact_scales_with_its_modulus_and_side() {
         let (cells, heights) = (32, rough(32, 0.8, 7));

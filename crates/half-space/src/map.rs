@@ -7,10 +7,11 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by row. The surface is a sum
-/// of waves with k_x periods along one side and k_y periods along the other. Such a wave contributes `variance`(k) to the
-/// mean square height, with k = √(k_x² + k_y²). Heights are in m if `variance` returns m². With more cells and the same
-/// `seed`, the surface has the same waves and additional shorter waves.
+/// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by
+/// row. The surface is a sum of waves with k_x periods along one side and k_y periods along the
+/// other. Such a wave contributes `variance`(k) to the mean square height, with k = √(k_x² + k_y²).
+/// Heights are in m if `variance` returns m². With more cells and the same `seed`, the surface has
+/// the same waves and additional shorter waves.
 ///
 /// # Errors
 /// Returns an error if the heights do not fit into memory.
@@ -29,7 +30,8 @@ pub fn random_map(
         let at = |k: i64| k.rem_euclid(cells as i64) as usize;
         waves[at(y) * cells + at(x)] = Complex64::from_polar(amplitude, phase);
     };
-    // Shell by shell, half of each: the other half are the opposite waves. Waves of half the cells have no phase.
+    // Shell by shell, half of each: the other half are the opposite waves. Waves of half the cells
+    // have no phase.
     for shell in 1..half {
         (1 - shell..=shell).for_each(|y| set(shell, y));
         (1 - shell..=shell).for_each(|x| set(-x, shell));

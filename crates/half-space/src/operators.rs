@@ -1,5 +1,6 @@
-//! Linear operators of a half-space on a square grid, in units of the side L and the effective modulus E*. They are the
-//! displacement by a pressure, its approximate inverse, and the extension of numbers from a contact to the grid around it.
+//! Linear operators of a half-space on a square grid, in units of the side L and the effective
+//! modulus E*. They are the displacement by a pressure, its approximate inverse, and the extension
+//! of numbers from a contact to the grid around it.
 
 use super::convolution::Convolution;
 use asperity_data::{OutOfMemory, resized};
@@ -17,7 +18,8 @@ pub enum Boundary {
     Periodic,
 }
 
-/// Displacement of the middle of a square cell by a pressure of E* on it, in units of the side of the cell: (4/π) ln(1+√2).
+/// Displacement of the middle of a square cell by a pressure of E* on it, in units of the side of
+/// the cell: (4/π) ln(1+√2).
 pub const OWN_DISPLACEMENT: f64 = 1.122_199_7;
 
 /// Operators of one grid.
@@ -55,7 +57,8 @@ impl Operators {
                 of_a_cell(x as f64, y as f64) / cells as f64
             })?,
         };
-        // A mean pressure takes the inverse of the longest wave: under a force it is taken out, else it need not be exact.
+        // A mean pressure takes the inverse of the longest wave: under a force it is taken out,
+        // else it need not be exact.
         let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
         Ok(Operators {
             cells,
@@ -80,10 +83,11 @@ impl Operators {
         self.displacement.apply(context, pressure, displacement);
     }
 
-    /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D E. D is E*|q|/2, and E
-    /// extends displacements smoothly beyond the contact, because zeros there would act as a wall at each edge. The operator is
-    /// symmetric. It is only approximate, so single precision is enough. `outside` is 1 off the contact and 0 on it.
-    /// `visit` gets each row once it is computed.
+    /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D
+    /// E. D is E*|q|/2, and E extends displacements smoothly beyond the contact, because zeros
+    /// there would act as a wall at each edge. The operator is symmetric. It is only approximate,
+    /// so single precision is enough. `outside` is 1 off the contact and 0 on it. `visit` gets each
+    /// row once it is computed.
     pub fn precondition(
         &mut self,
         residual: &[f32],
@@ -99,7 +103,8 @@ impl Operators {
         } = self;
         let cells = *cells;
         self.convolutions += 1;
-        // In E a cell of the contact keeps its number, and another one becomes the mean of its neighbours.
+        // In E a cell of the contact keeps its number, and another one becomes the mean of its
+        // neighbours.
         let extend = |sweeps: &mut Sweeps, row: usize, to: &mut [f32]| {
             for time in if row == 0 { 0 } else { row + SWEEPS }..=row + SWEEPS {
                 if let Some(fixed) = residual.chunks_exact(cells).nth(time) {
@@ -111,7 +116,8 @@ impl Operators {
             }
             to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
         };
-        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways back.
+        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways
+        // back.
         let mut restrict = |(sweeps, pressure): &mut (&mut Sweeps, &mut [f32]), time: usize| {
             sweeps.sweep(time, (pressure, outside), |is_last, fixed, out, sum| {
                 (if is_last { 1.0 - out } else { out }) * (fixed + 0.25 * sum)
@@ -141,7 +147,8 @@ impl Operators {
     }
 }
 
-/// Sweeps that follow each other at a distance of one row, so that all rows of their work stay in the cache.
+/// Sweeps that follow each other at a distance of one row, so that all rows of their work stay in
+/// the cache.
 struct Sweeps {
     cells: usize,
     /// The last three rows of each sweep, and of the numbers before the first one.
@@ -153,8 +160,9 @@ impl Sweeps {
         &mut self.rows[(3 * sweep + row % 3) * self.cells..][..self.cells]
     }
 
-    /// Sweeps the row `time` − n by the sweep n. `each` makes a number of the last sweep, or another one, of the fixed number of
-    /// the cell, its being outside, and the sum of its four neighbours; a neighbour beyond the grid is the cell itself.
+    /// Sweeps the row `time` − n by the sweep n. `each` makes a number of the last sweep, or
+    /// another one, of the fixed number of the cell, its being outside, and the sum of its four
+    /// neighbours; a neighbour beyond the grid is the cell itself.
     fn sweep(
         &mut self,
         time: usize,
@@ -223,8 +231,8 @@ fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
     }
 }
 
-/// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in units of the cell (Love
-/// 1929).
+/// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in
+/// units of the cell (Love 1929).
 fn of_a_cell(x: f64, y: f64) -> f64 {
     let part = |x: f64, y: f64| {
         let r = x.hypot(y);

@@ -1,8 +1,9 @@
 //! Contact without adhesion: nested projected conjugate gradients on an active set.
 //!
-//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed set of cells, preconditioned
-//! conjugate gradients (Polak and Ribière) make the gap uniform. Pressures may become negative in the meantime. The set changes
-//! where the cells that pull or penetrate outweigh what the gradients have left over. An active set in one loop with the
+//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed
+//! set of cells, preconditioned conjugate gradients (Polak and Ribière) make the gap uniform.
+//! Pressures may become negative in the meantime. The set changes where the cells that pull or
+//! penetrate outweigh what the gradients have left over. An active set in one loop with the
 //! gradients is the idea of Polonsky and Keer (1999).
 
 use super::error::HalfSpaceError;
@@ -100,8 +101,8 @@ impl Grid {
         }
     }
 
-    /// Begins on the coarsest grid: with everything under load, or with all cells that the undeformed half-space would
-    /// touch.
+    /// Begins on the coarsest grid: with everything under load, or with all cells that the
+    /// undeformed half-space would touch.
     pub fn begin(&mut self, given: Given) {
         match given {
             Given::MeanPressure(mean) => {
@@ -119,8 +120,9 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of the contact lies where a number changes its sign. The number is
-    /// the pressure as a displacement of one cell on the contact, and minus the gap elsewhere.
+    /// Begins with the solution of a coarser grid. The edge of the contact lies where a number
+    /// changes its sign. The number is the pressure as a displacement of one cell on the contact,
+    /// and minus the gap elsewhere.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let own = OWN_DISPLACEMENT / coarse.cells as f64;
         let signed = |at: usize| {
@@ -222,8 +224,8 @@ impl Grid {
         };
     }
 
-    /// Moves by a length along the direction, and finds the residuals on the contact. Returns the largest of them, the
-    /// deepest penetration elsewhere and the lowest pressure.
+    /// Moves by a length along the direction, and finds the residuals on the contact. Returns the
+    /// largest of them, the deepest penetration elsewhere and the lowest pressure.
     fn advance(&mut self, length: f64) -> [f64; 3] {
         std::mem::swap(&mut self.residual, &mut self.former);
         let level = self.level;
@@ -258,7 +260,8 @@ impl Grid {
         [on_contact, beyond, -pull]
     }
 
-    /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a pressure was removed.
+    /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a
+    /// pressure was removed.
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
         let level = self.level;
@@ -290,7 +293,8 @@ impl Grid {
         self.load(given);
         self.find_level(given);
         let mut found = self.advance(0.0);
-        // Scalar product of the last gradient and residual; without one the next step is that of the steepest descent.
+        // Scalar product of the last gradient and residual; without one the next step is that of
+        // the steepest descent.
         let mut last = None;
         let mut steps = 0;
         loop {
@@ -323,8 +327,8 @@ impl Grid {
         }
     }
 
-    /// Solves on the present contact, whose pressures may pull, at the indentation `depth`, until no displacement on it is
-    /// off by more than `tolerance`.
+    /// Solves on the present contact, whose pressures may pull, at the indentation `depth`, until
+    /// no displacement on it is off by more than `tolerance`.
     pub fn solve_fixed(
         &mut self,
         depth: f64,
@@ -347,8 +351,8 @@ impl Grid {
         Ok(())
     }
 
-    /// Makes one step of the gradients on the present contact. Returns the product that the next step needs, and what
-    /// `advance` finds.
+    /// Makes one step of the gradients on the present contact. Returns the product that the next
+    /// step needs, and what `advance` finds.
     fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
         let Grid {
             cells,
@@ -371,7 +375,8 @@ impl Grid {
             });
         });
         let [product, former, total] = found.total();
-        // Under a force the mean of the residual over the contact is zero, and so is the mean of the step.
+        // Under a force the mean of the residual over the contact is zero, and so is the mean of
+        // the step.
         let count = self.count;
         let mean_of = |total: f64| {
             if matches!(given, Given::MeanPressure(_)) {

@@ -5,16 +5,18 @@ use super::scale::Span;
 use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
 
-/// Smallest and largest value of the largest number on a linear axis for which the numbers at the ticks have few digits.
+/// Smallest and largest value of the largest number on a linear axis for which the numbers at the
+/// ticks have few digits.
 const SHORT: (f64, f64) = (1e-3, 1e6);
 
-/// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers that the axis shows.
+/// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers
+/// that the axis shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
     /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
-    /// Range of coordinates that the axis shows. A coordinate is the number itself on a linear axis, and the decadic logarithm of
-    /// the number on a logarithmic axis.
+    /// Range of coordinates that the axis shows. A coordinate is the number itself on a linear
+    /// axis, and the decadic logarithm of the number on a logarithmic axis.
     pub span: Span,
     /// Name of the quantity in words; may be empty.
     pub name: String,
@@ -22,7 +24,8 @@ pub struct ChartAxis {
     pub symbol: String,
     /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names along the axis in place of numbers, at the coordinates 0, 1, 2 and so on. Empty for an axis with numbers.
+    /// Names along the axis in place of numbers, at the coordinates 0, 1, 2 and so on. Empty for an
+    /// axis with numbers.
     pub names: Vec<Label>,
     /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
     pub counts: bool,
@@ -43,7 +46,8 @@ impl ChartAxis {
         }
     }
 
-    /// Creates a linear axis with these names at the coordinates 0, 1, 2 and so on, in place of numbers.
+    /// Creates a linear axis with these names at the coordinates 0, 1, 2 and so on, in place of
+    /// numbers.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span {
             low: -0.5,
@@ -55,13 +59,14 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper end. For 0 or a negative number
-    /// on a logarithmic axis the position is not finite.
+    /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper
+    /// end. For 0 or a negative number on a logarithmic axis the position is not finite.
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns the divisor of the numbers at the ticks, and the unit of the divided numbers, such as 1e-6 and `µN`.
+    /// Returns the divisor of the numbers at the ticks, and the unit of the divided numbers, such
+    /// as 1e-6 and `µN`.
     pub fn prefix(&self) -> (f64, String) {
         let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
         let largest = ends[0].max(ends[1]);
@@ -103,21 +108,31 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the label of the axis: name and symbol, then the unit in brackets, which has the prefix of [`Self::prefix`].
+    /// Returns the label of the axis: name and symbol, then the unit in brackets, which has the
+    /// prefix of [`Self::prefix`].
     ///
     /// ```
     /// use asperity_data::AxisScale;
     /// use asperity_plot::{ChartAxis, Span};
     ///
-    /// let axis = ChartAxis::new(AxisScale::Linear, Span { low: 0.0, high: 2e-6 }, "force", "F", "N");
+    /// let axis = ChartAxis::new(
+    ///     AxisScale::Linear,
+    ///     Span {
+    ///         low: 0.0,
+    ///         high: 2e-6,
+    ///     },
+    ///     "force",
+    ///     "F",
+    ///     "N",
+    /// );
     /// assert_eq!(axis.label_with_unit().to_string(), "force F (µN)");
     /// ```
     pub fn label_with_unit(&self) -> Label {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
-    /// Returns the label of the axis. The name is omitted if the axis has a symbol and the label would be wider than
-    /// `most`, in units of the font size.
+    /// Returns the label of the axis. The name is omitted if the axis has a symbol and the label
+    /// would be wider than `most`, in units of the font size.
     pub(super) fn label_within(&self, most: f64) -> Label {
         let label = self.label_with_unit();
         if label.width() <= most {
@@ -127,7 +142,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns a short label of the axis: the symbol, or the name if there is no symbol, then the unit in brackets.
+    /// Returns a short label of the axis: the symbol, or the name if there is no symbol, then the
+    /// unit in brackets.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -144,8 +160,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a number between them. An axis
-    /// with names has a tick at each name.
+    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a
+    /// number between them. An axis with names has a tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let tick = |(at, name): (usize, &Label)| Tick {
@@ -180,8 +196,8 @@ pub(super) struct Axes<'a> {
 }
 
 impl Axes<'_> {
-    /// Returns the position of a point, or the nearest position on the border for a point outside the chart; `None` if the
-    /// point has no coordinates.
+    /// Returns the position of a point, or the nearest position on the border for a point outside
+    /// the chart; `None` if the point has no coordinates.
     pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
         self.y
             .share(y)
@@ -210,8 +226,8 @@ impl Axes<'_> {
         runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
     }
 
-    /// Returns the positions along an envelope through both ends of each column, beginning with the end nearer to the
-    /// previous point. A column outside the chart begins a new run.
+    /// Returns the positions along an envelope through both ends of each column, beginning with the
+    /// end nearer to the previous point. A column outside the chart begins a new run.
     pub(super) fn envelope(
         self,
         (from, to): (f64, f64),
@@ -231,7 +247,8 @@ impl Axes<'_> {
         self.runs(points)
     }
 
-    /// Returns the ends of a vertical (`upright`) or horizontal line across the chart; `None` if the line lies outside.
+    /// Returns the ends of a vertical (`upright`) or horizontal line across the chart; `None` if
+    /// the line lies outside.
     pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
         let share = if upright {
             self.x.share(at)

@@ -15,18 +15,22 @@ pub struct Figure {
     pub notes: Vec<Label>,
     /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
-    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given, only their ratio counts.
+    /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given,
+    /// only their ratio counts.
     pub size: (f64, f64),
-    /// Lines that say how to compute the figure again: version, command and scene. Only an SVG document contains them, as
-    /// metadata.
+    /// Lines that say how to compute the figure again: version, command and scene. Only an SVG
+    /// document contains them, as metadata.
     pub origin: String,
     /// Lines of text in a box below the legend, such as the numbers of the scene.
     pub parameters: Vec<Label>,
-    /// Width of the picture in px (1/96 inch), to which the frames are fitted. If it is `None`, the frames have [`Self::size`].
+    /// Width of the picture in px (1/96 inch), to which the frames are fitted. If it is `None`, the
+    /// frames have [`Self::size`].
     pub width: Option<f64>,
-    /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the frames need.
+    /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the
+    /// frames need.
     pub height: Option<f64>,
-    /// True if the picture is drawn without the title, because a caption outside the picture has the title.
+    /// True if the picture is drawn without the title, because a caption outside the picture has
+    /// the title.
     pub untitled: bool,
 }
 
@@ -35,7 +39,8 @@ impl Figure {
     pub const SMALL: (f64, f64) = (330.0, 270.0);
     /// Usual [`Self::size`] in px if the figure has a single chart.
     pub const WIDE: (f64, f64) = (480.0, 300.0);
-    /// Usual [`Self::size`] in px if the charts have the position along the profile as horizontal axis.
+    /// Usual [`Self::size`] in px if the charts have the position along the profile as horizontal
+    /// axis.
     pub const LOW: (f64, f64) = (640.0, 240.0);
 
     /// Creates a figure of one chart with this title.
@@ -65,8 +70,8 @@ impl Figure {
         }
     }
 
-    /// Creates a figure without a title from the charts of several figures. The headings of the charts contain the titles and
-    /// notes of the given figures.
+    /// Creates a figure without a title from the charts of several figures. The headings of the
+    /// charts contain the titles and notes of the given figures.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let panels = figures.into_iter().flat_map(
@@ -98,10 +103,12 @@ impl Figure {
         }
     }
 
-    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first and the third chart.
+    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first
+    /// and the third chart.
     ///
     /// # Errors
-    /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists the letters of the charts.
+    /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists
+    /// the letters of the charts.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
         let panel = |letter: char| {
             (letter as usize)
@@ -171,8 +178,9 @@ impl Chart {
         self
     }
 
-    /// Divides the numbers on an axis and the numbers of the layers by a unit, for example F by F_a,max. Each unit has a value
-    /// and a symbol; `None` leaves an axis as it is. Heat maps are not changed.
+    /// Divides the numbers on an axis and the numbers of the layers by a unit, for example F by
+    /// F_a,max. Each unit has a value and a symbol; `None` leaves an axis as it is. Heat maps are
+    /// not changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
             *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
@@ -262,8 +270,8 @@ impl Shape {
         }
     }
 
-    /// Returns the points (x, y) of a curve, or the lowest and the highest point of each column of a [`Shape::Envelope`]. For
-    /// other shapes the list is empty.
+    /// Returns the points (x, y) of a curve, or the lowest and the highest point of each column of
+    /// a [`Shape::Envelope`]. For other shapes the list is empty.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -301,8 +309,9 @@ impl Layer {
     }
 }
 
-/// Data of a layer, and the shape in which they are drawn. Each x is a number on the horizontal axis, each y on the vertical
-/// axis. A point that has no place on an axis, such as 0 on a logarithmic axis, interrupts a curve or a band.
+/// Data of a layer, and the shape in which they are drawn. Each x is a number on the horizontal
+/// axis, each y on the vertical axis. A point that has no place on an axis, such as 0 on a
+/// logarithmic axis, interrupts a curve or a band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Line through points, markers at the points, or both.
@@ -316,8 +325,8 @@ pub enum Shape {
     },
     /// Area between two curves, as points (x, lower y, upper y).
     Band(Vec<(f64, f64, f64)>),
-    /// Line with more points than a picture resolves. Only the lowest and the highest y in each of many columns of equal width
-    /// are kept.
+    /// Line with more points than a picture resolves. Only the lowest and the highest y in each of
+    /// many columns of equal width are kept.
     Envelope {
         /// The x of the left edge of the first column, and of the right edge of the last column.
         x: (f64, f64),
@@ -332,7 +341,8 @@ pub enum Shape {
     Upright(f64),
     /// Horizontal line at this y from the left to the right end of the chart.
     Level(f64),
-    /// Heat map with one coloured cell for each pair of a number on the horizontal axis and a number on the vertical axis.
+    /// Heat map with one coloured cell for each pair of a number on the horizontal axis and a
+    /// number on the vertical axis.
     Map(Box<HeatMap>),
 }
 
@@ -379,13 +389,15 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Returns the marker for one of several curves of a chart, which have the numbers 0, 1, 2 and so on.
+    /// Returns the marker for one of several curves of a chart, which have the numbers 0, 1, 2 and
+    /// so on.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Heat map: values on a grid over two axes, which are shown by colours, and the scale of these colours.
+/// Heat map: values on a grid over two axes, which are shown by colours, and the scale of these
+/// colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     /// For each column of cells, its number on the horizontal axis. The numbers ascend.
@@ -398,8 +410,8 @@ pub struct HeatMap {
     pub key: ChartAxis,
     /// Colours of the values, from low to high.
     pub shades: Shades,
-    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`]; `None` for a cell without a
-    /// class. The list is empty for a map without classes.
+    /// Class of each cell as an index of [`Self::class_names`], in the order of [`Self::values`];
+    /// `None` for a cell without a class. The list is empty for a map without classes.
     pub classes: Vec<Option<usize>>,
     /// Classes that cells can have, such as regimes of adhesion; empty for a map without classes.
     pub class_names: Vec<Class>,
@@ -423,7 +435,8 @@ pub struct Class {
 /// Line in a heat map along which a quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Value of this quantity in each cell of the map, in the order of [`HeatMap::values`]; `None` for a cell without a value.
+    /// Value of this quantity in each cell of the map, in the order of [`HeatMap::values`]; `None`
+    /// for a cell without a value.
     pub field: Vec<Option<f64>>,
     /// Value of this quantity along the line, in the same unit as [`Self::field`].
     pub level: f64,
@@ -437,13 +450,14 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the number of the colour band of a value, from 0 for the lowest values to [`Shades::BANDS`] − 1 for the highest.
+    /// Returns the number of the colour band of a value, from 0 for the lowest values to
+    /// [`Shades::BANDS`] − 1 for the highest.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis, with one cell around each of
-    /// these values. There is one border more than there are values.
+    /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis,
+    /// with one cell around each of these values. There is one border more than there are values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let places: Vec<f64> = values
             .iter()
@@ -500,7 +514,8 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Returns the legend entries for the layers of charts. Layers of the same name share one entry.
+    /// Returns the legend entries for the layers of charts. Layers of the same name share one
+    /// entry.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         let mut add = |name: &Label, ink: Ink, sample: Sample| {

@@ -22,13 +22,14 @@ pub struct Palette {
     pub foreground: Rgb,
     /// Colour of the paper or the screen.
     pub background: Rgb,
-    /// The sixteen colours of a terminal in the order of ANSI: black, red, green, yellow, blue, magenta, cyan, grey, then the
-    /// bright variant of each.
+    /// The sixteen colours of a terminal in the order of ANSI: black, red, green, yellow, blue,
+    /// magenta, cyan, grey, then the bright variant of each.
     pub ansi: [Rgb; 16],
 }
 
 impl Palette {
-    /// Light colours on a dark background, which are also distinct to readers with red-green colour blindness.
+    /// Light colours on a dark background, which are also distinct to readers with red-green colour
+    /// blindness.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -38,7 +39,8 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on a white background, which are also distinct to readers with red-green colour blindness.
+    /// Dark colours on a white background, which are also distinct to readers with red-green colour
+    /// blindness.
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -49,7 +51,8 @@ impl Palette {
     };
 }
 
-/// Meaning of a line, area or text in a chart, such as loading. The colour of an ink depends on the output format.
+/// Meaning of a line, area or text in a chart, such as loading. The colour of an ink depends on the
+/// output format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -70,7 +73,8 @@ pub enum Ink {
     Manual,
     /// Earlier curve that stays in the background while a new one is shown.
     Kept,
-    /// One of several curves that are kept for comparison. The value is the number of this curve, from 0.
+    /// One of several curves that are kept for comparison. The value is the number of this curve,
+    /// from 0.
     Compared(usize),
     /// State of the contact that the user selected with the cursor.
     Cursor,
@@ -109,13 +113,14 @@ pub enum Shades {
     Diverging,
 }
 
-/// Viridis (van der Walt and Smith, 2015), sampled at equal distances. It is readable with red-green colour blindness, and
-/// its lightness is monotonic.
+/// Viridis (van der Walt and Smith, 2015), sampled at equal distances. It is readable with
+/// red-green colour blindness, and its lightness is monotonic.
 const VIRIDIS: [Rgb; 9] = rgb([
     0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725,
 ]);
 
-/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable with red-green colour blindness.
+/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable with red-green colour
+/// blindness.
 const BLUE_TO_RED: [Rgb; 9] = rgb([
     0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
 ]);
@@ -124,12 +129,14 @@ impl Shades {
     /// Number of bands of equal colour into which an SVG figure divides the colour scale.
     pub const BANDS: usize = 64;
 
-    /// Returns the colour of a band: one of [`Self::BANDS`] parts of the colour scale, counted from 0 at the lowest values.
+    /// Returns the colour of a band: one of [`Self::BANDS`] parts of the colour scale, counted from
+    /// 0 at the lowest values.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Returns nine colours at equal distances along the scale, from the lowest value to the highest.
+    /// Returns nine colours at equal distances along the scale, from the lowest value to the
+    /// highest.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -137,7 +144,8 @@ impl Shades {
         }
     }
 
-    /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the highest. NaN has the colour of 0.
+    /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the
+    /// highest. NaN has the colour of 0.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() {

@@ -3,9 +3,10 @@
 /// Point in coordinates of the grid.
 type Point = (f64, f64);
 
-/// Returns straight pieces of the line on which a field has the value `level`. The field is interpolated linearly along the
-/// edges of the grid, and pieces meet at their ends. A square with a missing corner has no piece. In a square that the line
-/// crosses twice, the mean of the corners decides how the crossings are connected.
+/// Returns straight pieces of the line on which a field has the value `level`. The field is
+/// interpolated linearly along the edges of the grid, and pieces meet at their ends. A square with
+/// a missing corner has no piece. In a square that the line crosses twice, the mean of the corners
+/// decides how the crossings are connected.
 pub(super) fn contour(
     across: &[f64],
     up: &[f64],

@@ -3,8 +3,8 @@
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns the tags of an SVG document, each as its name with its attributes, and the whole text of the document. Panics if the
-/// document is not well-formed.
+/// Returns the tags of an SVG document, each as its name with its attributes, and the whole text of
+/// the document. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let tag = |element: roxmltree::Node<'_, '_>| {
@@ -23,13 +23,15 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
     (elements, text.collect())
 }
 
-/// Returns the elements of an SVG document whose tag has this name, such as `rect`, each with its attributes.
+/// Returns the elements of an SVG document whose tag has this name, such as `rect`, each with its
+/// attributes.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
     let is_kind = |element: &String| element.split(' ').next() == Some(tag);
     parsed(svg).0.into_iter().filter(is_kind).collect()
 }
 
-/// Asserts that all numbers of an SVG document are finite, and that its texts lie within the picture and do not overlap.
+/// Asserts that all numbers of an SVG document are finite, and that its texts lie within the
+/// picture and do not overlap.
 pub fn check_picture(svg: &str) {
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     let paper = &elements(svg, "rect")[0];
@@ -77,8 +79,8 @@ pub fn check_picture(svg: &str) {
     }
 }
 
-/// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the texts that [`elements`]
-/// returns. Returns NaN if the attribute is missing or is not a number.
+/// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the
+/// texts that [`elements`] returns. Returns NaN if the attribute is missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let value = element
         .split_once(&format!(" {name}=\""))

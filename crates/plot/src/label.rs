@@ -18,7 +18,8 @@ pub(crate) enum Face {
 /// Blank at which no line breaks, written as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns plain text such as `F_a`.
+/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns
+/// plain text such as `F_a`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
@@ -32,7 +33,8 @@ impl Label {
         label
     }
 
-    /// Creates a label of a symbol, such as `F_a,max`: letters in italics, and the text after `_` as an index.
+    /// Creates a label of a symbol, such as `F_a,max`: letters in italics, and the text after `_`
+    /// as an index.
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
         let text = printable(text);
@@ -67,7 +69,8 @@ impl Label {
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
-    /// Creates a label of the symbol of a quantity, or of its name in upright text if `symbol` is empty.
+    /// Creates a label of the symbol of a quantity, or of its name in upright text if `symbol` is
+    /// empty.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() {
             Label::plain(name)
@@ -76,7 +79,8 @@ impl Label {
         }
     }
 
-    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright value.
+    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright
+    /// value.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -123,7 +127,8 @@ impl Label {
             .sum()
     }
 
-    /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above `most`.
+    /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above
+    /// `most`.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let all = self
             .runs
@@ -221,8 +226,8 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Chooses an SI prefix with which numbers up to `largest` are short. Returns the divisor of the numbers and the unit with the
-/// prefix, such as 1e-3 and `mN` for 0.02 N.
+/// Chooses an SI prefix with which numbers up to `largest` are short. Returns the divisor of the
+/// numbers and the unit with the prefix, such as 1e-3 and `mN` for 0.02 N.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -253,8 +258,8 @@ pub fn number(value: f64, step: f64) -> String {
     )
 }
 
-/// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a symbol, or `preload 12.5 µN`
-/// if `symbol` is empty.
+/// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a
+/// symbol, or `preload 12.5 µN` if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     statement(
@@ -268,8 +273,8 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     )
 }
 
-/// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or `Hurst exponent 0.3` if
-/// `symbol` is empty.
+/// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or
+/// `Hurst exponent 0.3` if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     match symbol {

@@ -1,5 +1,6 @@
-//! SVG documents as a PDF of one page in its real size. The outlines are the outlines of [`super::png::tree`]. Text remains
-//! text in embedded fonts, which readers search and editors change.
+//! SVG documents as a PDF of one page in its real size. The outlines are the outlines of
+//! [`super::png::tree`]. Text remains text in embedded fonts, which readers search and editors
+//! change.
 
 use super::chart::Figure;
 use super::pdf_font::PdfFont;
@@ -21,9 +22,11 @@ use std::io::Write;
 
 /// Points (1/72 inch) of a page for each px (1/96 inch) of a document.
 const POINTS: f32 = 0.75;
-/// Width in px by which adjacent cells overlap. Viewers show the paper between edges that only touch.
+/// Width in px by which adjacent cells overlap. Viewers show the paper between edges that only
+/// touch.
 const OVERLAP: f32 = 0.2;
-/// Distance from a line of text, in units of the font size, up to which a glyph belongs to the line.
+/// Distance from a line of text, in units of the font size, up to which a glyph belongs to the
+/// line.
 const SAME: f32 = 1e-3;
 
 impl Figure {
@@ -138,7 +141,8 @@ impl Page<'_> {
             };
             let begin = place(first);
             let size = begin.sx.hypot(begin.ky);
-            // Distance along the line from the first glyph, in units of the font size; `None` for a glyph beside the line.
+            // Distance along the line from the first glyph, in units of the font size; `None` for a
+            // glyph beside the line.
             let along = |glyph: &PositionedGlyph| {
                 let at = place(glyph);
                 let (dx, dy) = ((at.tx - begin.tx) / size, (at.ty - begin.ty) / size);
@@ -352,7 +356,8 @@ mod tests {
         runs.map(line).collect::<Vec<_>>().join("\n")
     }
 
-    /// Glyphs of the strings of a run, of two bytes each; bytes are letters, escaped letters or pairs of hexadecimal digits.
+    /// Glyphs of the strings of a run, of two bytes each; bytes are letters, escaped letters or
+    /// pairs of hexadecimal digits.
     fn glyphs(run: &str) -> Vec<u32> {
         let (mut bytes, mut rest) = (Vec::new(), run.chars().peekable());
         while let Some(opening) = rest.next() {

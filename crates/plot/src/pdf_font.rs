@@ -19,7 +19,8 @@ const IDENTITY: SystemInfo<'_> = SystemInfo {
     ordering: Str(b"Identity"),
     supplement: 0,
 };
-/// Width of vertical stems, in thousandths of the font size. A reader uses it to choose another font if this one fails.
+/// Width of vertical stems, in thousandths of the font size. A reader uses it to choose another
+/// font if this one fails.
 const STEM: f32 = 80.0;
 
 /// A font on a page.
@@ -63,12 +64,14 @@ impl PdfFont {
         format!("f{index}")
     }
 
-    /// Returns the reference of the font with this index, if the first free reference of the file is `first`.
+    /// Returns the reference of the font with this index, if the first free reference of the file
+    /// is `first`.
     pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
         Ref::new(first + OBJECTS * index as i32)
     }
 
-    /// Shows a glyph, which has these letters, and returns its width in thousandths of the font size.
+    /// Shows a glyph, which has these letters, and returns its width in thousandths of the font
+    /// size.
     pub(super) fn show(
         &mut self,
         items: &mut PositionedItems<'_>,

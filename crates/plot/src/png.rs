@@ -1,4 +1,5 @@
-//! SVG documents as PNG, drawn with embedded fonts. Equal documents give equal pixels on every machine.
+//! SVG documents as PNG, drawn with embedded fonts. Equal documents give equal pixels on every
+//! machine.
 
 use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
@@ -8,8 +9,8 @@ use resvg::usvg::{Options, Tree};
 use std::io;
 use std::sync::Arc;
 
-/// Upright and oblique letters, with the same Latin, Greek, Cyrillic and mathematical characters; see LICENSE beside the
-/// files.
+/// Upright and oblique letters, with the same Latin, Greek, Cyrillic and mathematical characters;
+/// see LICENSE beside the files.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("font/sans.ttf"),
     include_bytes!("font/sans-oblique.ttf"),
@@ -22,7 +23,8 @@ const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PNG file, with 600 dpi if [`Self::width`] is given, otherwise with 192 dpi.
+    /// Draws the figure and returns the content of a PNG file, with 600 dpi if [`Self::width`] is
+    /// given, otherwise with 192 dpi.
     ///
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).

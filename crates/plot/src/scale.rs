@@ -2,7 +2,8 @@
 
 use asperity_data::AxisScale;
 
-/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). The upper end is above the lower end.
+/// Range of coordinates along an axis; see [`ChartAxis::span`](crate::ChartAxis::span). The upper
+/// end is above the lower end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Lower end of the range.
@@ -15,8 +16,8 @@ pub struct Span {
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
-    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by `room` times its width.
-    /// Without coordinates the range is 0 to 1.
+    /// Returns the range from the smallest to the largest finite coordinate, widened at each end by
+    /// `room` times its width. Without coordinates the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -46,9 +47,9 @@ impl Span {
         }
     }
 
-    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it begins at zero if
-    /// the smallest value is positive and at most 0.3 times the largest value. On a logarithmic scale it ends at the largest
-    /// value and has at most `decades` decades.
+    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it
+    /// begins at zero if the smallest value is positive and at most 0.3 times the largest value. On
+    /// a logarithmic scale it ends at the largest value and has at most `decades` decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -63,7 +64,8 @@ impl Span {
         }
     }
 
-    /// Returns the smallest range of whole decades, at least one, that contains these coordinates of a logarithmic scale.
+    /// Returns the smallest range of whole decades, at least one, that contains these coordinates
+    /// of a logarithmic scale.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();

@@ -4,7 +4,8 @@ use super::label::{Label, number};
 use super::scale::Span;
 use asperity_data::AxisScale;
 
-/// Smallest and largest coordinate of a logarithmic axis with plain numbers: from about 0.001 to 10 000.
+/// Smallest and largest coordinate of a logarithmic axis with plain numbers: from about 0.001 to
+/// 10 000.
 const PLAIN: (f64, f64) = (-3.5, 4.5);
 
 #[derive(Clone, Debug, PartialEq)]
@@ -15,8 +16,9 @@ pub struct Tick {
     pub label: Option<Label>,
 }
 
-/// Returns ticks over a range of coordinates, about `most` of them labelled. The numbers are divided by `divisor`, the
-/// factor of the prefix of the unit. Ticks of a linear axis are at least `least` apart.
+/// Returns ticks over a range of coordinates, about `most` of them labelled. The numbers are
+/// divided by `divisor`, the factor of the prefix of the unit. Ticks of a linear axis are at least
+/// `least` apart.
 pub(super) fn ticks(
     scale: AxisScale,
     Span { low, high }: Span,
@@ -44,15 +46,15 @@ pub(super) fn ticks(
     ticks
 }
 
-/// Returns true if a logarithmic axis has plain numbers over a range of coordinates, divided by `divisor`. Otherwise it has
-/// powers of ten.
+/// Returns true if a logarithmic axis has plain numbers over a range of coordinates, divided by
+/// `divisor`. Otherwise it has powers of ten.
 pub(super) fn are_plain(Span { low, high }: Span, divisor: f64) -> bool {
     let shift = divisor.log10();
     low - shift >= PLAIN.0 && high - shift <= PLAIN.1
 }
 
-/// Returns the step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width, and its number of minor
-/// steps.
+/// Returns the step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width,
+/// and its number of minor steps.
 fn step_for(width: f64, most: usize) -> (f64, usize) {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());

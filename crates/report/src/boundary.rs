@@ -51,8 +51,8 @@ impl Report for Boundaries {
         Some(sheet.into_text())
     }
 
-    /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload falls to a stated share of
-    /// F_a,max.
+    /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload
+    /// falls to a stated share of F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let object = |boundary: &AdhesionBoundary| {
             let mut object = Map::new();

@@ -6,7 +6,8 @@ use asperity_data::object;
 use asperity_study::checks::{Case, Check, Verdict};
 
 impl Report for [Verdict] {
-    /// Returns a table with a row for each [`Check`], then what each [`Case`] shows by which evidence, then why checks failed.
+    /// Returns a table with a row for each [`Check`], then what each [`Case`] shows by which
+    /// evidence, then why checks failed.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);

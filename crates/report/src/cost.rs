@@ -14,7 +14,8 @@ use serde::Serialize;
 /// Headings of the columns of errors, in the order of [`CostTable::QUANTITIES`].
 const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 
-/// Report on the cost of accuracy of a scene: computing time and relative errors for many settings, such as numbers of springs.
+/// Report on the cost of accuracy of a scene: computing time and relative errors for many settings,
+/// such as numbers of springs.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
     /// Title of the scene.
@@ -31,8 +32,8 @@ pub struct CostReport<'a> {
 }
 
 impl<'a> CostReport<'a> {
-    /// Makes a report on the measured times and errors of a scene. If `reference`, the comparison with three
-    /// dimensions, is given, the report also has the error of the model.
+    /// Makes a report on the measured times and errors of a scene. If `reference`, the comparison
+    /// with three dimensions, is given, the report also has the error of the model.
     pub fn new(
         title: &'a str,
         scene: &'a Scene,
@@ -50,7 +51,8 @@ impl<'a> CostReport<'a> {
 }
 
 impl Report for CostReport<'_> {
-    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their computing times.
+    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their
+    /// computing times.
     fn text(&self) -> Option<String> {
         let table = self.table;
         let mut sheet = Sheet::default();
@@ -115,7 +117,8 @@ impl Report for CostReport<'_> {
         Some(Box::new(self))
     }
 
-    /// Returns a table with a row for each setting. A row has computing times in s and relative errors.
+    /// Returns a table with a row for each setting. A row has computing times in s and relative
+    /// errors.
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.table.rows.iter())
             .with("knob", Kind::Text("sub-cell-springs".len()), |row| {

@@ -1,5 +1,5 @@
-//! Results on random profiles: the main numbers of a scene as text and JSON, a caption of figures, and a table of the
-//! profiles.
+//! Results on random profiles: the main numbers of a scene as text and JSON, a caption of figures,
+//! and a table of the profiles.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -20,7 +20,8 @@ pub(crate) const NAMES: [&str; 5] = [
     "dissipated energy",
 ];
 
-/// Returns random profiles in words, given their number and the seed of the first one: `16 random profiles, seeds 5 to 20`.
+/// Returns random profiles in words, given their number and the seed of the first one:
+/// `16 random profiles, seeds 5 to 20`.
 pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     match count {
         1 => format!("One random profile, seed {first}"),
@@ -42,7 +43,8 @@ pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     }
 }
 
-/// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the regimes of the profiles.
+/// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the
+/// regimes of the profiles.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     sheet.heading(&profiles_named(
         ensemble.profiles(),
@@ -94,7 +96,8 @@ fn regimes_in_words(counts: RegimeCounts) -> String {
         .join(", ")
 }
 
-/// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None` without an adhesion force.
+/// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None`
+/// without an adhesion force.
 pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let force = Quantity::AdhesionForce;
     let all = ensemble.statistics(force)?;
@@ -142,7 +145,8 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
     }
 }
 
-/// An ensemble, the results of a scene on several random profiles. The table has a row for each profile.
+/// An ensemble, the results of a scene on several random profiles. The table has a row for each
+/// profile.
 impl Report for Ensemble {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(ensemble_value(self)))
@@ -165,8 +169,8 @@ impl Report for Ensemble {
     }
 }
 
-/// Results of a parameter study, all held in memory. The table has a row for each combination of values on the axes of the
-/// study, on each random profile.
+/// Results of a parameter study, all held in memory. The table has a row for each combination of
+/// values on the axes of the study, on each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let Plan {

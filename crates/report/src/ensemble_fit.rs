@@ -11,11 +11,12 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 /// Changes of the roughness whose effect is reported.
 const HEIGHT_CHANGE: f64 = 0.05;
 const HURST_CHANGE: f64 = 0.05;
-/// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random profiles.
+/// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random
+/// profiles.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
-/// Report on the work of adhesion of a rough body, found by comparing measured force curves with computed curves of random
-/// profiles.
+/// Report on the work of adhesion of a rough body, found by comparing measured force curves with
+/// computed curves of random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
     /// Title of the scene.
@@ -222,7 +223,8 @@ impl Report for EnsembleFitReport<'_> {
             of.map(|(place, curve)| (place, curve.work.value)).collect()
         };
         let IntervalEstimate { value, low, high } = fit.work;
-        // The axis is logarithmic: an interval that begins at 0 is drawn from the lowest end of all curves.
+        // The axis is logarithmic: an interval that begins at 0 is drawn from the lowest end of all
+        // curves.
         let lowest = fit
             .curves
             .iter()

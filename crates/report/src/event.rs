@@ -1,13 +1,15 @@
-//! The event at a point of a loading history in words, such as first contact, preload, pull-off or separation.
+//! The event at a point of a loading history in words, such as first contact, preload, pull-off or
+//! separation.
 
 use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 
-/// Share of the range of indentations of a loading or unloading within which a state counts as its end or its smallest
-/// force.
+/// Share of the range of indentations of a loading or unloading within which a state counts as its
+/// end or its smallest force.
 const NEAR: f64 = 0.01;
 
-/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or `contact spreads`. The point lies on
-/// `branch`, a loading or unloading among the stages `legs`. Returns `None` if the body does not move on this branch.
+/// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or
+/// `contact spreads`. The point lies on `branch`, a loading or unloading among the stages `legs`.
+/// Returns `None` if the body does not move on this branch.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
     let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);

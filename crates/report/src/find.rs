@@ -14,8 +14,8 @@ use asperity_study::{Answer, Ensemble, Found};
 /// Largest number of listed profiles with several crossings. Further ones are counted.
 const MOST_LISTED: usize = 8;
 
-/// Report on a search in a scene: which value of a number, such as the preload, gives a wanted value of a result, such as the
-/// adhesion force.
+/// Report on a search in a scene: which value of a number, such as the preload, gives a wanted
+/// value of a result, such as the adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
     /// Title of the scene.
@@ -28,9 +28,9 @@ pub struct FindReport<'a> {
     pub warnings: &'a [Warning],
 }
 
-/// Returns the answer of a search in one or two sentences. They have the median and the quartiles, over the profiles, of the
-/// number at which the result reaches the wanted value, and state how many profiles have no such number and where a crossing
-/// may be missed.
+/// Returns the answer of a search in one or two sentences. They have the median and the quartiles,
+/// over the profiles, of the number at which the result reaches the wanted value, and state how
+/// many profiles have no such number and where a crossing may be missed.
 pub fn found_in_words(found: &Found) -> String {
     let question = &found.question;
     let count = found.answers.len();
@@ -125,7 +125,8 @@ fn never_in_words(found: &Found) -> &'static str {
     }
 }
 
-/// Returns a sentence on the profiles on which a crossing may be missed; `None` without such a profile.
+/// Returns a sentence on the profiles on which a crossing may be missed; `None` without such a
+/// profile.
 fn missed_in_words(found: &Found) -> Option<String> {
     let count = found
         .answers
@@ -176,7 +177,8 @@ fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
     one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
 }
 
-/// Returns words on the numbers at which the quantity was computed. They are empty if the crossings follow from a proof.
+/// Returns words on the numbers at which the quantity was computed. They are empty if the crossings
+/// follow from a proof.
 fn computed_in_words(found: &Found) -> String {
     let waves = if found.question.is_of_whole_waves() {
         ", only where a whole number of waves fits on the length"
@@ -255,7 +257,8 @@ impl FindReport<'_> {
         sentences
     }
 
-    /// Returns rows of the profiles whose quantity crosses the target more than once, or falls below it again.
+    /// Returns rows of the profiles whose quantity crosses the target more than once, or falls
+    /// below it again.
     fn several(&self) -> Vec<(String, String)> {
         let unit = self.found.question.axis.unit;
         let several = self
@@ -368,9 +371,9 @@ impl Report for FindReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each profile: the number that was found, how often the result crosses the wanted value
-    /// in the searched range, 1 if it may cross it more often and otherwise 0, and the smallest and largest result in this
-    /// range.
+    /// Returns a table with a row for each profile: the number that was found, how often the result
+    /// crosses the wanted value in the searched range, 1 if it may cross it more often and
+    /// otherwise 0, and the smallest and largest result in this range.
     fn table(&self) -> Option<Table<'_>> {
         let values = self.found.values();
         let rows = move || self.found.answers.iter().zip(values.clone());

@@ -9,8 +9,8 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a figure with the measured curve,
-/// the computed curve and their difference.
+/// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
+/// figure with the measured curve, the computed curve and their difference.
 #[derive(Clone, Copy, Debug)]
 pub struct FitReport<'a> {
     /// Name of the file of the curve, which is the title of the report.
@@ -240,8 +240,8 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
-    /// Returns the work of adhesion in J/m² of a smooth sphere with this pull-off force in N (Johnson, Kendall and
-    /// Roberts); `None` for another body.
+    /// Returns the work of adhesion in J/m² of a smooth sphere with this pull-off force in N
+    /// (Johnson, Kendall and Roberts); `None` for another body.
     pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;

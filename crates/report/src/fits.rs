@@ -1,4 +1,5 @@
-//! Fits to many curves: a row for each curve as text, JSON and a table, and the distribution of the results as a figure.
+//! Fits to many curves: a row for each curve as text, JSON and a table, and the distribution of the
+//! results as a figure.
 
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
@@ -22,15 +23,19 @@ const MOST_NAMES: usize = 4;
 pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
-    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if the curve was not fitted.
+    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if
+    /// the curve was not fitted.
     pub parameters: Vec<[f64; 3]>,
-    /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force, rms residual divided by the
-    /// noise of the force, [misfit](asperity_experiment::FitResult::misfit), and this noise in N; `None` for an unknown number.
+    /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force,
+    /// rms residual divided by the noise of the force,
+    /// [misfit](asperity_experiment::FitResult::misfit), and this noise in N; `None` for an unknown
+    /// number.
     pub facts: [Option<f64>; 5],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
-    /// True if the model describes the curve, with a [misfit](asperity_experiment::FitResult::misfit) of at most 1.5; `None` if
-    /// the curve was not fitted.
+    /// True if the model describes the curve, with a
+    /// [misfit](asperity_experiment::FitResult::misfit) of at most 1.5; `None` if the curve was not
+    /// fitted.
     pub described: Option<bool>,
     /// Reason why the model does not describe the curve; empty if there is none.
     pub reason: String,
@@ -48,7 +53,8 @@ const FACTS: [&str; 5] = [
 ];
 
 impl CurveRow {
-    /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails, [`Self::error`] has the reason.
+    /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails,
+    /// [`Self::error`] has the reason.
     pub fn of(
         title: &str,
         curve: Result<MeasuredCurve, impl Display>,
@@ -102,8 +108,8 @@ impl CurveRow {
         }
     }
 
-    /// Reads a row from a line of a CSV table that [`FitsReport`] wrote; `None` for any other line. `parameters` is the number of
-    /// free parameters.
+    /// Reads a row from a line of a CSV table that [`FitsReport`] wrote; `None` for any other line.
+    /// `parameters` is the number of free parameters.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, rest) = cells.split_first()?;
@@ -182,13 +188,14 @@ struct Distribution {
 }
 
 impl FitsReport<'_> {
-    /// Returns the rows of the curves that were not read or not fitted. [`CurveRow::error`] of each has the reason.
+    /// Returns the rows of the curves that were not read or not fitted. [`CurveRow::error`] of each
+    /// has the reason.
     pub fn failures(&self) -> impl Iterator<Item = &CurveRow> {
         self.rows.iter().filter(|row| !row.error.is_empty())
     }
 
-    /// Returns an error message if no curve was fitted: each file with its reason. Returns `None` if at least one curve was
-    /// fitted, whether the model describes it or not.
+    /// Returns an error message if no curve was fitted: each file with its reason. Returns `None`
+    /// if at least one curve was fitted, whether the model describes it or not.
     pub fn failure(&self) -> Option<String> {
         let reasons: Vec<String> = self
             .failures()
@@ -205,7 +212,8 @@ impl FitsReport<'_> {
         Some(format!("no curve was fitted: {message}"))
     }
 
-    /// Returns a sentence for each reason why the model does not describe a curve, with the files of these curves.
+    /// Returns a sentence for each reason why the model does not describe a curve, with the files
+    /// of these curves.
     fn reasons(&self) -> Vec<String> {
         let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
         for row in self.rows.iter().filter(|row| row.described == Some(false)) {
@@ -226,7 +234,8 @@ impl FitsReport<'_> {
         found.into_iter().map(sentence).collect()
     }
 
-    /// Returns the values of the first free parameter, from curves that are described or from the others.
+    /// Returns the values of the first free parameter, from curves that are described or from the
+    /// others.
     fn values(&self, is_described: bool) -> Vec<f64> {
         let of = self
             .rows
@@ -244,7 +253,8 @@ impl FitsReport<'_> {
         })
     }
 
-    /// Returns sentences on the first parameter over the described curves and over all curves, and on curves without a fit.
+    /// Returns sentences on the first parameter over the described curves and over all curves, and
+    /// on curves without a fit.
     fn summary(&self) -> Vec<String> {
         let Some(row) = self.free.first().map(|one| one.row()) else {
             return Vec::new();
@@ -473,8 +483,8 @@ mod tests {
         })
     }
 
-    /// Every mixture of curves that are described, not described and not fitted has all forms; without a fitted curve there
-    /// are no pictures, and the failure names the files.
+    /// Every mixture of curves that are described, not described and not fitted has all forms;
+    /// without a fitted curve there are no pictures, and the failure names the files.
     #[test]
     fn tables_have_all_forms_for_every_mixture_of_curves() {
         let document = open("jkr-sphere").unwrap();

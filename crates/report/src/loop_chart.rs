@@ -23,8 +23,8 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that the explorer shows next. If `deflects` is false, as for a rigid instrument, the pair
-    /// `ForceDisplacement` is left out.
+    /// Returns the pair of quantities that the explorer shows next. If `deflects` is false, as for
+    /// a rigid instrument, the pair `ForceDisplacement` is left out.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -37,7 +37,8 @@ impl LoopQuantities {
     }
 }
 
-/// Quantities of a chart of force loops, with the units of its axes: SI units, or parameters of a scene such as the rms height.
+/// Quantities of a chart of force loops, with the units of its axes: SI units, or parameters of a
+/// scene such as the rms height.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoopUnits {
     quantities: LoopQuantities,
@@ -58,7 +59,8 @@ struct Quantity {
     symbol: &'static str,
     unit: &'static str,
     over: Option<(f64, &'static str)>,
-    /// Function that returns the quantity at a point. Its second argument is the stiffness of the instrument in N/m.
+    /// Function that returns the quantity at a point. Its second argument is the stiffness of the
+    /// instrument in N/m.
     of: fn(&CurvePoint, f64) -> f64,
 }
 
@@ -83,8 +85,9 @@ impl LoopUnits {
         }
     }
 
-    /// Returns these quantities for a chart of a computed scene. If `normalised` is true, the indentation is in units of the rms
-    /// height h, the force in units of F_a,max, and lengths in units of L; otherwise all are in SI units.
+    /// Returns these quantities for a chart of a computed scene. If `normalised` is true, the
+    /// indentation is in units of the rms height h, the force in units of F_a,max, and lengths in
+    /// units of L; otherwise all are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
         let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
         LoopUnits {
@@ -118,14 +121,16 @@ impl LoopUnits {
         )
     }
 
-    /// Returns true if a chart of these quantities shows this kind of marked point. A chart of the force over the displacement of
-    /// the instrument has no [`Mark::JumpIn`] and [`Mark::JumpOut`]; any other chart shows all kinds.
+    /// Returns true if a chart of these quantities shows this kind of marked point. A chart of the
+    /// force over the displacement of the instrument has no [`Mark::JumpIn`] and [`Mark::JumpOut`];
+    /// any other chart shows all kinds.
     pub fn shows(&self, mark: Mark) -> bool {
         self.quantities != LoopQuantities::ForceDisplacement
             || !matches!(mark, Mark::JumpIn | Mark::JumpOut)
     }
 
-    /// Returns the indentation in m at the number `x` on the horizontal axis; `None` if this axis shows another quantity.
+    /// Returns the indentation in m at the number `x` on the horizontal axis; `None` if this axis
+    /// shows another quantity.
     pub fn indentation(&self, x: f64) -> Option<f64> {
         let is_over_indentation = matches!(
             self.quantities,
@@ -142,7 +147,8 @@ impl LoopUnits {
         )
     }
 
-    /// Returns the symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and `F/F_a,max`.
+    /// Returns the symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and
+    /// `F/F_a,max`.
     pub fn symbols(&self) -> (String, String) {
         let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);
         (x, y)
@@ -226,9 +232,11 @@ pub struct ForceLoop<'a> {
     pub name: Option<Label>,
     /// True if the legend has the names of the marked points without their forces.
     pub without_forces: bool,
-    /// Ink of the whole loop; `None` for [`Ink::Loading`] on loading and [`Ink::Unloading`] on unloading.
+    /// Ink of the whole loop; `None` for [`Ink::Loading`] on loading and [`Ink::Unloading`] on
+    /// unloading.
     pub ink: Option<Ink>,
-    /// Stroke of loading and unloading; `None` for a dotted loading and an unloading with the stroke [`Self::unloading`].
+    /// Stroke of loading and unloading; `None` for a dotted loading and an unloading with the
+    /// stroke [`Self::unloading`].
     pub stroke: Option<Stroke>,
     /// Stroke of the unloading if [`Self::stroke`] is `None`; `None` for a solid line.
     pub unloading: Option<Stroke>,
@@ -238,7 +246,8 @@ pub struct ForceLoop<'a> {
 type Places = Vec<(f64, f64)>;
 
 impl<'a> ForceLoop<'a> {
-    /// Creates the loop of the loading stages of a history, with the marked points of the history and a rigid instrument.
+    /// Creates the loop of the loading stages of a history, with the marked points of the history
+    /// and a rigid instrument.
     pub fn new(legs: &'a [LegRecord]) -> ForceLoop<'a> {
         let curves = legs
             .iter()
@@ -251,7 +260,8 @@ impl<'a> ForceLoop<'a> {
         }
     }
 
-    /// Creates the loop of a computed scene, with the marked points of its history and the instrument of the scene.
+    /// Creates the loop of a computed scene, with the marked points of its history and the
+    /// instrument of the scene.
     pub fn of_outcome(outcome: &'a Outcome) -> ForceLoop<'a> {
         let stiffness = outcome.instrument.map(|instrument| instrument.stiffness);
         ForceLoop {
@@ -260,7 +270,8 @@ impl<'a> ForceLoop<'a> {
         }
     }
 
-    /// Returns the lines of the curves with their directions, and true for a jump of the instrument.
+    /// Returns the lines of the curves with their directions, and true for a jump of the
+    /// instrument.
     fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
         let units = LoopUnits {
             stiffness: self.stiffness.or(units.stiffness),
@@ -355,8 +366,8 @@ impl<'a> ForceLoop<'a> {
     }
 }
 
-/// Returns one chart of all `loops`, with axes for the quantities `units`. A loop that is later in the list is drawn over the
-/// earlier ones.
+/// Returns one chart of all `loops`, with axes for the quantities `units`. A loop that is later in
+/// the list is drawn over the earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     let lines = loops.iter().flat_map(|one| one.lines(units));
     let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
@@ -366,7 +377,8 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
     Chart::new(x, y, layers)
 }
 
-/// Returns a figure with one chart of the force curves of computed scenes, which are given with their titles.
+/// Returns a figure with one chart of the force curves of computed scenes, which are given with
+/// their titles.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
         return Figure::of_chart(
@@ -404,7 +416,8 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     Figure::of_chart("", chart)
 }
 
-/// Returns a figure with a chart for the force curve of each computed scene. The scenes are given with their titles.
+/// Returns a figure with a chart for the force curve of each computed scene. The scenes are given
+/// with their titles.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     let figure = |(title, outcome): &(&str, &Outcome)| {
         let one = ForceLoop {
@@ -426,7 +439,8 @@ pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
     Figure::of_panels(scenes.iter().map(figure).collect())
 }
 
-/// Returns the marker with which charts of force curves show a marked point, such as ▼ for the pull-off.
+/// Returns the marker with which charts of force curves show a marked point, such as ▼ for the
+/// pull-off.
 pub fn sign(mark: Mark) -> Sign {
     match mark {
         Mark::JumpIn => Sign::HollowDiamond,

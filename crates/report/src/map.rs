@@ -7,9 +7,10 @@ use asperity_study::maps::{Grid, GridCell};
 use asperity_study::{Quantity, Statistics};
 
 impl Report for Grid {
-    /// Returns a table with a row for each computed combination of values on the axes of a study. A row has these values, the
-    /// number of profiles, the most frequent regime (once for the turn at first touch, once for the turn at zero force), and the
-    /// statistics of each quantity over the profiles, in SI units.
+    /// Returns a table with a row for each computed combination of values on the axes of a study. A
+    /// row has these values, the number of profiles, the most frequent regime (once for the turn at
+    /// first touch, once for the turn at zero force), and the statistics of each quantity over the
+    /// profiles, in SI units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
         let mut table = Table::of(move || {

@@ -1,5 +1,5 @@
-//! Measured surfaces of one face, as samples of the same roughness, with facts about their files and warnings about their
-//! analysis.
+//! Measured surfaces of one face, as samples of the same roughness, with facts about their files
+//! and warnings about their analysis.
 
 use asperity_data::{Warning, format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
@@ -7,8 +7,8 @@ use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
-/// Facts about a measured surface and its file. The lists `points`, `lengths` and `cropped` have one number for a profile, and
-/// two for a map: along a row, then along a column.
+/// Facts about a measured surface and its file. The lists `points`, `lengths` and `cropped` have
+/// one number for a profile, and two for a map: along a row, then along a column.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceFile {
     /// Path of the file of the surface.
@@ -21,10 +21,11 @@ pub struct SurfaceFile {
     pub format: &'static str,
     /// Number of points in a row, and for a map the number of rows.
     pub points: Vec<usize>,
-    /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly spaced.
+    /// Length of a row, and for a map the length of a column, m; 0 if the points are not evenly
+    /// spaced.
     pub lengths: Vec<f64>,
-    /// Numbers of columns and rows without measured heights that were left out at the borders of a map, or number of points
-    /// without a height that were left out at the ends of a profile.
+    /// Numbers of columns and rows without measured heights that were left out at the borders of a
+    /// map, or number of points without a height that were left out at the ends of a profile.
     pub cropped: Vec<usize>,
     /// Number of points without a measured height, whose heights were interpolated.
     pub interpolated: usize,
@@ -122,7 +123,8 @@ impl SurfaceFile {
     }
 }
 
-/// Measured surfaces (profiles or maps) of one body, and their common analysis as samples of the same roughness.
+/// Measured surfaces (profiles or maps) of one body, and their common analysis as samples of the
+/// same roughness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredFace {
     /// Facts about each surface and its file.
@@ -132,7 +134,8 @@ pub struct MeasuredFace {
 }
 
 impl MeasuredFace {
-    /// Returns a warning for files whose rms heights differ much, although the files are samples of one roughness.
+    /// Returns a warning for files whose rms heights differ much, although the files are samples of
+    /// one roughness.
     fn far_apart(&self) -> Option<Warning> {
         let MeasuredFace { files, analysis } = self;
         let heights = || analysis.rms_heights.iter().zip(files);
@@ -141,7 +144,8 @@ impl MeasuredFace {
         Warning::of_rms_heights((flat.name(), *least), (rough.name(), *most))
     }
 
-    /// Returns warnings: unusual properties of each file, and reasons why results of the analysis may be unreliable.
+    /// Returns warnings: unusual properties of each file, and reasons why results of the analysis
+    /// may be unreliable.
     pub fn warnings(&self) -> Vec<Warning> {
         let analysis = &self.analysis;
         let mut warnings = Vec::new();

@@ -4,8 +4,9 @@ use asperity_plot::{Label, statement};
 use asperity_scene::Scene;
 use asperity_scene::fields::{Statement, statements};
 
-/// Returns the numbers that define scenes, such as the rms height, as lines for the box of parameters in a figure. The first line
-/// has the numbers that all scenes share. Further lines have the other numbers of each scene with a name.
+/// Returns the numbers that define scenes, such as the rms height, as lines for the box of
+/// parameters in a figure. The first line has the numbers that all scenes share. Further lines have
+/// the other numbers of each scene with a name.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
     let all: Vec<Vec<Statement>> = scenes.iter().map(|(_, scene)| statements(scene)).collect();
     let is_common = |one: &Statement| all.iter().all(|scene| scene.contains(one));

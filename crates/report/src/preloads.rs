@@ -20,19 +20,24 @@ const MEDIAN_INTERVAL: &str = "95 % interval of the median";
 pub struct PreloadReport<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no tolerance was given.
+    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
+    /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Values computed so far for each preload on each profile: the quantities [`Results::OF_PRELOADS`].
+    /// Values computed so far for each preload on each profile: the quantities
+    /// [`Results::OF_PRELOADS`].
     pub results: &'a Results,
-    /// Adhesion force of the first profile as a function of the preload. If it is `None`, there is no figure.
+    /// Adhesion force of the first profile as a function of the preload. If it is `None`, there is
+    /// no figure.
     pub staircase: Option<&'a Staircase>,
-    /// True for a table with a row for each preload of the [`Self::staircase`]; false for a row for each preload on each profile.
+    /// True for a table with a row for each preload of the [`Self::staircase`]; false for a row for
+    /// each preload on each profile.
     pub curves: bool,
 }
 
 impl PreloadReport<'_> {
-    /// Returns the figure with the [`preload_chart`] and the [`distribution`] at the largest preload; `None` without a
-    /// [`Self::staircase`]. If `has_values` is true, the legend has the values of F_a(d=0) and F_a(F=0).
+    /// Returns the figure with the [`preload_chart`] and the [`distribution`] at the largest
+    /// preload; `None` without a [`Self::staircase`]. If `has_values` is true, the legend has the
+    /// values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
         let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
         let chart = preload_chart(staircase, &spread, has_values);
@@ -144,8 +149,8 @@ impl Report for PreloadReport<'_> {
         }))
     }
 
-    /// Returns a table with a row for each preload on each profile, or for each preload of the [`Self::staircase`] if
-    /// [`Self::curves`] is true.
+    /// Returns a table with a row for each preload on each profile, or for each preload of the
+    /// [`Self::staircase`] if [`Self::curves`] is true.
     fn table(&self) -> Option<Table<'_>> {
         Some(match self.staircase.filter(|_| self.curves) {
             Some(staircase) => curve_table(self.results, staircase),
@@ -162,7 +167,8 @@ impl Report for PreloadReport<'_> {
     }
 }
 
-/// Returns the figure of `chart`, a [`preload_chart`], with `beside`, a [`distribution`], on its right.
+/// Returns the figure of `chart`, a [`preload_chart`], with `beside`, a [`distribution`], on its
+/// right.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);
@@ -180,8 +186,8 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
     }
 }
 
-/// Returns the curves of [`preload_chart`] as a table, with one row for each preload of the staircase and the known
-/// statistics.
+/// Returns the curves of [`preload_chart`] as a table, with one row for each preload of the
+/// staircase and the known statistics.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let row = move |&(preload, force): &(f64, f64)| {
@@ -204,8 +210,9 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     table.done()
 }
 
-/// Returns a warning if, at some preload, a single profile contributes more than half of the mean adhesion force; otherwise
-/// `None`. `spread` has pairs of a preload in N and the statistics of the adhesion force over the profiles.
+/// Returns a warning if, at some preload, a single profile contributes more than half of the mean
+/// adhesion force; otherwise `None`. `spread` has pairs of a preload in N and the statistics of the
+/// adhesion force over the profiles.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
     let (preload, most) = spread
@@ -214,7 +221,8 @@ pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
     most.warning(&format!("F_a at F_n {}", format_quantity(*preload, "N")))
 }
 
-/// Returns a table of the unloadings from all preloads on these profiles, with seeds if they are `seeded`.
+/// Returns a table of the unloadings from all preloads on these profiles, with seeds if they are
+/// `seeded`.
 pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) -> Table<'_> {
     let plan = results.plan();
     let rows = move || {
@@ -235,8 +243,8 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) 
     table.done()
 }
 
-/// Writes a table of unloadings. Its first columns have these headings for force and indentation at the turning point.
-/// Adhesion force, indentation at pull-off and dissipated energy follow.
+/// Writes a table of unloadings. Its first columns have these headings for force and indentation at
+/// the turning point. Adhesion force, indentation at pull-off and dissipated energy follow.
 pub(crate) fn unloadings(
     sheet: &mut Sheet,
     [force, at]: [&str; 2],
@@ -262,9 +270,9 @@ pub(crate) fn unloadings(
 const LOGARITHMIC_RATIO: f64 = 30.0;
 const MOST_DECADES: f64 = 6.0;
 
-/// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for the statistics over several
-/// profiles. `spread` has pairs of a preload in N and these statistics. If `has_values` is true, the legend has the values of
-/// F_a(d=0) and F_a(F=0).
+/// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
+/// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
+/// If `has_values` is true, the legend has the values of F_a(d=0) and F_a(F=0).
 pub fn preload_chart(
     staircase: &Staircase,
     spread: &[(f64, Statistics)],
@@ -272,8 +280,8 @@ pub fn preload_chart(
 ) -> Chart {
     let mut layers = Vec::new();
     let (touch, at_touch) = staircase.touch;
-    // The first row is the turn at first touch, without a preload. Values are constant from each preload to the next, as in
-    // a staircase.
+    // The first row is the turn at first touch, without a preload. Values are constant from each
+    // preload to the next, as in a staircase.
     let pressed = &spread[spread.partition_point(|(preload, _)| *preload <= touch)..];
     let corner = |pair: &[(f64, Statistics)]| {
         let level = (pair[0].1 != pair[1].1).then_some((pair[1].0, pair[0].1));
@@ -399,9 +407,9 @@ pub fn preload_chart(
     )
 }
 
-/// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the computed preload nearest to
-/// `preload` in N; `None` for fewer than two profiles. If `forces`, an axis of adhesion forces, is given, it is the
-/// vertical axis of the chart.
+/// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the
+/// computed preload nearest to `preload` in N; `None` for fewer than two profiles. If `forces`, an
+/// axis of adhesion forces, is given, it is the vertical axis of the chart.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
     let (preload, mut each) = results.forces_near(preload)?;
     let own = each.first().copied().filter(|_| each.len() > 1)?;

@@ -1,6 +1,7 @@
 //! Where a result comes from, as written into its file: version, command, measured files and scene.
 //!
-//! CSV has these lines first, each after `# `. SVG has them as metadata. JSON begins with version and command.
+//! CSV has these lines first, each after `# `. SVG has them as metadata. JSON begins with version
+//! and command.
 
 use asperity_data::{path_name, printable, sha256_of};
 use asperity_scene::text::to_ron;
@@ -12,8 +13,9 @@ const HASH: &str = "sha256: ";
 /// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
-/// Returns the first lines of a table, which say how to compute it again: version, command, measured files with their SHA-256,
-/// and scene. `folder` is the folder of the scene, and `destination` is the folder of the table.
+/// Returns the first lines of a table, which say how to compute it again: version, command,
+/// measured files with their SHA-256, and scene. `folder` is the folder of the scene, and
+/// `destination` is the folder of the table.
 ///
 /// # Errors
 /// Returns an error if a measured file cannot be read.
@@ -32,15 +34,16 @@ pub fn scene_provenance(
     Ok(text + &format!("scene:\n{}", to_ron(&scene)))
 }
 
-/// Returns lines for the metadata of a figure, which say how to compute it again: version, command, and the scenes that have a
-/// name.
+/// Returns lines for the metadata of a figure, which say how to compute it again: version, command,
+/// and the scenes that have a name.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
     let named = scenes.iter().filter(|(name, _)| !name.is_empty());
     let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
     version_and_command(command, "") + &texts.collect::<String>()
 }
 
-/// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the version, and `command`.
+/// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the
+/// version, and `command`.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
     let command = provenance
         .lines()
@@ -55,8 +58,8 @@ pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// Returns the first lines of a table without a scene: version, command, and measured files with their SHA-256. `destination` is
-/// the folder of the table.
+/// Returns the first lines of a table without a scene: version, command, and measured files with
+/// their SHA-256. `destination` is the folder of the table.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read.
@@ -70,8 +73,8 @@ pub fn files_provenance(
     head(command, &names, Path::new(""), destination)
 }
 
-/// Returns lines with the version, the measured files with the SHA-256 of their contents, and the command. The name of a
-/// file is a RON string, which is always on one line.
+/// Returns lines with the version, the measured files with the SHA-256 of their contents, and the
+/// command. The name of a file is a RON string, which is always on one line.
 fn head(
     command: &str,
     files: &[&str],
@@ -100,7 +103,8 @@ fn version_and_command(command: &str, hashes: &str) -> String {
     )
 }
 
-/// Checks that the measured files of a scene are the same as when the table with this scene was written.
+/// Checks that the measured files of a scene are the same as when the table with this scene was
+/// written.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read, or if its SHA-256 differs from the one in the table.
@@ -130,8 +134,8 @@ fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
 
-/// Returns the path by which a table in the folder `destination` names a file. `file` is the path relative to `folder`. If the
-/// two folders differ, the result is an absolute path.
+/// Returns the path by which a table in the folder `destination` names a file. `file` is the path
+/// relative to `folder`. If the two folders differ, the result is an absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
     let is_same_folder =

@@ -17,8 +17,8 @@ use asperity_study::half_space::{
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Report on the comparison of two computations of a rough contact: with profiles, as this program does, and in three
-/// dimensions.
+/// Report on the comparison of two computations of a rough contact: with profiles, as this program
+/// does, and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
     /// Title of the scene.
@@ -52,8 +52,8 @@ const LONG: f64 = 10.0;
 /// Smallest share of the squares from whose time the time left follows.
 const LEAST_SHARE: f64 = 0.02;
 
-/// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes the contact of a number of
-/// random rough squares.
+/// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes
+/// the contact of a number of random rough squares.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceProgress {
     begun: Instant,
@@ -81,8 +81,8 @@ impl Default for ReferenceProgress {
 }
 
 impl ReferenceProgress {
-    /// Returns a line of text on an event of the comparison, such as a finished square. The second value is true if the line
-    /// announces a comparison of at least 10 s.
+    /// Returns a line of text on an event of the comparison, such as a finished square. The second
+    /// value is true if the line announces a comparison of at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
         match *event {
             ReferenceEvent::Begins {
@@ -128,7 +128,8 @@ impl ReferenceProgress {
         }
     }
 
-    /// Returns how many squares are finished, the share of the computation that is done, and the time left.
+    /// Returns how many squares are finished, the share of the computation that is done, and the
+    /// time left.
     fn of_squares(&self) -> String {
         let done = self.done as f64 / self.maps.max(1) as f64;
         let share = self.share.max(done);
@@ -171,9 +172,10 @@ fn counted(count: u64, noun: &str) -> String {
     )
 }
 
-/// Returns in a few words the progress of the computation of force loops of random rough squares in three dimensions. After
-/// the first results the words have the ratio of the result with profiles to the result in three dimensions. The result is the
-/// adhesion force, or the indentation if `is_adhesive` is false.
+/// Returns in a few words the progress of the computation of force loops of random rough squares in
+/// three dimensions. After the first results the words have the ratio of the result with profiles
+/// to the result in three dimensions. The result is the adhesion force, or the indentation if
+/// `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     let SquareLoops {
         maps,
@@ -199,9 +201,9 @@ pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
     format!("{symbol} line/three dimensions {}{rest}", ratio(&compared))
 }
 
-/// Returns a sentence with the ratio of the mean over random profiles to the mean in three dimensions, and with the error of the
-/// model that follows from this ratio. The means are of the adhesion force, or of the indentation without adhesion. Returns
-/// `None` if the ratio is unknown.
+/// Returns a sentence with the ratio of the mean over random profiles to the mean in three
+/// dimensions, and with the error of the model that follows from this ratio. The means are of the
+/// adhesion force, or of the indentation without adhesion. Returns `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let quantity = if reference.adhesion_force.is_some() {
@@ -229,8 +231,8 @@ pub fn model_sentence(reference: &Reference) -> Option<String> {
     ))
 }
 
-/// Returns the difference of the line from three dimensions with its interval and the compared waves, such as `line against
-/// three dimensions, +4 ± 45 %`; `None` if it is unknown.
+/// Returns the difference of the line from three dimensions with its interval and the compared
+/// waves, such as `line against three dimensions, +4 ± 45 %`; `None` if it is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let difference = format_rounded(100.0 * compared.difference(), 2, "1");
@@ -268,7 +270,8 @@ pub fn model_words(reference: &Reference) -> String {
     }
 }
 
-/// Returns the waves that are compared, if the squares leave out some of the scene: `, of waves 4 to 8 of 4 to 3 200`.
+/// Returns the waves that are compared, if the squares leave out some of the scene:
+/// `, of waves 4 to 8 of 4 to 3 200`.
 pub fn omitted_waves(reference: &Reference) -> String {
     match (reference.waves, reference.omitted) {
         (Some((first, last)), Some(whole)) => {
@@ -390,7 +393,8 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Returns a sentence on the forces at which too few cells are in contact; `None` if there are none.
+    /// Returns a sentence on the forces at which too few cells are in contact; `None` if there are
+    /// none.
     fn left_out(&self) -> Option<String> {
         let left_out = &self.reference.left_out;
         let finest = left_out.first()?.grid;
@@ -453,8 +457,8 @@ fn header() -> [String; 4] {
     ["", "line", "three dimensions", "ratio"].map(String::from)
 }
 
-/// Returns the numbers of one model, or the ratios of both models. The numbers of the squares have the area of contact and
-/// the error of their grid.
+/// Returns the numbers of one model, or the ratios of both models. The numbers of the squares have
+/// the area of contact and the error of their grid.
 fn model<V: Serialize>(
     reference: &Reference,
     roughness: Option<ComparedRoughness>,
@@ -606,8 +610,9 @@ impl Report for ReferenceReport<'_> {
         }))
     }
 
-    /// Returns a table of the loading without adhesion. A row has a force, then indentation and stiffness at this force: the mean
-    /// over profiles, the mean in three dimensions, and the ratio of these means.
+    /// Returns a table of the loading without adhesion. A row has a force, then indentation and
+    /// stiffness at this force: the mean over profiles, the mean in three dimensions, and the ratio
+    /// of these means.
     fn table(&self) -> Option<Table<'_>> {
         let rows = move || self.reference.loading.iter();
         let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
@@ -635,7 +640,8 @@ impl Report for ReferenceReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at each force, in both models.
+    /// Returns a chart of the loading without adhesion: mean and quartiles of the indentation at
+    /// each force, in both models.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
         let force = |loaded: &Loaded| loaded.force;
@@ -744,7 +750,8 @@ mod tests {
         assert_eq!(figure.charts[0].layers.len(), 4);
     }
 
-    /// All numbers of the budget name the waves that are compared, and forces with few cells in contact are left out.
+    /// All numbers of the budget name the waves that are compared, and forces with few cells in
+    /// contact are left out.
     #[test]
     fn what_is_left_out_is_said() {
         let document = open("pressure-sensitive").unwrap();

@@ -1,4 +1,5 @@
-//! A result in up to four forms (text, JSON, table, figure), and the formats in which these forms are written.
+//! A result in up to four forms (text, JSON, table, figure), and the formats in which these forms
+//! are written.
 
 use crate::provenance::entries;
 use asperity_data::{Kind, Table, path_name, printable, write_json};
@@ -9,8 +10,8 @@ use std::io::Write;
 use std::path::Path;
 use strum::IntoStaticStr;
 
-/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method of a missing form returns
-/// `None`.
+/// Result that can be written in one or more of four forms: text, JSON, table, figure. The method
+/// of a missing form returns `None`.
 pub trait Report {
     /// Returns the result as plain text of at most 80 columns.
     fn text(&self) -> Option<String> {
@@ -35,7 +36,8 @@ pub trait Report {
 
 /// Value that can be written as JSON.
 pub trait Json {
-    /// Writes the value as JSON. If the value is an object, the keys and texts of `head` become its first entries.
+    /// Writes the value as JSON. If the value is an object, the keys and texts of `head` become its
+    /// first entries.
     fn write_json(&self, out: &mut dyn Write, head: &[(&str, &str)]) -> io::Result<()>;
 }
 
@@ -45,9 +47,11 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure. If it has a single chart, it can also be written as a table of the points of the curves.
+/// A figure. If it has a single chart, it can also be written as a table of the points of the
+/// curves.
 impl Report for Figure {
-    /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of several charts.
+    /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of
+    /// several charts.
     fn table(&self) -> Option<Table<'_>> {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else {
             return None;
@@ -75,11 +79,12 @@ impl Report for Figure {
     }
 }
 
-/// Writes a report in a format. `provenance` has the lines of [`scene_provenance`](crate::scene_provenance), which only CSV, SVG
-/// and JSON contain.
+/// Writes a report in a format. `provenance` has the lines of
+/// [`scene_provenance`](crate::scene_provenance), which only CSV, SVG and JSON contain.
 ///
 /// # Errors
-/// Returns an error if the report lacks the form that the format needs, or if the output cannot be written.
+/// Returns an error if the report lacks the form that the format needs, or if the output cannot be
+/// written.
 pub fn write(
     out: &mut dyn Write,
     report: &(impl Report + ?Sized),
@@ -171,11 +176,12 @@ impl Format {
         matches!(self, Format::Svg | Format::Png | Format::Pdf)
     }
 
-    /// Returns the format of a result: the format of the extension of `file`, otherwise `chosen` by the user, otherwise `usual`.
-    /// `formats` are the formats that the result has.
+    /// Returns the format of a result: the format of the extension of `file`, otherwise `chosen` by
+    /// the user, otherwise `usual`. `formats` are the formats that the result has.
     ///
     /// # Errors
-    /// Returns an error if the chosen format or the format of the extension is not among `formats`, or if they differ.
+    /// Returns an error if the chosen format or the format of the extension is not among `formats`,
+    /// or if they differ.
     pub fn of_file(
         file: Option<&Path>,
         chosen: Option<Format>,
@@ -207,7 +213,8 @@ impl Format {
     }
 }
 
-/// Returns the index in `allowed` of the extension of a file; `None` for a name without an extension.
+/// Returns the index in `allowed` of the extension of a file; `None` for a name without an
+/// extension.
 ///
 /// # Errors
 /// Returns an error if the extension is not in `allowed`.

@@ -1,4 +1,5 @@
-//! Unloadings from many turning points of a scene (first-order reversal curves), as text, JSON, tables and a figure.
+//! Unloadings from many turning points of a scene (first-order reversal curves), as text, JSON,
+//! tables and a figure.
 
 use crate::preloads::{preload_chart, preload_table, unloadings};
 use crate::report::{Json, Report};
@@ -14,9 +15,10 @@ const MOST_ROWS: usize = 16;
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
-/// Report on the unloadings of one profile from many turning points, and on the Everett function. A turning point is an
-/// indentation d_r at which the loading ends. For d_r and a smaller indentation d the Everett function is E(d_r, d) = ½ (F(d_r) −
-/// F(d_r, d)). Here F(d_r) is the force at the turning point, and F(d_r, d) is the force at d on the unloading from d_r.
+/// Report on the unloadings of one profile from many turning points, and on the Everett function. A
+/// turning point is an indentation d_r at which the loading ends. For d_r and a smaller indentation
+/// d the Everett function is E(d_r, d) = ½ (F(d_r) − F(d_r, d)). Here F(d_r) is the force at the
+/// turning point, and F(d_r, d) is the force at d on the unloading from d_r.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
     /// Title of the scene.
@@ -25,10 +27,11 @@ pub struct ReversalReport<'a> {
     pub scene: &'a Scene,
     /// Force F(d_r, d) along the unloading from each turning point d_r.
     pub map: &'a ReversalMap,
-    /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`]; `None` if no preload presses the
-    /// bodies together.
+    /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`];
+    /// `None` if no preload presses the bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force of one profile as a function of the preload, for the figure; `None` leaves it out.
+    /// Adhesion force of one profile as a function of the preload, for the figure; `None` leaves it
+    /// out.
     pub staircase: Option<&'a Staircase>,
     /// Premises of the model that the deepest loading does not meet.
     pub warnings: &'a [Warning],
@@ -72,7 +75,8 @@ impl Report for ReversalReport<'_> {
         Some(sheet.into_text())
     }
 
-    /// Returns, for each turning point, the force and the Everett function at the indentations up to this turning point.
+    /// Returns, for each turning point, the force and the Everett function at the indentations up
+    /// to this turning point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let ReversalReport {
             scene,
@@ -107,8 +111,8 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a figure with a heat map of the Everett function, and before it a chart of the adhesion force over the preload if
-    /// [`Self::staircase`] is given.
+    /// Returns a figure with a heat map of the Everett function, and before it a chart of the
+    /// adhesion force over the preload if [`Self::staircase`] is given.
     fn figure(&self) -> Option<Figure> {
         let adhesion = self.staircase.map(|staircase| Chart {
             heading: Label::quantity("adhesion force", "F_a"),
@@ -138,8 +142,8 @@ fn turning_points(map: &ReversalMap) -> Table<'_> {
         .done()
 }
 
-/// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the turning point d_r.
-/// [`ReversalReport`] defines the function.
+/// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the
+/// turning point d_r. [`ReversalReport`] defines the function.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
     // A subset of the points of a fine map: the eye cannot distinguish more cells.
     let every = |count: usize| {

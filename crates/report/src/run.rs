@@ -24,18 +24,22 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no tolerance was given.
+    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
+    /// tolerance was given.
     pub choice: Option<&'a Choice>,
-    /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is unknown.
+    /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is
+    /// unknown.
     pub estimate: Option<&'a Estimate>,
     /// Results on several random profiles of the same roughness; `None` if they were not computed.
     pub ensemble: Option<&'a Ensemble>,
-    /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None` if it was not computed.
+    /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
+    /// if it was not computed.
     pub deviation: Option<f64>,
 }
 
 impl RunReport<'_> {
-    /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is known.
+    /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is
+    /// known.
     fn known_estimate(&self) -> Option<&Estimate> {
         let is_known = !self
             .outcome
@@ -197,8 +201,8 @@ impl Report for PathReport<'_> {
     }
 }
 
-/// Returns the table of a force curve in SI units: points, index of the loading stage of each point, and displacement of
-/// the instrument.
+/// Returns the table of a force curve in SI units: points, index of the loading stage of each
+/// point, and displacement of the instrument.
 fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
     rows: impl Fn() -> I + 'a,
 ) -> TableOf<'a, CurveRow<'a>> {

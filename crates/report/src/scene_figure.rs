@@ -25,7 +25,8 @@ struct Patches {
     patches: Vec<Patch>,
 }
 
-/// Contact patches of a scene, which are collected while its loading is computed. Figures are drawn from them.
+/// Contact patches of a scene, which are collected while its loading is computed. Figures are drawn
+/// from them.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
@@ -37,7 +38,8 @@ pub struct ContactSets {
 }
 
 impl ContactSets {
-    /// Begins a collection without patches. [`Self::patches_figure`] needs `over_indentation` to be true.
+    /// Begins a collection without patches. [`Self::patches_figure`] needs `over_indentation` to be
+    /// true.
     pub fn new(over_indentation: bool) -> ContactSets {
         ContactSets {
             over_indentation,
@@ -45,8 +47,8 @@ impl ContactSets {
         }
     }
 
-    /// Adds the patches of a loading stage that was just computed. `record` has the force curve of this stage, and `leg` returns
-    /// the patches at any indentation of this stage.
+    /// Adds the patches of a loading stage that was just computed. `record` has the force curve of
+    /// this stage, and `leg` returns the patches at any indentation of this stage.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
         let at = |indentation: f64| Patches {
             indentation,
@@ -83,8 +85,8 @@ impl ContactSets {
         self.stages.push((record.direction, rows));
     }
 
-    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic surface over the position
-    /// along the profile.
+    /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic
+    /// surface over the position along the profile.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
         let separated = (
             0.0,
@@ -126,8 +128,8 @@ impl ContactSets {
         }
     }
 
-    /// Returns the figure that shows at which positions along the profile there is contact at each indentation, with a chart for
-    /// each of the first four loading stages with contact.
+    /// Returns the figure that shows at which positions along the profile there is contact at each
+    /// indentation, with a chart for each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
         let facts = outcome.line;
         let least = LEAST_GAP * facts.length;

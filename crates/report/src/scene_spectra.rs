@@ -1,5 +1,5 @@
-//! The power spectra of a computed scene: of its measured files, of its profile as intended, and of the heights of its
-//! profile.
+//! The power spectra of a computed scene: of its measured files, of its profile as intended, and of
+//! the heights of its profile.
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
@@ -21,14 +21,16 @@ const BYTES: u64 = 40;
 pub struct SceneSpectra {
     /// Spectra of the measured surfaces and of the profile.
     pub spectra: Spectra,
-    /// Moments of random profiles with the measured spectrum, with their errors; `None` without such profiles.
+    /// Moments of random profiles with the measured spectrum, with their errors; `None` without
+    /// such profiles.
     pub moments: Option<LineMoments>,
     /// Reason why a spectrum could not be computed; `None` if all spectra were computed.
     pub missing: Option<String>,
 }
 
 impl SceneSpectra {
-    /// Computes the spectra of a scene. The names of its measured files are relative to the working folder.
+    /// Computes the spectra of a scene. The names of its measured files are relative to the working
+    /// folder.
     ///
     /// # Errors
     /// Returns an error if the profile of the scene cannot be computed.
@@ -72,7 +74,8 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     analyses.map_err(|error| error.to_string())
 }
 
-/// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the amplitude A.
+/// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the
+/// amplitude A.
 fn expected(
     scene: &Scene,
     outcome: &Outcome,
@@ -109,8 +112,8 @@ fn expected(
         .collect()
 }
 
-/// Returns the spectrum of the heights of the profile without its form. A measured profile that is itself pressed is not
-/// periodic.
+/// Returns the spectrum of the heights of the profile without its form. A measured profile that is
+/// itself pressed is not periodic.
 fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());

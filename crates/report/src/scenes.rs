@@ -1,4 +1,5 @@
-//! Several computed scenes, with differences and results in one table and force curves in one figure.
+//! Several computed scenes, with differences and results in one table and force curves in one
+//! figure.
 
 use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
@@ -26,7 +27,8 @@ pub struct ComparedScene<'a> {
 pub struct ScenesReport<'a> {
     /// Computed scenes, in the order of the command.
     pub scenes: &'a [ComparedScene<'a>],
-    /// True if the figure has a chart for each scene; false for one chart with the force curves of all scenes.
+    /// True if the figure has a chart for each scene; false for one chart with the force curves of
+    /// all scenes.
     pub panels: bool,
 }
 
@@ -65,7 +67,8 @@ fn letter(number: usize) -> String {
         .map_or(format!("S{number}"), String::from)
 }
 
-/// Returns a row of a table: a name, and values with their ratios to the first one; `None` without values.
+/// Returns a row of a table: a name, and values with their ratios to the first one; `None` without
+/// values.
 fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
     // A position may lie on either side of first touch, where a ratio means nothing.
     let first = values.first()?.filter(|first| *first > 0.0);
@@ -86,7 +89,8 @@ fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
 }
 
 impl ScenesReport<'_> {
-    /// Returns the figure of the force curves. With `has_letters` the legend names the scenes by the letters of the table.
+    /// Returns the figure of the force curves. With `has_letters` the legend names the scenes by
+    /// the letters of the table.
     fn drawn(&self, has_letters: bool) -> Figure {
         let title = |(number, scene): (usize, &ComparedScene<'_>)| match has_letters {
             true => format!("{}: {}", letter(number), scene.document.title()),
@@ -123,8 +127,8 @@ impl ScenesReport<'_> {
         sentences
     }
 
-    /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force; none if no scene has
-    /// several profiles.
+    /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force;
+    /// none if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         let ensembles = || self.scenes.iter().map(|scene| scene.ensemble.as_ref());
         if ensembles().flatten().next().is_none() {
@@ -159,8 +163,8 @@ impl ScenesReport<'_> {
 }
 
 impl Report for ScenesReport<'_> {
-    /// Returns the titles, the fields in which each scene differs from the first one, and tables of the results with their ratios
-    /// to the results of the first scene.
+    /// Returns the titles, the fields in which each scene differs from the first one, and tables of
+    /// the results with their ratios to the results of the first scene.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         let first = self.scenes.first()?.document;

@@ -9,7 +9,8 @@ use std::ops::Range;
 /// Rigid profile and its contact with the elastic surface at one indentation.
 #[derive(Clone, Copy)]
 pub struct SectionContact<'a> {
-    /// Gap at each spring, m: depth of the profile at this spring below the highest point of the profile.
+    /// Gap at each spring, m: depth of the profile at this spring below the highest point of the
+    /// profile.
     pub gaps: &'a [f64],
     /// Height of the highest point of the profile, m.
     pub summit: f64,
@@ -19,7 +20,8 @@ pub struct SectionContact<'a> {
     pub patches: &'a [Patch],
 }
 
-/// Range of springs that a chart shows, and the number of columns of equal width into which the chart divides this range.
+/// Range of springs that a chart shows, and the number of columns of equal width into which the
+/// chart divides this range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Part {
     /// Index, from 0 along the profile, of the first spring of the range.
@@ -33,15 +35,16 @@ pub struct Part {
 /// Largest number of columns of a profile in a picture.
 const DRAWN: usize = 1200;
 
-/// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`] stores them here for its next
-/// call.
+/// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`]
+/// stores them here for its next call.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
     heights: Vec<(f64, f64)>,
 }
 
-/// Part of a profile and its contact, reduced to the lowest and highest heights in each column of a chart.
+/// Part of a profile and its contact, reduced to the lowest and highest heights in each column of a
+/// chart.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Section {
     /// Index, from 0 along the profile, of the first spring of the part.
@@ -63,13 +66,14 @@ pub struct Column {
     pub line: (f64, f64),
     /// Heights of the lowest and the highest point of the elastic surface, m.
     pub surface: (f64, f64),
-    /// Heights of the lowest and the highest point of those springs of the column that are in contact, m; `None` without contact.
+    /// Heights of the lowest and the highest point of those springs of the column that are in
+    /// contact, m; `None` without contact.
     pub contact: Option<(f64, f64)>,
 }
 
 impl Section {
-    /// Returns the chart of the heights over the position. `line` has the spring spacing of the profile and the index of its
-    /// first spring, and `z` is the range of the vertical axis in m.
+    /// Returns the chart of the heights over the position. `line` has the spring spacing of the
+    /// profile and the index of its first spring, and `z` is the range of the vertical axis in m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
         let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
         let x = (edge(self.first), edge(self.first + self.springs.max(1)));
@@ -92,8 +96,8 @@ impl Section {
 }
 
 impl Part {
-    /// Returns the part that begins at the index `first` and has this number of springs, with as many columns as a picture in a
-    /// file shows.
+    /// Returns the part that begins at the index `first` and has this number of springs, with as
+    /// many columns as a picture in a file shows.
     pub fn drawn(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -102,8 +106,8 @@ impl Part {
         }
     }
 
-    /// Returns the part that begins at the index `first` and has this number of springs, with one column of the chart for each
-    /// spring.
+    /// Returns the part that begins at the index `first` and has this number of springs, with one
+    /// column of the chart for each spring.
     pub fn listed(first: usize, springs: usize) -> Part {
         Part {
             first,
@@ -129,7 +133,8 @@ impl SectionContact<'_> {
         self.summit - self.gaps[spring]
     }
 
-    /// Returns the height of the undeformed elastic surface, m: the highest point of the profile minus the indentation.
+    /// Returns the height of the undeformed elastic surface, m: the highest point of the profile
+    /// minus the indentation.
     pub fn level(&self) -> f64 {
         self.summit - self.indentation
     }
@@ -146,8 +151,8 @@ impl SectionContact<'_> {
             .map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
     }
 
-    /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs its own `line`, which stores
-    /// heights for the next call.
+    /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs
+    /// its own `line`, which stores heights for the next call.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
         let Part {
             first,

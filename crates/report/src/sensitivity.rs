@@ -17,8 +17,9 @@ const LEAST: f64 = 1.0;
 /// Half the height of a bar, divided by the distance of bars.
 const HALF: f64 = 0.35;
 
-/// Report on how much the results of a scene change if one of its numbers is changed by +10 % or −10 %, for each number in turn.
-/// A whole number changes by at least 1, and a wavelength by at least one wave on the length.
+/// Report on how much the results of a scene change if one of its numbers is changed by +10 % or
+/// −10 %, for each number in turn. A whole number changes by at least 1, and a wavelength by at
+/// least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
     /// Title of the scene.
@@ -76,7 +77,8 @@ impl Side<'_> {
         Label::symbol_or_name(axis.symbol, &short)
     }
 
-    /// Returns the change of the number in words: in per cent, or as a difference for a whole number.
+    /// Returns the change of the number in words: in per cent, or as a difference for a whole
+    /// number.
     fn step(&self) -> String {
         match self.influence {
             None => ["least", "most"][self.side].to_owned(),
@@ -91,8 +93,8 @@ impl Side<'_> {
     }
 }
 
-/// Returns both changes of at most `most` numbers, with the largest influence on a result first. The range over the
-/// profiles follows.
+/// Returns both changes of at most `most` numbers, with the largest influence on a result first.
+/// The range over the profiles follows.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
     let numbers = sensitivity
         .ordered(result)
@@ -125,9 +127,10 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
     numbers.chain(profiles).collect()
 }
 
-/// Returns a table of the changes of the median results: a row of headings, a row of medians of the unchanged scene, then two
-/// rows for each of at most `most` numbers. The columns are name, value and change of the number, change of F_a with its range
-/// over the profiles, change of F_a(d=0), and change of the dissipated energy.
+/// Returns a table of the changes of the median results: a row of headings, a row of medians of the
+/// unchanged scene, then two rows for each of at most `most` numbers. The columns are name, value
+/// and change of the number, change of F_a with its range over the profiles, change of F_a(d=0),
+/// and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
     let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
         let [name, value, change] = texts.map(str::to_owned);
@@ -193,8 +196,8 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
     [head, scene].into_iter().chain(changes).collect()
 }
 
-/// Returns a bar chart of the changes of one result in per cent, with two bars for each of at most `most` numbers. `result` is an
-/// index of [`Sensitivity::RESULTS`].
+/// Returns a bar chart of the changes of one result in per cent, with two bars for each of at most
+/// `most` numbers. `result` is an index of [`Sensitivity::RESULTS`].
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
     let shown = sides(sensitivity, result, most);
     let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
@@ -278,7 +281,8 @@ impl SensitivityReport<'_> {
     }
 }
 
-/// Returns a sentence on the numbers of a scene with this adhesion that stay constant while one of them changes.
+/// Returns a sentence on the numbers of a scene with this adhesion that stay constant while one of
+/// them changes.
 pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
     let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
     let follows = if by_parameter {
@@ -346,8 +350,8 @@ impl Report for SensitivityReport<'_> {
         }))
     }
 
-    /// Returns a table of the medians of the results: a row for the unchanged scene, then a row for each number and each change
-    /// by +10 % or −10 %.
+    /// Returns a table of the medians of the results: a row for the unchanged scene, then a row for
+    /// each number and each change by +10 % or −10 %.
     fn table(&self) -> Option<Table<'_>> {
         let rows = || {
             let all = self.sensitivity.influences.iter();
@@ -404,8 +408,8 @@ mod tests {
         }
     }
 
-    /// Each change has a row and a bar: a whole number changes by a whole step, what is not allowed is stated, and a bar
-    /// beyond the frame has an arrow.
+    /// Each change has a row and a bar: a whole number changes by a whole step, what is not allowed
+    /// is stated, and a bar beyond the frame has an arrow.
     #[test]
     fn each_change_has_a_row_and_a_bar_of_its_own() {
         let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();

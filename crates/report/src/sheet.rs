@@ -12,7 +12,8 @@ const INDENT: usize = 4;
 /// Width in characters of the labels before the values of rows.
 const LABEL: usize = 26;
 
-/// Plain text of at most 80 columns, to which headings, rows, tables and paragraphs are added one by one.
+/// Plain text of at most 80 columns, to which headings, rows, tables and paragraphs are added one
+/// by one.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
@@ -55,7 +56,8 @@ impl Sheet {
         }
     }
 
-    /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix. `None` adds nothing.
+    /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix.
+    /// `None` adds nothing.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
         self.row_of(
             label,
@@ -122,8 +124,8 @@ impl Sheet {
         }
     }
 
-    /// Adds a line of cells, each with the width of its column. The last cell begins on the next line if it has too little
-    /// room.
+    /// Adds a line of cells, each with the width of its column. The last cell begins on the next
+    /// line if it has too little room.
     fn cells(&mut self, cells: &[(usize, &str)]) {
         let Some(((_, last), others)) = cells.split_last() else {
             return;

@@ -1,4 +1,5 @@
-//! Power spectra over the wave number: as measured, as fitted, and of profiles with the measured spectrum.
+//! Power spectra over the wave number: as measured, as fitted, and of profiles with the measured
+//! spectrum.
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -15,16 +16,19 @@ const MOST_DECADES: f64 = 12.0;
 /// Stroke of the self-affine fit, which has no influence on the range of the axes.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
-/// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density in m³.
+/// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density
+/// in m³.
 pub type SpectrumPoint = (f64, f64);
 
 /// Power spectra of measured surfaces and of the random profile that replaces them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Spectra {
     measured: Vec<Layer>,
-    /// Spectrum that the profile should have according to the scene or to the measured surfaces; empty if there is none.
+    /// Spectrum that the profile should have according to the scene or to the measured surfaces;
+    /// empty if there is none.
     pub line: Vec<SpectrumPoint>,
-    /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers; empty if it was not computed.
+    /// Spectrum computed from the heights of the profile, averaged over ranges of wave numbers;
+    /// empty if it was not computed.
     pub heights: Vec<SpectrumPoint>,
 }
 
@@ -69,7 +73,8 @@ fn measured(faces: &[&Analysis]) -> Vec<Layer> {
 }
 
 impl Spectra {
-    /// Returns the spectra of measured surfaces with their fits, and the spectrum of a profile that replaces them.
+    /// Returns the spectra of measured surfaces with their fits, and the spectrum of a profile that
+    /// replaces them.
     fn of_analysis(analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
@@ -121,8 +126,8 @@ impl Spectra {
         }
     }
 
-    /// Returns the spectra of one rough body, or of both bodies in contact, with one [`Analysis`] for each body. [`Self::line`]
-    /// is the sum of their spectra.
+    /// Returns the spectra of one rough body, or of both bodies in contact, with one [`Analysis`]
+    /// for each body. [`Self::line`] is the sum of their spectra.
     pub fn of_faces(faces: &[&Analysis]) -> Self {
         match faces {
             [] => return Spectra::default(),
@@ -271,7 +276,8 @@ mod tests {
     #[test]
     fn the_fit_goes_through_the_measured_powers() {
         let analysis = analysis(End::Ends);
-        // At the largest likelihood the mean over the waves of powers over their means is 1; wave 1 is not fitted.
+        // At the largest likelihood the mean over the waves of powers over their means is 1; wave 1
+        // is not fitted.
         let bins = &analysis.spectra[0].1[2..];
         let fit = |q: f64| analysis.isotropic.cut(q);
         let sum: f64 = bins

@@ -4,9 +4,9 @@ use crate::sheet::Sheet;
 use asperity_data::{grouped, memory_size};
 use asperity_scene::stages::{PlannedStage, Workload};
 
-/// Returns a table of the steps in which the program computes a scene, such as making the profile. Each row has the number of
-/// passes over the springs, an upper bound of the spring visits of all passes together, the memory that the step needs, and the
-/// reason why the step runs or is skipped.
+/// Returns a table of the steps in which the program computes a scene, such as making the profile.
+/// Each row has the number of passes over the springs, an upper bound of the spring visits of all
+/// passes together, the memory that the step needs, and the reason why the step runs or is skipped.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
     let count = |count: u64| {

@@ -9,8 +9,8 @@ use std::time::Duration;
 /// Largest number of characters of the name of a machine in the table.
 const LONGEST_HOST: usize = 20;
 
-/// Returns as text how many results of a parameter study are computed, missing or damaged. There is a result for
-/// each combination of values on the axes of the study, on each random profile.
+/// Returns as text how many results of a parameter study are computed, missing or damaged. There is
+/// a result for each combination of values on the axes of the study, on each random profile.
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);
@@ -65,8 +65,8 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
     sheet.into_text()
 }
 
-/// Returns the progress of a running study in one line: results computed so far and in all, results per second, and
-/// estimated time left.
+/// Returns the progress of a running study in one line: results computed so far and in all, results
+/// per second, and estimated time left.
 pub fn progress_text(progress: &StudyProgress) -> String {
     let StudyProgress {
         done,

@@ -15,8 +15,8 @@ const DECADES_FOR_SECOND: f64 = 1.5;
 const MOST_DECADES: f64 = 12.0;
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Upper end, in units of the largest mean, above which a confidence interval is not drawn. Few profiles have wide
-/// intervals.
+/// Upper end, in units of the largest mean, above which a confidence interval is not drawn. Few
+/// profiles have wide intervals.
 const MOST_OF_BAND: f64 = 2.0;
 
 /// Smallest ratio of the ranges of both signs whose colours show the sign.
@@ -44,9 +44,10 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     }
 }
 
-/// Returns a heat map with the two axes of `grid`. Its values are means of a quantity over the random profiles. `None` if
-/// `grid` has one axis. Markers (in a terminal letters) show the regimes of adhesion. If `whole` is true, a cell that is not computed yet shows
-/// the value of a computed cell nearby.
+/// Returns a heat map with the two axes of `grid`. Its values are means of a quantity over the
+/// random profiles. `None` if `grid` has one axis. Markers (in a terminal letters) show the regimes
+/// of adhesion. If `whole` is true, a cell that is not computed yet shows the value of a computed
+/// cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
     let (across, up) = (&grid.across, grid.up.as_ref()?);
     let values = means(&grid.statistics(quantity, whole));
@@ -67,7 +68,8 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     };
     let class =
         |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
-    // The axis of a regime names its protocol; beside other quantities letters show the regime from first touch.
+    // The axis of a regime names its protocol; beside other quantities letters show the regime from
+    // first touch.
     let letters_of = match quantity.is_regime() {
         true => String::new(),
         false => format!(" ({})", quantity.short_protocol()),
@@ -100,9 +102,9 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the second axis. If the
-/// vertical axis is linear and the largest mean is at least 10^1.5 times the smallest mean above zero, a second chart with a
-/// logarithmic vertical axis follows.
+/// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the
+/// second axis. If the vertical axis is linear and the largest mean is at least 10^1.5 times the
+/// smallest mean above zero, a second chart with a logarithmic vertical axis follows.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
     let across = &grid.across;
     let scale = grid
@@ -176,8 +178,8 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// Returns the recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity. It is the quantity itself,
-/// or the first recorded one.
+/// Returns the recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity. It
+/// is the quantity itself, or the first recorded one.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     let own = shares.contains(&quantity).then_some(quantity);
@@ -240,8 +242,8 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
 }
 
-/// Returns layers of the curves with their confidence intervals, and for a single curve also median and quartiles of the
-/// profiles. Vertical lines mark where adhesion without a preload vanishes.
+/// Returns layers of the curves with their confidence intervals, and for a single curve also median
+/// and quartiles of the profiles. Vertical lines mark where adhesion without a preload vanishes.
 fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
     let places = &grid.across.values;
     let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();

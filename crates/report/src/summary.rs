@@ -12,13 +12,14 @@ use asperity_scene::stages::Timings;
 use asperity_scene::{Estimate, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
 
-/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further ones are counted.
+/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further ones
+/// are counted.
 const MOST_STAGES: usize = 8;
 
-/// Returns the results of a scene as plain text of at most 80 columns. Results over random profiles come first, if they are
-/// computed. Results on the own profile follow, with the estimated error of the adhesion force and the number of springs
-/// for a tolerance, if they are given. `deviation` is the deviation of the adhesion force due to the spectrum of a measured
-/// surface, in N.
+/// Returns the results of a scene as plain text of at most 80 columns. Results over random profiles
+/// come first, if they are computed. Results on the own profile follow, with the estimated error of
+/// the adhesion force and the number of springs for a tolerance, if they are given. `deviation` is
+/// the deviation of the adhesion force due to the spectrum of a measured surface, in N.
 pub(crate) fn summary(
     scene: &Scene,
     outcome: &Outcome,
@@ -51,8 +52,8 @@ pub(crate) fn summary(
     sheet.into_text()
 }
 
-/// Returns the main results of a computed scene as text: title, κ, e_el/γ, regime, preload, adhesion forces and dissipated
-/// energy.
+/// Returns the main results of a computed scene as text: title, κ, e_el/γ, regime, preload,
+/// adhesion forces and dissipated energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
     let figures = &outcome.figures;
     let mut sheet = Sheet::default();
@@ -282,8 +283,8 @@ fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     );
 }
 
-/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on` at or above the
-/// threshold, `below` otherwise.
+/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on`
+/// at or above the threshold, `below` otherwise.
 fn share(
     sheet: &mut Sheet,
     label: &str,
@@ -306,7 +307,8 @@ fn share(
     sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
 }
 
-/// Adds rows with the dissipated energy and the Tabor number, which shows whether the energy is valid.
+/// Adds rows with the dissipated energy and the Tabor number, which shows whether the energy is
+/// valid.
 fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
     let energy = outcome.figures.dissipated_energy;
     sheet.quantity("dissipated energy", energy, "J");
@@ -552,8 +554,8 @@ mod tests {
         }
     }
 
-    /// With a band of few long waves the regimes differ and are named with their protocols: little adheres at first touch,
-    /// and everything where the force is back at zero.
+    /// With a band of few long waves the regimes differ and are named with their protocols: little
+    /// adheres at first touch, and everything where the force is back at zero.
     #[test]
     fn regimes_that_differ_name_their_protocols() {
         let scene = [

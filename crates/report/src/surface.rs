@@ -25,8 +25,8 @@ const LINE_PER_DECADE: f64 = 10.0;
 
 const LINE: &str = "equivalent line";
 
-/// Returns in words the median, quartiles and range of the adhesion force over random profiles that replace a measured surface.
-/// Returns `None` for fewer than two profiles.
+/// Returns in words the median, quartiles and range of the adhesion force over random profiles that
+/// replace a measured surface. Returns `None` for fewer than two profiles.
 pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed
         .adhesion_force()
@@ -42,10 +42,12 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     ))
 }
 
-/// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of this contact.
+/// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of
+/// this contact.
 #[derive(Clone, Debug)]
 pub struct SurfaceReport {
-    /// Measured surfaces: one entry for the first body, and a second entry for the opposite body if it was measured too.
+    /// Measured surfaces: one entry for the first body, and a second entry for the opposite body if
+    /// it was measured too.
     pub faces: Vec<MeasuredFace>,
     /// Spectrum of the random profiles that replace the measured surfaces.
     pub line: EquivalentLine,
@@ -53,14 +55,15 @@ pub struct SurfaceReport {
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them. The whole is `None` if no adhesion
-    /// was requested, and the second value is `None` if it was not computed.
+    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them. The
+    /// whole is `None` if no adhesion was requested, and the second value is `None` if it was not
+    /// computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
 }
 
 impl SurfaceReport {
-    /// Returns a warning if attraction has too long a range for the summits of the surface; `None` without a modulus and a work
-    /// of adhesion.
+    /// Returns a warning if attraction has too long a range for the summits of the surface; `None`
+    /// without a modulus and a work of adhesion.
     fn of_tabor_number(&self) -> Option<Warning> {
         let (scene, _) = self.adhesion.as_ref()?;
         let modes = self
@@ -130,7 +133,8 @@ impl Report for SurfaceReport {
         Some(sheet.into_text())
     }
 
-    /// Returns the analysis of the first body as a JSON object. Its entry `opposite` is the analysis of the opposite body.
+    /// Returns the analysis of the first body as a JSON object. Its entry `opposite` is the
+    /// analysis of the opposite body.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
         let adhesion = self
@@ -164,8 +168,8 @@ impl Report for SurfaceReport {
         }))
     }
 
-    /// Returns a table of the spectra. A row has the name of the spectrum, a wave number in rad/m, the power spectral density in
-    /// m³, and the number of averaged waves.
+    /// Returns a table of the spectra. A row has the name of the spectrum, a wave number in rad/m,
+    /// the power spectral density in m³, and the number of averaged waves.
     fn table(&self) -> Option<Table<'_>> {
         let names = || {
             self.faces
@@ -256,7 +260,8 @@ impl SurfaceReport {
     }
 }
 
-/// Moment of the equivalent line, or a quantity that follows from moments. The value is `None` if it is unknown.
+/// Moment of the equivalent line, or a quantity that follows from moments. The value is `None` if
+/// it is unknown.
 #[derive(Clone, Copy)]
 struct MomentRow {
     label: &'static str,
@@ -265,7 +270,8 @@ struct MomentRow {
     value: Option<Moment>,
 }
 
-/// Returns the preload of the scene of an equivalent line in N; `None` if the loading turns at zero force.
+/// Returns the preload of the scene of an equivalent line in N; `None` if the loading turns at zero
+/// force.
 fn preload(scene: &Scene) -> Option<f64> {
     match scene.loading.first() {
         Some(Move::ToForce(force)) => Some(*force),
@@ -354,7 +360,8 @@ fn measured(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
 }
 
-/// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el is known.
+/// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el is
+/// known.
 fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
     let mut rows =
         vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
@@ -389,8 +396,8 @@ fn with_error(estimate: ValueWithError, unit: &str) -> String {
     format!("{} ± {error}", format_quantity(estimate.value, unit))
 }
 
-/// JSON object of the surfaces of one face, in SI units. The object of the first face also contains the results of both
-/// faces together, and the object of the opposite face.
+/// JSON object of the surfaces of one face, in SI units. The object of the first face also contains
+/// the results of both faces together, and the object of the opposite face.
 #[derive(Serialize)]
 struct FaceJson<'a> {
     version: &'static str,

@@ -1,4 +1,5 @@
-//! How far an adhesion force can be trusted: criteria of other theories, and errors by their sources.
+//! How far an adhesion force can be trusted: criteria of other theories, and errors by their
+//! sources.
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
@@ -8,7 +9,8 @@ use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, Criterion, criteria};
 
-/// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their sources.
+/// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their
+/// sources.
 pub(crate) fn trust(
     sheet: &mut Sheet,
     (scene, outcome): (&Scene, &Outcome),
@@ -35,8 +37,9 @@ pub(crate) fn trust(
     }
 }
 
-/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has the name of a theory, and its
-/// verdict whether the bodies adhere. The last rows have the result of this program.
+/// Returns what theories predict for the adhesion of a computed scene without a preload. A row has
+/// the name of a theory, and its verdict whether the bodies adhere. The last rows have the result
+/// of this program.
 pub fn theory_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -66,9 +69,10 @@ pub fn theory_rows(
         .collect()
 }
 
-/// Returns the errors of the adhesion force by their sources: number of springs, sample of profiles, measured surface, and model.
-/// A row has a source and its relative error in words. With the comparison `reference` with three dimensions there is also a
-/// row for the difference from it. The last row names the largest source.
+/// Returns the errors of the adhesion force by their sources: number of springs, sample of
+/// profiles, measured surface, and model. A row has a source and its relative error in words. With
+/// the comparison `reference` with three dimensions there is also a row for the difference from it.
+/// The last row names the largest source.
 pub fn error_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -178,7 +182,8 @@ mod tests {
         );
     }
 
-    /// No error is stated for a contact that reaches the ends of its profile, and none is named as the largest one.
+    /// No error is stated for a contact that reaches the ends of its profile, and none is named as
+    /// the largest one.
     #[test]
     fn no_error_is_stated_where_the_contact_reaches_the_ends() {
         let fields = [

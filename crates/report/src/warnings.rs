@@ -10,13 +10,15 @@ pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
     sentences_section(sheet, &warning_texts(warnings));
 }
 
-/// Adds a section with the premises that an ensemble of random profiles does not meet, each with the number of profiles.
+/// Adds a section with the premises that an ensemble of random profiles does not meet, each with
+/// the number of profiles.
 pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles: u64) {
     sentences_section(sheet, &counted_texts(warnings, profiles));
 }
 
-/// Returns the premises that do not hold on some of `profiles` random profiles: `On 12 of 16 profiles: ` and the warning. The
-/// count is left out if the premise does not hold on any profile.
+/// Returns the premises that do not hold on some of `profiles` random profiles:
+/// `On 12 of 16 profiles: ` and the warning. The count is left out if the premise does not hold on
+/// any profile.
 pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
     let mut texts = Vec::with_capacity(warnings.len());
     for counted in warnings {
@@ -32,8 +34,8 @@ pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> 
     texts
 }
 
-/// Returns the entry `warnings` of the JSON object of an ensemble: for each premise its name, the number of profiles that do not
-/// meet it, and the text of the first of them.
+/// Returns the entry `warnings` of the JSON object of an ensemble: for each premise its name, the
+/// number of profiles that do not meet it, and the text of the first of them.
 pub(crate) fn counted_values(warnings: &[CountedWarning]) -> Vec<CountedValue> {
     let mut values = Vec::with_capacity(warnings.len());
     for CountedWarning {
@@ -69,8 +71,8 @@ pub(crate) fn sentences_section(sheet: &mut Sheet, sentences: &[String]) {
     }
 }
 
-/// Returns the entry `warnings` of a JSON object: a text for each premise that a result does not meet, and an empty list if all
-/// premises hold.
+/// Returns the entry `warnings` of a JSON object: a text for each premise that a result does not
+/// meet, and an empty list if all premises hold.
 pub fn warning_texts(warnings: &[Warning]) -> Vec<String> {
     warnings.iter().map(Warning::to_string).collect()
 }

@@ -6,9 +6,10 @@ use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Sp
 use asperity_scene::discretisation::{CostTable, Knob};
 use asperity_study::half_space::Reference;
 
-/// Returns the figure of relative errors over computing time, with a curve for each kind of setting, such as the number of
-/// springs. The error is the error of the adhesion force, or of the force curve if there is no adhesion force. If `reference`,
-/// the comparison with three dimensions, is given, the figure also has the error of the model as a level.
+/// Returns the figure of relative errors over computing time, with a curve for each kind of
+/// setting, such as the number of springs. The error is the error of the adhesion force, or of the
+/// force curve if there is no adhesion force. If `reference`, the comparison with three dimensions,
+/// is given, the figure also has the error of the model as a level.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let model = reference
         .and_then(|reference| reference.budget.model)

@@ -1,9 +1,9 @@
-//! Number of instructions that the program takes for a scene, compared with a kernel written by hand for this scene.
-//! Callgrind counts the instructions.
+//! Number of instructions that the program takes for a scene, compared with a kernel written by
+//! hand for this scene. Callgrind counts the instructions.
 //!
-//! `cargo bench --bench instructions` prints the table. It fails if the program takes over 2 % more, or if a scene executes
-//! code of other effects. It needs valgrind and reports its absence. Without `--bench`, as in `cargo test --benches`, it only
-//! checks that program and kernels agree.
+//! `cargo bench --bench instructions` prints the table. It fails if the program takes over 2 %
+//! more, or if a scene executes code of other effects. It needs valgrind and reports its absence.
+//! Without `--bench`, as in `cargo test --benches`, it only checks that program and kernels agree.
 
 #[path = "instructions/mod.rs"]
 mod instructions;

@@ -5,7 +5,8 @@ use crate::simulation::outcome::RunError;
 use asperity_contact::ContactError;
 use thiserror::Error;
 
-/// Error of the functions at the root of this crate, such as [`open()`](crate::open) and [`run`](crate::run).
+/// Error of the functions at the root of this crate, such as [`open()`](crate::open) and
+/// [`run`](crate::run).
 ///
 /// ```
 /// use asperity_contact::Modulus;
@@ -17,13 +18,16 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Values of a scene are out of their ranges. Each error has the field, the value and the allowed range.
+    /// Values of a scene are out of their ranges. Each error has the field, the value and the
+    /// allowed range.
     #[error(transparent)]
     Values(#[from] SceneErrors),
-    /// A value of a profile or a contact is out of its range, or the contact cannot reach the end of a loading stage.
+    /// A value of a profile or a contact is out of its range, or the contact cannot reach the end
+    /// of a loading stage.
     #[error(transparent)]
     Contact(#[from] ContactError),
-    /// A computation failed for another reason: for example a file cannot be read, or there is not enough memory.
+    /// A computation failed for another reason: for example a file cannot be read, or there is not
+    /// enough memory.
     #[error(transparent)]
     Run(RunError),
 }

@@ -4,19 +4,23 @@
 //!
 //! # Names by task
 //!
-//! * Scenes: [`open`] returns a [`Document`], which is a [`Scene`] with its text. [`presets`] returns the built-in scenes as
-//!   [`Preset`]s. The fields of a scene have the types [`Material`], [`Adhesion`] ([`Strength`], [`RoughnessParameter`]),
-//!   [`Roughness`] ([`Measured`]), [`Numerics`] ([`Solver`]) and [`Observer`].
-//! * Computing: [`run`] computes the scene of one document. A [`Simulation`] computes many [`CheckedScene`]s.
-//!   [`ProfileBuilder`] makes a profile and computes its loading for programs that have no scene.
-//! * Results: an [`Outcome`] has all results, among them the [`Governing`] parameters and the [`Regime`]. [`estimate`]
-//!   returns an [`Estimate`] of the error that the finite number of springs causes in an outcome.
-//! * Errors: [`SceneErrors`] has one [`SceneError`], with its [`Origin`], for each invalid value. [`RunError`] is an error of
-//!   the computation. [`Error`] includes both.
+//! * Scenes: [`open`] returns a [`Document`], which is a [`Scene`] with its text. [`presets`]
+//!   returns the built-in scenes as [`Preset`]s. The fields of a scene have the types [`Material`],
+//!   [`Adhesion`] ([`Strength`], [`RoughnessParameter`]), [`Roughness`] ([`Measured`]),
+//!   [`Numerics`] ([`Solver`]) and [`Observer`].
+//! * Computing: [`run`] computes the scene of one document. A [`Simulation`] computes many
+//!   [`CheckedScene`]s. [`ProfileBuilder`] makes a profile and computes its loading for programs
+//!   that have no scene.
+//! * Results: an [`Outcome`] has all results, among them the [`Governing`] parameters and the
+//!   [`Regime`]. [`estimate`] returns an [`Estimate`] of the error that the finite number of
+//!   springs causes in an outcome.
+//! * Errors: [`SceneErrors`] has one [`SceneError`], with its [`Origin`], for each invalid value.
+//!   [`RunError`] is an error of the computation. [`Error`] includes both.
 //!
-//! The modules are for programs with special tasks. Editors of scenes use [`fields`], [`text`], [`loading`] and
-//! [`library`]. The number of springs is chosen with [`discretisation`]. Results are compared with [`instrument`] and
-//! [`theory`]. The progress of a computation is shown with [`stages`].
+//! The modules are for programs with special tasks. Editors of scenes use [`fields`], [`text`],
+//! [`loading`] and [`library`]. The number of springs is chosen with [`discretisation`]. Results
+//! are compared with [`instrument`] and [`theory`]. The progress of a computation is shown with
+//! [`stages`].
 
 mod accuracy;
 mod analysis;
@@ -46,8 +50,8 @@ pub use simulation::stages::Simulation;
 
 pub use asperity_data::Warning;
 
-/// Finds the number of springs that a tolerance needs ([`choose`](discretisation::choose)), and measures how much time
-/// smaller errors cost ([`measure`](discretisation::measure)).
+/// Finds the number of springs that a tolerance needs ([`choose`](discretisation::choose)), and
+/// measures how much time smaller errors cost ([`measure`](discretisation::measure)).
 pub mod discretisation {
     pub use crate::accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
     pub use crate::accuracy::estimate::Evidence;
@@ -56,8 +60,8 @@ pub mod discretisation {
     pub use crate::accuracy::table::{CostReference, CostTable, ErrorFigure, Knob, Row, Timing};
 }
 
-/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed range. [`Tree`](fields::Tree)
-/// has the values of one scene.
+/// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed
+/// range. [`Tree`](fields::Tree) has the values of one scene.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -70,8 +74,9 @@ pub mod fields {
     pub use crate::scene::tree::Tree;
 }
 
-/// Reads, writes and edits the text of scenes in RON; edits keep the comments. Other functions write the shell command that
-/// opens a scene, and find the name that a misspelt name probably means.
+/// Reads, writes and edits the text of scenes in RON; edits keep the comments. Other functions
+/// write the shell command that opens a scene, and find the name that a misspelt name probably
+/// means.
 pub mod text {
     pub use crate::scene::command::{command_line, quoted};
     pub use crate::scene::errors::{did_you_mean, nearest};
@@ -97,15 +102,16 @@ pub mod library {
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }
 
-/// Results of theories, for comparison with the model: closed forms for smooth bodies, the Everett function, and a check
-/// whether the waves of a sphere are too steep for the rule of Hess.
+/// Results of theories, for comparison with the model: closed forms for smooth bodies, the Everett
+/// function, and a check whether the waves of a sphere are too steep for the rule of Hess.
 pub mod theory {
     pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
 
-/// Force as a function of the displacement of an instrument of finite stiffness, which moves the body.
+/// Force as a function of the displacement of an instrument of finite stiffness, which moves the
+/// body.
 pub mod instrument {
     pub use crate::analysis::instrument::{
         DisplacementCurve, DisplacementPoint, InstrumentFigures, displacements,

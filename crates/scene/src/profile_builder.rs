@@ -14,8 +14,9 @@ use asperity_surface::lines::{Line, MeasuredRoughness};
 use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
-/// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness. By default the body is
-/// nominally flat and smooth. The order of the calls does not matter; of two values for the same quantity, the last one counts.
+/// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness.
+/// By default the body is nominally flat and smooth. The order of the calls does not matter; of two
+/// values for the same quantity, the last one counts.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -23,8 +24,14 @@ use std::sync::Arc;
 ///
 /// // A rough sphere on a length of 100 µm with 4096 points.
 /// let rough = ProfileBuilder::new(1.0e-4, 4096).sphere(1.0e-3);
-/// let rough = rough.self_affine(0.7).rms_height(5.0e-8).wavelengths(5.0e-5, 2.0e-7).seed(3);
-/// let contact = Contact::builder(&rough.build()?, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
+/// let rough = rough
+///     .self_affine(0.7)
+///     .rms_height(5.0e-8)
+///     .wavelengths(5.0e-5, 2.0e-7)
+///     .seed(3);
+/// let contact = Contact::builder(&rough.build()?, Modulus::effective(1.0e6)?)
+///     .work_of_adhesion(0.05)
+///     .build()?;
 /// let cycle = contact.load(&[Move::ToForce(1.0e-4), Move::ToSeparation])?;
 /// assert!(cycle.pull_off_force() > Some(0.0));
 /// # Ok::<(), asperity_scene::Error>(())
@@ -42,7 +49,8 @@ pub struct ProfileBuilder {
     seed: u64,
 }
 
-/// Changes a member of the self-affine roughness. A roughness that begins here has no Hurst exponent yet.
+/// Changes a member of the self-affine roughness. A roughness that begins here has no Hurst
+/// exponent yet.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
@@ -94,33 +102,37 @@ impl ProfileBuilder {
         self.form(Form::Paraboloid { radius })
     }
 
-    /// Sets a random self-affine roughness with the Hurst exponent H. The roughness also needs an amplitude, by
-    /// [`Self::rms_height`] or [`Self::rms_gradient`], and waves, by [`Self::modes`] or [`Self::wavelengths`].
+    /// Sets a random self-affine roughness with the Hurst exponent H. The roughness also needs an
+    /// amplitude, by [`Self::rms_height`] or [`Self::rms_gradient`], and waves, by [`Self::modes`]
+    /// or [`Self::wavelengths`].
     #[must_use]
     pub fn self_affine(self, hurst: f64) -> Self {
         with_member!(self, hurst, hurst)
     }
 
-    /// Sets the rms height of the self-affine roughness in m. Give either the rms height or the rms gradient.
+    /// Sets the rms height of the self-affine roughness in m. Give either the rms height or the rms
+    /// gradient.
     #[must_use]
     pub fn rms_height(self, rms_height: f64) -> Self {
         with_member!(self, rms_height, Some(rms_height))
     }
 
-    /// Sets the rms gradient of the self-affine roughness. Give either the rms gradient or the rms height.
+    /// Sets the rms gradient of the self-affine roughness. Give either the rms gradient or the rms
+    /// height.
     #[must_use]
     pub fn rms_gradient(self, rms_gradient: f64) -> Self {
         with_member!(self, rms_gradient, Some(rms_gradient))
     }
 
-    /// Sets the first and the last mode of the self-affine roughness, as numbers of waves on the length of the profile. Give
-    /// either modes or wavelengths.
+    /// Sets the first and the last mode of the self-affine roughness, as numbers of waves on the
+    /// length of the profile. Give either modes or wavelengths.
     #[must_use]
     pub fn modes(self, first: u64, last: u64) -> Self {
         with_member!(self, modes, Some((first, last)))
     }
 
-    /// Sets the longest and the shortest wavelength of the self-affine roughness in m. Give either wavelengths or modes.
+    /// Sets the longest and the shortest wavelength of the self-affine roughness in m. Give either
+    /// wavelengths or modes.
     #[must_use]
     pub fn wavelengths(self, longest: f64, shortest: f64) -> Self {
         with_member!(self, wavelengths, Some((longest, shortest)))
@@ -132,17 +144,24 @@ impl ProfileBuilder {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a roughness with a measured spectrum and random phases. A body with a self-affine roughness as well is refused.
+    /// Sets a roughness with a measured spectrum and random phases. A body with a self-affine
+    /// roughness as well is refused.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
     /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
     ///
-    /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+    /// let height = |i: u32| {
+    ///     (1..60)
+    ///         .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+    ///         .sum::<f64>()
+    /// };
     /// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
     /// let surface = Topography::from_profile(&heights, 1e-6).unwrap();
     /// let analysis = analyse(&[surface], &AnalysisOptions::default()).unwrap();
-    /// let rough = ProfileBuilder::new(2.56e-4, 1024).sphere(1.0e-3).spectrum(EquivalentLine::from(&analysis));
+    /// let rough = ProfileBuilder::new(2.56e-4, 1024)
+    ///     .sphere(1.0e-3)
+    ///     .spectrum(EquivalentLine::from(&analysis));
     /// assert_ne!(rough.clone().seed(1).build()?, rough.seed(2).build()?);
     /// # Ok::<(), asperity_scene::Error>(())
     /// ```
@@ -165,7 +184,11 @@ impl ProfileBuilder {
     /// ```
     /// use asperity_scene::ProfileBuilder;
     ///
-    /// let refused = ProfileBuilder::new(1.0e-4, 1024).self_affine(1.7).rms_height(1.0e-7).modes(1, 64).build();
+    /// let refused = ProfileBuilder::new(1.0e-4, 1024)
+    ///     .self_affine(1.7)
+    ///     .rms_height(1.0e-7)
+    ///     .modes(1, 64)
+    ///     .build();
     /// assert_eq!(
     ///     refused.unwrap_err().to_string(),
     ///     "roughness.hurst = 1.7: allowed: above 0 and below 1 (Hurst exponent)"
@@ -173,8 +196,9 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] if the shortest wave has
-    /// fewer than four points. Returns [`Error::Run`] if a surface or a form cannot be used, or if the memory is too small.
+    /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] if
+    /// the shortest wave has fewer than four points. Returns [`Error::Run`] if a surface or a form
+    /// cannot be used, or if the memory is too small.
     pub fn build(&self) -> Result<Profile, Error> {
         let scene = self.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
@@ -191,22 +215,25 @@ impl ProfileBuilder {
         Ok(self.simulation().profile(&scene)?)
     }
 
-    /// Computes the profile of the form with `heights` in m as its roughness, one height for each point. Of N points, the
-    /// point of index ⌊N/2⌋ is on the axis of the form. The heights are those of an equivalent line, not of a cut through a
-    /// rough surface, whose spectrum [`ProfileBuilder::spectrum`] takes.
+    /// Computes the profile of the form with `heights` in m as its roughness, one height for each
+    /// point. Of N points, the point of index ⌊N/2⌋ is on the axis of the form. The heights are
+    /// those of an equivalent line, not of a cut through a rough surface, whose spectrum
+    /// [`ProfileBuilder::spectrum`] takes.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
     ///
     /// let bump = |point: u32| if point == 60 { 1.0e-6 } else { 0.0 };
-    /// let profile = ProfileBuilder::new(1.0e-4, 100).sphere(1.0e-3).build_with((0..100).map(bump).collect())?;
+    /// let profile = ProfileBuilder::new(1.0e-4, 100)
+    ///     .sphere(1.0e-3)
+    ///     .build_with((0..100).map(bump).collect())?;
     /// assert_eq!(profile.gaps()[60], 0.0);
     /// # Ok::<(), asperity_scene::Error>(())
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`]. Also returns [`Error::Contact`] for a wrong number of heights or a height
-    /// that is not finite.
+    /// Returns the same errors as [`Self::build`]. Also returns [`Error::Contact`] for a wrong
+    /// number of heights or a height that is not finite.
     pub fn build_with(&self, heights: Vec<f64>) -> Result<Profile, Error> {
         let smooth = ProfileBuilder {
             self_affine: None,
@@ -250,7 +277,8 @@ impl ProfileBuilder {
         Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
-    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] changes its other fields.
+    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`]
+    /// changes its other fields.
     ///
     /// # Errors
     /// Returns [`Error::Values`] if a value is out of its range.
@@ -274,14 +302,17 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this adhesion, such as κ and
-    /// e_el/γ.
+    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this
+    /// adhesion, such as κ and e_el/γ.
     ///
     /// ```
     /// use asperity_contact::Modulus;
     /// use asperity_scene::{Adhesion, ProfileBuilder};
     ///
-    /// let rough = ProfileBuilder::new(1.0e-4, 4096).self_affine(0.7).rms_height(1.0e-7).modes(1, 1024);
+    /// let rough = ProfileBuilder::new(1.0e-4, 4096)
+    ///     .self_affine(0.7)
+    ///     .rms_height(1.0e-7)
+    ///     .modes(1, 1024);
     /// let modulus = Modulus::effective(2.0e6)?;
     /// let governing = rough.governing(modulus, Some(Adhesion::by_work(0.02)))?;
     /// let amplitude = governing.amplitude.unwrap();
@@ -291,7 +322,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::build`], except that two or three points on the shortest wave are allowed.
+    /// Returns the same errors as [`Self::build`], except that two or three points on the shortest
+    /// wave are allowed.
     pub fn governing(
         &self,
         modulus: Modulus,
@@ -307,7 +339,10 @@ impl ProfileBuilder {
     /// use asperity_contact::{Modulus, Move};
     /// use asperity_scene::{Adhesion, ProfileBuilder, Regime, RoughnessParameter};
     ///
-    /// let rough = ProfileBuilder::new(1.0e-4, 4096).self_affine(0.7).rms_height(1.0e-7).modes(1, 1024);
+    /// let rough = ProfileBuilder::new(1.0e-4, 4096)
+    ///     .self_affine(0.7)
+    ///     .rms_height(1.0e-7)
+    ///     .modes(1, 1024);
     /// let kappa = Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0);
     /// let stages = [Move::ToForce(1.0e-5), Move::ToSeparation];
     /// let outcome = rough.run(Modulus::effective(2.0e6)?, Some(kappa), &stages)?;
@@ -317,8 +352,8 @@ impl ProfileBuilder {
     /// ```
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::governing`]. Also returns [`Error::Contact`] if the contact cannot reach the end of
-    /// a stage.
+    /// Returns the same errors as [`Self::governing`]. Also returns [`Error::Contact`] if the
+    /// contact cannot reach the end of a stage.
     pub fn run(
         &self,
         modulus: Modulus,

@@ -3,8 +3,9 @@
 use asperity_contact::ClosedForm;
 use asperity_surface::Form;
 
-/// Returns the exact solution (closed form) for the adhesive contact of a form that is a power law: paraboloid, cone or
-/// power. The effective modulus is in Pa, the work of adhesion in J/m². Returns `None` for punches, wavy spheres and tables.
+/// Returns the exact solution (closed form) for the adhesive contact of a form that is a power law:
+/// paraboloid, cone or power. The effective modulus is in Pa, the work of adhesion in J/m². Returns
+/// `None` for punches, wavy spheres and tables.
 ///
 /// ```
 /// use asperity_scene::theory::closed_form;
@@ -29,11 +30,12 @@ pub fn closed_form(
     })
 }
 
-/// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is `None` for a flat body,
-/// `length` the apparent diameter in m. The works of adhesion on closing and on opening are in J/m².
+/// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is
+/// `None` for a flat body, `length` the apparent diameter in m. The works of adhesion on closing
+/// and on opening are in J/m².
 ///
-/// Returns `None` for wavy spheres and tables, if the contact at pull-off is longer than the profile, or if the preload does
-/// not press the body beyond this contact.
+/// Returns `None` for wavy spheres and tables, if the contact at pull-off is longer than the
+/// profile, or if the preload does not press the body beyond this contact.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

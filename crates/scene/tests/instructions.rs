@@ -1,9 +1,10 @@
-//! A scene takes the instructions of its own effects, and no others: within 2 % of a kernel written for it.
+//! A scene takes the instructions of its own effects, and no others: within 2 % of a kernel written
+//! for it.
 //!
-//! Counted by callgrind at the optimisation of the test profile; without valgrind only the results of the kernels are
-//! compared with the program. Instructions are attributed to effects where the program has line tables, as in
-//! `.ci/run`: `CARGO_PROFILE_DEV_DEBUG=line-tables-only`. `cargo bench --bench instructions` prints the table, fully
-//! optimised.
+//! Counted by callgrind at the optimisation of the test profile; without valgrind only the results
+//! of the kernels are compared with the program. Instructions are attributed to effects where the
+//! program has line tables, as in `.ci/run`: `CARGO_PROFILE_DEV_DEBUG=line-tables-only`.
+//! `cargo bench --bench instructions` prints the table, fully optimised.
 
 #[path = "../benches/instructions/mod.rs"]
 mod instructions;

@@ -7,8 +7,8 @@ use asperity_contact::Move;
 use asperity_data::Warning;
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Returns the premises of the model that a scene and its loading do not meet on its own profile. If the scene cannot be
-/// computed, these are the premises that are known from its fields.
+/// Returns the premises of the model that a scene and its loading do not meet on its own profile.
+/// If the scene cannot be computed, these are the premises that are known from its fields.
 ///
 /// ```
 /// use asperity_scene::Simulation;
@@ -24,14 +24,16 @@ pub fn warnings_of(scene: &CheckedScene, simulation: &mut Simulation) -> Vec<War
 }
 
 impl Found {
-    /// Returns the premises of the model that the scene does not meet at the median answer, on its own profile. `scene` is the
-    /// scene of the question, whose premises are returned if there is no median answer.
+    /// Returns the premises of the model that the scene does not meet at the median answer, on its
+    /// own profile. `scene` is the scene of the question, whose premises are returned if there is
+    /// no median answer.
     pub fn warnings(&self, scene: &CheckedScene, simulation: &mut Simulation) -> Vec<Warning> {
         let answer = self.quantile(0.5).and_then(|value| self.scene_at(value));
         warnings_of(answer.as_ref().unwrap_or(scene), simulation)
     }
 
-    /// Returns the scene of the question with this value of the number that is sought; `None` if the scene does not allow it.
+    /// Returns the scene of the question with this value of the number that is sought; `None` if
+    /// the scene does not allow it.
     fn scene_at(&self, value: f64) -> Option<CheckedScene> {
         let question = &self.question;
         if question.is_of_preload() {

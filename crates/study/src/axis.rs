@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 /// Largest number of values on one [`Axis`].
 pub const MOST_VALUES: u64 = 1_000_000;
 
-/// Number of significant digits of values between the ends of an axis, so that a value is 0.15 rather than
-/// 0.15000000000000002.
+/// Number of significant digits of values between the ends of an axis, so that a value is 0.15
+/// rather than 0.15000000000000002.
 const DIGITS: usize = 12;
 
 /// Smallest relative difference of two values of an axis; a smaller difference counts as rounding.
@@ -57,30 +57,33 @@ pub enum Spacing {
 /// Axis of a study: a quantity of the scene that the study varies, and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names in [`Axis::DERIVED`].
+    /// Path of the field of the scene that varies, such as `roughness.hurst`, or one of the names
+    /// in [`Axis::DERIVED`].
     pub path: String,
     /// Name of the quantity in words, such as `Hurst exponent`.
     pub name: String,
-    /// Symbol of the quantity, such as `F_n`, in which `_` begins a subscript; empty if the quantity has no symbol.
+    /// Symbol of the quantity, such as `F_n`, in which `_` begins a subscript; empty if the
+    /// quantity has no symbol.
     pub symbol: &'static str,
     /// SI unit of the values; `1` for numbers without a unit.
     pub unit: &'static str,
     /// How the values are spaced.
     pub spacing: Spacing,
-    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a [`Grid`](crate::maps::Grid) the values
-    /// ascend.
+    /// Values in the unit [`Axis::unit`], in the order of the plan. On an axis of a
+    /// [`Grid`](crate::maps::Grid) the values ascend.
     pub values: Vec<f64>,
     pub(super) target: Target,
 }
 
 impl Axis {
-    /// Names of the quantities that an axis may vary although a scene has no field for them. They are `preload` (in units of E*
-    /// h L), `preload_in_N` and `springs_per_wave` (number of springs per shortest wave of the roughness). E* is the effective
-    /// modulus, h the rms height and L the length of the profile.
+    /// Names of the quantities that an axis may vary although a scene has no field for them. They
+    /// are `preload` (in units of E* h L), `preload_in_N` and `springs_per_wave` (number of springs
+    /// per shortest wave of the roughness). E* is the effective modulus, h the rms height and L the
+    /// length of the profile.
     pub const DERIVED: &[&str] = &["preload", "preload_in_N", "springs_per_wave"];
 
-    /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The `values` are in the SI unit
-    /// of this number.
+    /// Creates an axis that varies the number of a scene at `path`, such as `roughness.hurst`. The
+    /// `values` are in the SI unit of this number.
     ///
     /// # Errors
     /// Returns an error if no scene has a number at this path.
@@ -89,9 +92,18 @@ impl Axis {
     /// use asperity_study::{Axis, Spacing};
     ///
     /// let scene = asperity_scene::open("pressure-sensitive")?;
-    /// let axis = Axis::new("roughness.hurst", Spacing::List, vec![0.2, 0.8], scene.scene())?;
-    /// assert_eq!((axis.symbol, axis.count(), axis.next_beyond(0.2, 1)), ("H", 2, Some(0.8)));
-    /// let error = Axis::new("roughness.hurts", Spacing::List, Vec::new(), scene.scene()).unwrap_err();
+    /// let axis = Axis::new(
+    ///     "roughness.hurst",
+    ///     Spacing::List,
+    ///     vec![0.2, 0.8],
+    ///     scene.scene(),
+    /// )?;
+    /// assert_eq!(
+    ///     (axis.symbol, axis.count(), axis.next_beyond(0.2, 1)),
+    ///     ("H", 2, Some(0.8))
+    /// );
+    /// let error =
+    ///     Axis::new("roughness.hurts", Spacing::List, Vec::new(), scene.scene()).unwrap_err();
     /// assert!(error.to_string().contains("did you mean roughness.hurst?"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -185,8 +197,8 @@ impl Axis {
         })
     }
 
-    /// Returns `count` values from one end to the other. Values between the ends are rounded to 12 significant digits, or
-    /// to whole numbers if the field needs whole numbers.
+    /// Returns `count` values from one end to the other. Values between the ends are rounded to 12
+    /// significant digits, or to whole numbers if the field needs whole numbers.
     fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
         let rounded = |value: f64| match self.is_whole() {
             true => value.round(),
@@ -197,7 +209,8 @@ impl Axis {
         std::iter::once(from).chain(inner).chain([to]).collect()
     }
 
-    /// Returns true if the quantity of this axis has only whole numbers as values, such as a number of springs.
+    /// Returns true if the quantity of this axis has only whole numbers as values, such as a number
+    /// of springs.
     pub fn is_whole(&self) -> bool {
         self.target.is_whole()
     }
@@ -227,7 +240,8 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol of the quantity of this axis, or the name of the quantity if it has no symbol.
+    /// Returns the symbol of the quantity of this axis, or the name of the quantity if it has no
+    /// symbol.
     pub fn symbol_or_name(&self) -> &str {
         if self.symbol.is_empty() {
             &self.name
@@ -236,7 +250,8 @@ impl Axis {
         }
     }
 
-    /// Returns the symbol of the quantity of this axis, or [`Axis::path`] if the quantity has no symbol.
+    /// Returns the symbol of the quantity of this axis, or [`Axis::path`] if the quantity has no
+    /// symbol.
     pub fn symbol_or_path(&self) -> String {
         if self.symbol.is_empty() {
             self.path.clone()
@@ -255,8 +270,9 @@ impl Axis {
         )
     }
 
-    /// Returns the value of the axis that is `steps` values above `value`, or below `value` if `steps` is negative, but at most
-    /// the last one in this direction. `None` if the axis has no value in this direction. The values of the axis must ascend.
+    /// Returns the value of the axis that is `steps` values above `value`, or below `value` if
+    /// `steps` is negative, but at most the last one in this direction. `None` if the axis has no
+    /// value in this direction. The values of the axis must ascend.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
         let (values, apart) = (&self.values, APART * value.abs());
         let further = steps.unsigned_abs().checked_sub(1)? as usize;
@@ -286,7 +302,8 @@ impl Axis {
     }
 }
 
-/// Paths of numbers that cannot be varied. The version is no parameter, and seeds follow from the seed of the plan.
+/// Paths of numbers that cannot be varied. The version is no parameter, and seeds follow from the
+/// seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
 /// Endings of the paths of numbers: of a number itself, and of the first and last number of a pair.
@@ -301,7 +318,8 @@ pub(super) enum Target {
     Stage(usize),
     /// Preload F_n in N or in units of E* h L.
     Preload { in_newtons: bool },
-    /// Number of springs per shortest wave. The last mode is the number of springs divided by this number.
+    /// Number of springs per shortest wave. The last mode is the number of springs divided by this
+    /// number.
     SpringsPerWave,
 }
 

@@ -1,8 +1,9 @@
 //! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still adheres. The boundary κ* is
-//! therefore where the mean of F_a(d=0) over the profiles falls below a share of the ideal adhesion force F_a,max. On profiles
-//! of one spectrum κ determines e_el/γ, so each boundary in κ is also a boundary in e_el/γ.
+//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still
+//! adheres. The boundary κ* is therefore where the mean of F_a(d=0) over the profiles falls below a
+//! share of the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so
+//! each boundary in κ is also a boundary in e_el/γ.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -22,15 +23,16 @@ const RESAMPLES: usize = 1000;
 /// Seed of the random selections, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
-/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the values on the other axes, on
-/// where the loading turns ([`AdhesionBoundary::protocol`]), and on the share of the ideal adhesion force F_a,max below which
-/// adhesion counts as vanished.
+/// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the
+/// values on the other axes, on where the loading turns ([`AdhesionBoundary::protocol`]), and on
+/// the share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdhesionBoundary {
-    /// Values on the axes of the study other than κ or e_el/γ, in the order of [`Boundaries::others`].
+    /// Values on the axes of the study other than κ or e_el/γ, in the order of
+    /// [`Boundaries::others`].
     pub others: Vec<f64>,
-    /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the loading turns at first touch,
-    /// or F_a(F=0)/F_a,max if it turns at zero force.
+    /// Quantity whose mean is compared with [`AdhesionBoundary::level`]: F_a(d=0)/F_a,max if the
+    /// loading turns at first touch, or F_a(F=0)/F_a,max if it turns at zero force.
     pub protocol: Quantity,
     /// Share of the ideal adhesion force F_a,max below which adhesion counts as vanished.
     pub level: f64,
@@ -38,21 +40,24 @@ pub struct AdhesionBoundary {
     pub crossing: Crossing,
 }
 
-/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random profiles stays below
-/// [`AdhesionBoundary::level`].
+/// Value of κ or e_el/γ above which the mean of [`AdhesionBoundary::protocol`] over the random
+/// profiles stays below [`AdhesionBoundary::level`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary lies beyond this range.
+    /// Value of κ or e_el/γ at the boundary, or the nearer end of the studied range if the boundary
+    /// lies beyond this range.
     pub value: f64,
-    /// Position of the boundary: `Equal` within the studied range, `Less` below this range, `Greater` above this range.
+    /// Position of the boundary: `Equal` within the studied range, `Less` below this range,
+    /// `Greater` above this range.
     pub side: Ordering,
-    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` for fewer than two profiles, or if the scatter of
-    /// the profiles allows a boundary beyond the studied range.
+    /// Ends of the 95 % confidence interval of [`Crossing::value`]; `None` for fewer than two
+    /// profiles, or if the scatter of the profiles allows a boundary beyond the studied range.
     pub interval: Option<(f64, f64)>,
 }
 
 impl Crossing {
-    /// Returns [`Crossing::value`] with its 95 % confidence interval; `None` if the boundary lies beyond the studied range.
+    /// Returns [`Crossing::value`] with its 95 % confidence interval; `None` if the boundary lies
+    /// beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
         self.side.is_eq().then_some((self.value, self.interval))
     }
@@ -67,16 +72,16 @@ pub struct Boundaries {
     pub others: Vec<Axis>,
     /// Number of random profiles that were computed for each combination of values on the axes.
     pub lines: u64,
-    /// Boundaries: at most one for each combination of values on [`Boundaries::others`], turning point of the loading and share
-    /// of F_a,max.
+    /// Boundaries: at most one for each combination of values on [`Boundaries::others`], turning
+    /// point of the loading and share of F_a,max.
     pub found: Vec<AdhesionBoundary>,
 }
 
 /// F_a(d=0)/F_a,max over ascending κ or e_el/γ. Each value has the shares on the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Returns the shares on the profiles that all cells along an axis have. The first cell is `first`, at the first value of
-/// the axis. Cells without any share are left out.
+/// Returns the shares on the profiles that all cells along an axis have. The first cell is `first`,
+/// at the first value of the axis. Cells without any share are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
@@ -116,7 +121,8 @@ fn conversion(
 }
 
 impl AdhesionBoundary {
-    /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or `zero force`.
+    /// Returns where the loading turns for [`AdhesionBoundary::protocol`]: `first touch` or
+    /// `zero force`.
     pub fn protocol_name(&self) -> &'static str {
         if self.protocol == Quantity::FirstTouchAdhesionShare {
             "first touch"
@@ -127,17 +133,19 @@ impl AdhesionBoundary {
 }
 
 impl Boundaries {
-    /// Usual values of [`AdhesionBoundary::level`]: shares of F_a,max below which adhesion counts as vanished.
+    /// Usual values of [`AdhesionBoundary::level`]: shares of F_a,max below which adhesion counts
+    /// as vanished.
     pub const USUAL_LEVELS: [f64; 4] = [0.5, 0.1, 0.05, 0.01];
 
-    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the folder of a study with an
-    /// axis of κ or e_el/γ, for which [`merge`](crate::merge) has written the tables. `over` is the parameter, κ or e_el/γ, in
-    /// which the boundaries are returned. `levels` has one or several [`AdhesionBoundary::level`].
+    /// Finds the values of κ or e_el/γ at which adhesion without a preload vanishes. `path` is the
+    /// folder of a study with an axis of κ or e_el/γ, for which [`merge`](crate::merge) has written
+    /// the tables. `over` is the parameter, κ or e_el/γ, in which the boundaries are returned.
+    /// `levels` has one or several [`AdhesionBoundary::level`].
     ///
     /// # Errors
-    /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither F_a(d=0)/F_a,max nor
-    /// F_a(F=0)/F_a,max. For a measured surface it is also an error if `over` is not the parameter of the axis. The errors of
-    /// [`Results::open`] are possible too.
+    /// Returns an error if the study has no axis of κ or e_el/γ, or if it recorded neither
+    /// F_a(d=0)/F_a,max nor F_a(F=0)/F_a,max. For a measured surface it is also an error if `over`
+    /// is not the parameter of the axis. The errors of [`Results::open`] are possible too.
     pub fn of(
         path: &Path,
         over: RoughnessParameter,
@@ -250,8 +258,8 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     }
 }
 
-/// Returns the κ above which the mean over the chosen profiles stays below a share, by linear interpolation of the
-/// logarithm of the mean. Beyond an end of the curve, returns this end.
+/// Returns the κ above which the mean over the chosen profiles stays below a share, by linear
+/// interpolation of the logarithm of the mean. Beyond an end of the curve, returns this end.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean =
         |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;

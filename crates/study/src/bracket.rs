@@ -5,10 +5,12 @@ use super::scan::Tried;
 use asperity_scene::RunError;
 use std::mem::replace;
 
-/// Relative distance between the ends of the interval with the sought number at which the search for this number ends.
+/// Relative distance between the ends of the interval with the sought number at which the search
+/// for this number ends.
 pub const WITHIN: f64 = 1e-9;
 
-/// Share of the searched range at which the search ends in any case: a number at zero has no digits of its own.
+/// Share of the searched range at which the search ends in any case: a number at zero has no digits
+/// of its own.
 const LEAST: f64 = 1e-18;
 
 /// Target that a quantity passes, or on which it comes to rest from above.
@@ -20,8 +22,9 @@ pub(super) struct Passage {
 }
 
 impl Passage {
-    /// Returns a number that is not negative on the side of the passage that belongs to the answer, and negative on the other
-    /// side. A number that the scene does not allow does not reach the target.
+    /// Returns a number that is not negative on the side of the passage that belongs to the answer,
+    /// and negative on the other side. A number that the scene does not allow does not reach the
+    /// target.
     fn excess(self, value: f64) -> f64 {
         let excess = value - self.target;
         if self.falls_onto {
@@ -43,9 +46,10 @@ struct Point {
     excess: f64,
 }
 
-/// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the quantity is smooth
-/// enough, otherwise bisection. Returns the end that belongs to the answer, where the quantity is at least the target.
-/// Allowed numbers that are whole are bisected until no further one lies between the ends.
+/// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the
+/// quantity is smooth enough, otherwise bisection. Returns the end that belongs to the answer,
+/// where the quantity is at least the target. Allowed numbers that are whole are bisected until no
+/// further one lies between the ends.
 pub(super) fn passage(
     coordinates: &Coordinates,
     passage: Passage,
@@ -94,8 +98,8 @@ pub(super) fn passage(
     }
 }
 
-/// Returns the share of the way from `last` to `other` at which an inverse quadratic interpolation has no excess, or a half
-/// where the three points do not suit one.
+/// Returns the share of the way from `last` to `other` at which an inverse quadratic interpolation
+/// has no excess, or a half where the three points do not suit one.
 fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     let place_share = (last.place - other.place) / (before.place - other.place);
     let excess_share = (last.excess - other.excess) / (before.excess - other.excess);
@@ -138,7 +142,8 @@ mod tests {
     use crate::coordinates::Allowed;
     use asperity_data::AxisScale;
 
-    /// Searches where a function that rises reaches a target, and returns the number with the count of calls.
+    /// Searches where a function that rises reaches a target, and returns the number with the count
+    /// of calls.
     fn searched(
         coordinates: &Coordinates,
         ends: [f64; 2],

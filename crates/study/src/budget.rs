@@ -1,4 +1,5 @@
-//! Errors of an adhesion force by their sources: grid, sample of random profiles, measured surface, model.
+//! Errors of an adhesion force by their sources: grid, sample of random profiles, measured surface,
+//! model.
 
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
@@ -7,30 +8,34 @@ use asperity_data::{Warning, quantile};
 use asperity_scene::{Estimate, Outcome};
 use serde::Serialize;
 
-/// Errors of the adhesion force of a scene, one for each source of errors. They are relative: the error `grid` is divided by
-/// the adhesion force on the scene's own profile, and `sample` and `surface` by the median over random profiles. In about 5 of
-/// 100 cases the true error is larger. `None` means that an error is unknown.
+/// Errors of the adhesion force of a scene, one for each source of errors. They are relative: the
+/// error `grid` is divided by the adhesion force on the scene's own profile, and `sample` and
+/// `surface` by the median over random profiles. In about 5 of 100 cases the true error is larger.
+/// `None` means that an error is unknown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Budget {
     /// Error due to the finite number of springs, for the profile with the seed of the scene.
     pub grid: Option<f64>,
     /// Error of the median over random profiles, due to the finite number of these profiles.
     pub sample: Option<f64>,
-    /// Error of the median over random profiles, due to the uncertainty of the spectrum of a measured surface.
+    /// Error of the median over random profiles, due to the uncertainty of the spectrum of a
+    /// measured surface.
     pub surface: Option<f64>,
-    /// Smallest error of the model that a comparison with three dimensions shows: the relative difference between the mean
-    /// adhesion force on profiles and on the same bodies in three dimensions, as far as it exceeds the errors of the sample
-    /// and of the grid of these bodies.
+    /// Smallest error of the model that a comparison with three dimensions shows: the relative
+    /// difference between the mean adhesion force on profiles and on the same bodies in three
+    /// dimensions, as far as it exceeds the errors of the sample and of the grid of these bodies.
     pub model: Option<f64>,
-    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`; `None` if no error is known, or
-    /// if a premise of the model does not hold, which may cause a larger error.
+    /// Name of the field with the largest known error: `grid`, `sample`, `surface` or `model`;
+    /// `None` if no error is known, or if a premise of the model does not hold, which may cause a
+    /// larger error.
     pub largest: Option<&'static str>,
 }
 
 impl Budget {
-    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not above zero. `estimate` gives
-    /// [`Budget::grid`], and `ensemble` gives [`Budget::sample`]. `deviation` is the standard deviation of the adhesion force
-    /// in N due to the uncertainty of the spectrum of a measured surface.
+    /// Collects the errors of a computed scene; `None` if the adhesion force of the scene is not
+    /// above zero. `estimate` gives [`Budget::grid`], and `ensemble` gives [`Budget::sample`].
+    /// `deviation` is the standard deviation of the adhesion force in N due to the uncertainty of
+    /// the spectrum of a measured surface.
     pub fn of(
         outcome: &Outcome,
         estimate: Option<&Estimate>,
@@ -69,7 +74,8 @@ impl Budget {
         })
     }
 
-    /// Returns these errors with the error [`Budget::model`], which may be unknown. An error of 0 is never the largest.
+    /// Returns these errors with the error [`Budget::model`], which may be unknown. An error of 0
+    /// is never the largest.
     pub fn with_model(self, model: Option<f64>) -> Budget {
         let others = [self.grid, self.sample, self.surface]
             .into_iter()

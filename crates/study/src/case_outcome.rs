@@ -59,8 +59,8 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading of a profile from separation to `leg`, the turning point of `reversal`, and back to
-    /// separation.
+    /// Collects the outcome of a loading of a profile from separation to `leg`, the turning point
+    /// of `reversal`, and back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -76,23 +76,26 @@ impl LoadingOutcome {
 pub(super) struct ProfileRecord {
     /// Rms height about the mean, m, without the form.
     pub rms_height: Option<f64>,
-    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of the rms height; `None` for
-    /// a flat profile. Both are zero for a normal distribution.
+    /// Skewness ⟨z³⟩ and excess kurtosis ⟨z⁴⟩ − 3 of the heights z about their mean, in units of
+    /// the rms height; `None` for a flat profile. Both are zero for a normal distribution.
     pub shape: Option<(f64, f64)>,
     /// Height of the highest point above the mean, divided by the rms height.
     pub summit: Option<f64>,
-    /// Exponents α of the stiffness k ∝ F^α and n of the force F ∝ dⁿ, for the contact without adhesion.
+    /// Exponents α of the stiffness k ∝ F^α and n of the force F ∝ dⁿ, for the contact without
+    /// adhesion.
     pub exponents: Option<(f64, f64)>,
 }
 
 impl ProfileRecord {
-    /// Computes the statistics of the heights of a profile with these gaps in m. `deepest` is the largest gap.
+    /// Computes the statistics of the heights of a profile with these gaps in m. `deepest` is the
+    /// largest gap.
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
         let average = |of: &dyn Fn(f64) -> f64| {
             gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64
         };
         let mean = average(&|gap| gap);
-        // In units of the deepest gap, or of the rms height: powers of heights could leave the range of numbers.
+        // In units of the deepest gap, or of the rms height: powers of heights could leave the
+        // range of numbers.
         let square = average(&|gap| ((gap - mean) / deepest).powi(2));
         let rms = if deepest > 0.0 {
             square.sqrt() * deepest
@@ -143,7 +146,8 @@ impl CaseOutcome<'_> {
         self.governing.tabor_number(self.scene)
     }
 
-    /// Returns the index in [`Regime::ALL`] of the regime of this loading. `first_touch` is F_a(d=0) in N.
+    /// Returns the index in [`Regime::ALL`] of the regime of this loading. `first_touch` is
+    /// F_a(d=0) in N.
     pub fn regime(&self, first_touch: Option<f64>) -> Option<f64> {
         Some(Regime::of_loading(&self.loading.figures, first_touch, self.smooth)? as u8 as f64)
     }
@@ -176,7 +180,8 @@ mod tests {
         assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
     }
 
-    /// Rough, smooth and nonadhesive bodies, with one and two works of adhesion, with both edge models.
+    /// Rough, smooth and nonadhesive bodies, with one and two works of adhesion, with both edge
+    /// models.
     #[test]
     fn the_outcome_of_a_reversal_is_that_of_a_run() {
         for name in [

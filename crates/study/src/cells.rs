@@ -1,8 +1,8 @@
 //! Order and division of the computation of a plan.
 //!
-//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that differ only in the preload.
-//! A *unit* is computed by one thread. It has streaks on one random profile with the same roughness, so that the profile and
-//! its tree are made once.
+//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that
+//! differ only in the preload. A *unit* is computed by one thread. It has streaks on one random
+//! profile with the same roughness, so that the profile and its tree are made once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
@@ -10,8 +10,8 @@ use std::ops::Range;
 
 /// Largest number of units for which the streaks of one profile are divided into several units.
 const ENOUGH_UNITS: u64 = 256;
-/// Smallest number of streaks in a unit of a divided profile. With fewer, making the profile would cost more than the
-/// streaks.
+/// Smallest number of streaks in a unit of a divided profile. With fewer, making the profile would
+/// cost more than the streaks.
 const LEAST_STREAKS: u64 = 16;
 
 /// Numbering of the streaks and units of a plan.
@@ -66,7 +66,8 @@ impl<'p> Cells<'p> {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// Returns the streaks of a unit in the most efficient order. Units with the same spectrum are consecutive.
+    /// Returns the streaks of a unit in the most efficient order. Units with the same spectrum are
+    /// consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
         let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);

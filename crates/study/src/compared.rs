@@ -1,4 +1,5 @@
-//! Comparison of one quantity between random profiles and random squares: the ratio of the means and its errors.
+//! Comparison of one quantity between random profiles and random squares: the ratio of the means
+//! and its errors.
 
 use super::quantity::Quantity;
 use super::statistics::Statistics;
@@ -17,11 +18,11 @@ pub struct Compared {
     pub half_space: Statistics,
     /// Mean of the quantity over the profiles divided by its mean over the squares.
     pub ratio: f64,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t; `None` for fewer than two
-    /// profiles or squares.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], by Student's t;
+    /// `None` for fewer than two profiles or squares.
     pub error: Option<f64>,
-    /// Relative difference between the mean over the squares and the mean over the same squares with half as many grid cells
-    /// along the side; `None` if half as many cells are too few.
+    /// Relative difference between the mean over the squares and the mean over the same squares
+    /// with half as many grid cells along the side; `None` if half as many cells are too few.
     pub grid: Option<f64>,
 }
 
@@ -73,8 +74,9 @@ impl Values {
     }
 }
 
-/// Returns half the width of the 95 % confidence interval of the ratio of two means. The number of degrees of freedom of
-/// Student's t follows from the relative errors of both means by the rule of Welch and Satterthwaite.
+/// Returns half the width of the 95 % confidence interval of the ratio of two means. The number of
+/// degrees of freedom of Student's t follows from the relative errors of both means by the rule of
+/// Welch and Satterthwaite.
 fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     let line_error = line.spread?.standard_error / line.mean;
     let square_error = square.spread?.standard_error / square.mean;
@@ -94,9 +96,10 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     Some(quantile * ratio * widened_error)
 }
 
-/// Returns the relative standard error of the mean over the squares. Few values of a skewed quantity, such as F_a(d=0), often
-/// miss its largest values, and then scatter too little. The squares therefore count as scattering at least as much as the
-/// profiles, of which there are many, relative to their means.
+/// Returns the relative standard error of the mean over the squares. Few values of a skewed
+/// quantity, such as F_a(d=0), often miss its largest values, and then scatter too little. The
+/// squares therefore count as scattering at least as much as the profiles, of which there are many,
+/// relative to their means.
 fn widened_square_error(line: &Statistics, square: &Statistics) -> Option<f64> {
     let of_line = line.spread?.standard_deviation / line.mean;
     let of_square = square.spread?.standard_deviation / square.mean;
@@ -120,7 +123,8 @@ mod tests {
     fn a_ratio_has_its_errors() {
         let found = compared(&[2.0; 40], &[1.0, 2.0, 3.0], &[1.5, 2.0, 3.1]).unwrap();
         assert_eq!(found.ratio, 1.0);
-        // The lines are known exactly: two degrees of freedom, and the standard error 1/√3 of a mean of 2.
+        // The lines are known exactly: two degrees of freedom, and the standard error 1/√3 of a
+        // mean of 2.
         let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
         assert!(
             (found.error.unwrap() / expected - 1.0).abs() < 1e-9,

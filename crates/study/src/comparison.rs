@@ -27,14 +27,16 @@ const EVENTS_OF_PROFILES: u64 = 100;
 const ROUNDING: f64 = 1e-9;
 
 impl Reference {
-    /// Compares the contact of a checked scene on random profiles with its contact on random squares in three dimensions.
-    /// `simulation` knows the folder of the measured files of the scene. `jobs` is the number of threads, on which only the
-    /// computing times depend. `report` receives each event.
+    /// Compares the contact of a checked scene on random profiles with its contact on random
+    /// squares in three dimensions. `simulation` knows the folder of the measured files of the
+    /// scene. `jobs` is the number of threads, on which only the computing times depend. `report`
+    /// receives each event.
     ///
     /// # Errors
-    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if the number of grid cells is
-    /// not allowed, or if the memory does not suffice. It is also an error if the squares would take more than a day, if too
-    /// few grid cells are in contact for any comparison, or if `stop` returned true.
+    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if
+    /// the number of grid cells is not allowed, or if the memory does not suffice. It is also an
+    /// error if the squares would take more than a day, if too few grid cells are in contact for
+    /// any comparison, or if `stop` returned true.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
@@ -187,7 +189,8 @@ impl Comparison<'_> {
         ))
     }
 
-    /// Loads the profile with the seed of the scene as the scene says, and finds the last loop of this loading.
+    /// Loads the profile with the seed of the scene as the scene says, and finds the last loop of
+    /// this loading.
     fn own_loading(&self) -> Result<OwnLoading, StudyError> {
         let line = &self.resolved.line;
         let outcome = run(line, &mut self.resolved.simulation(), self.stop)?;
@@ -224,7 +227,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the loads of a square for a preload in N, and a distance in m between preload and pull-off.
+    /// Returns the loads of a square for a preload in N, and a distance in m between preload and
+    /// pull-off.
     fn square_loading(&self, turn: Turn, preload: f64, depth: f64) -> SquareLoading {
         SquareLoading {
             forces: SHARES.map(|share| share * preload).to_vec(),
@@ -302,8 +306,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Runs a scene on all profiles, and returns what `figures` takes from each outcome. `passes` is the number of times that
-    /// this is done, for the progress.
+    /// Runs a scene on all profiles, and returns what `figures` takes from each outcome. `passes`
+    /// is the number of times that this is done, for the progress.
     fn each_line<F: Send>(
         &self,
         scene: &CheckedScene,
@@ -483,7 +487,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Compares profiles and squares at the forces at which enough grid cells are in contact. Returns the other forces, too.
+    /// Compares profiles and squares at the forces at which enough grid cells are in contact.
+    /// Returns the other forces, too.
     fn compared_loading(
         &self,
         lines: &Lines,
@@ -531,7 +536,8 @@ impl Comparison<'_> {
         (loading, left_out)
     }
 
-    /// Returns the number of cells along the side with which enough cells would be in contact, if now `cells` are.
+    /// Returns the number of cells along the side with which enough cells would be in contact, if
+    /// now `cells` are.
     fn finer_grid(&self, cells: f64) -> Option<usize> {
         let times = (Loaded::LEAST_CELLS / cells.max(1.0)).sqrt();
         let finer = ((self.options.cells as f64 * times).ceil() as usize).next_power_of_two();
@@ -704,7 +710,8 @@ mod tests {
             .collect()
     }
 
-    /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100 samples of a few of them.
+    /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100
+    /// samples of a few of them.
     #[test]
     #[ignore = "computes 128 squares, minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio() {

@@ -1,5 +1,5 @@
-//! Computation of a plan on all processor cores, and of a whole plan in memory. The results do not depend on the number of
-//! threads.
+//! Computation of a plan on all processor cores, and of a whole plan in memory. The results do not
+//! depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
@@ -25,13 +25,15 @@ pub(super) struct Streaks<'a> {
     pub units: &'a [u64],
     /// Returns true for a streak with a missing record.
     pub is_missing: &'a (dyn Fn(&Streak) -> bool + Sync),
-    /// Measured roughness of the plan, if it has one. It is read once, so that all threads compute from the same bytes.
+    /// Measured roughness of the plan, if it has one. It is read once, so that all threads compute
+    /// from the same bytes.
     pub profile: Option<&'a Arc<MeasuredRoughness>>,
 }
 
 impl Streaks<'_> {
-    /// Computes the missing streaks on this number of threads, until `stop` returns true after a streak. `receive` takes
-    /// each streak with its records on the thread that computed it, and returns false to end the computation.
+    /// Computes the missing streaks on this number of threads, until `stop` returns true after a
+    /// streak. `receive` takes each streak with its records on the thread that computed it, and
+    /// returns false to end the computation.
     ///
     /// # Errors
     /// Too little memory for a record.
@@ -74,22 +76,33 @@ impl Streaks<'_> {
     }
 }
 
-/// Computes a plan in memory: the recorded quantities for each combination of values on the axes (a [cell](Plan)), on each
-/// random profile. If a cell cannot be computed on a profile, [`Results::failed`] has the reason. `control` reports how many
-/// pairs of a cell and a profile are computed.
+/// Computes a plan in memory: the recorded quantities for each combination of values on the axes (a
+/// [cell](Plan)), on each random profile. If a cell cannot be computed on a profile,
+/// [`Results::failed`] has the reason. `control` reports how many pairs of a cell and a profile are
+/// computed.
 ///
 /// # Errors
-/// Returns an error if a measured file cannot be read, if the memory does not suffice, or if `control` stops the computation.
-/// It is also an error if `control` allows zero threads, or if the system cannot start a thread.
+/// Returns an error if a measured file cannot be read, if the memory does not suffice, or if
+/// `control` stops the computation. It is also an error if `control` allows zero threads, or if the
+/// system cannot start a thread.
 ///
 /// ```
 /// use asperity_data::Control;
 /// use asperity_study::{Plan, Quantity, compute};
 ///
 /// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "1024")?;
-/// let plan = Plan::new(&scene, &[("adhesion.kappa", &[1.0, 8.0, 40.0])], 4, &[Quantity::AdhesionShare])?;
+/// let plan = Plan::new(
+///     &scene,
+///     &[("adhesion.kappa", &[1.0, 8.0, 40.0])],
+///     4,
+///     &[Quantity::AdhesionShare],
+/// )?;
 /// let results = compute(&plan, Control::default())?;
-/// let median = |cell| results.statistics(cell, Quantity::AdhesionShare).map(|one| one.quartiles[1]);
+/// let median = |cell| {
+///     results
+///         .statistics(cell, Quantity::AdhesionShare)
+///         .map(|one| one.quartiles[1])
+/// };
 /// assert!(median(0) > median(1) && median(1) > median(2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

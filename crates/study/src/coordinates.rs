@@ -15,9 +15,11 @@ pub(super) enum Allowed {
     Any,
     /// Whole numbers.
     Whole,
-    /// This number divided by whole numbers: wavelengths, of which a whole number fits on the length of the profile.
+    /// This number divided by whole numbers: wavelengths, of which a whole number fits on the
+    /// length of the profile.
     Fractions(f64),
-    /// Whole multiples of this number: lengths of the profile on which a whole number of given wavelengths fits.
+    /// Whole multiples of this number: lengths of the profile on which a whole number of given
+    /// wavelengths fits.
     Multiples(f64),
 }
 
@@ -39,7 +41,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the whole number that belongs to a value: the number of waves. `None` if any value is allowed.
+    /// Returns the whole number that belongs to a value: the number of waves. `None` if any value
+    /// is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -67,8 +70,9 @@ impl Allowed {
         }
     }
 
-    /// Returns the allowed value nearest to `number` that is not the value nearest to `present`, on the same side of it as
-    /// `number`. Returns `None` if there is no such value, since a wave fits at least once.
+    /// Returns the allowed value nearest to `number` that is not the value nearest to `present`, on
+    /// the same side of it as `number`. Returns `None` if there is no such value, since a wave fits
+    /// at least once.
     pub fn nearest_other(self, present: f64, number: f64) -> Option<f64> {
         let (Some(from), Some(to)) = (self.count(present), self.count(number)) else {
             return Some(number);
@@ -84,7 +88,8 @@ impl Allowed {
         is_allowed.then(|| self.of_count(next))
     }
 
-    /// Returns the smallest and the largest allowed value of a range; `None` if the range has no allowed value.
+    /// Returns the smallest and the largest allowed value of a range; `None` if the range has no
+    /// allowed value.
     fn ends([from, to]: [f64; 2], allowed: Allowed) -> Option<[f64; 2]> {
         let up = |count: f64| (count * (1.0 - ROUNDING * count.signum())).ceil();
         let down = |count: f64| (count * (1.0 + ROUNDING * count.signum())).floor();
@@ -105,11 +110,13 @@ impl Allowed {
 enum Map {
     /// The scale of an axis.
     Scale(AxisScale),
-    /// Inverse hyperbolic sine of the number in this unit: linear near zero and logarithmic far from it.
+    /// Inverse hyperbolic sine of the number in this unit: linear near zero and logarithmic far
+    /// from it.
     BothSides(f64),
 }
 
-/// Coordinates along a searched range. Numbers are spread evenly on them, and only allowed values are used.
+/// Coordinates along a searched range. Numbers are spread evenly on them, and only allowed values
+/// are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinates {
     map: Map,
@@ -119,8 +126,8 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Creates coordinates on a scale. A range that begins at or below zero is linear. Returns `None` if the range has no
-    /// allowed value.
+    /// Creates coordinates on a scale. A range that begins at or below zero is linear. Returns
+    /// `None` if the range has no allowed value.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
         let scale = if ends[0] > 0.0 {
@@ -135,7 +142,8 @@ impl Coordinates {
         })
     }
 
-    /// Creates coordinates of numbers of either sign which are linear up to `unit` and logarithmic beyond.
+    /// Creates coordinates of numbers of either sign which are linear up to `unit` and logarithmic
+    /// beyond.
     pub fn on_both_sides(unit: f64, range: [f64; 2]) -> Coordinates {
         Coordinates {
             map: Map::BothSides(unit),
@@ -163,7 +171,8 @@ impl Coordinates {
             .clamp(self.ends[0], self.ends[1])
     }
 
-    /// Returns the allowed number in the middle between two numbers; `None` if there is no further number between them.
+    /// Returns the allowed number in the middle between two numbers; `None` if there is no further
+    /// number between them.
     pub fn middle(&self, [from, to]: [f64; 2]) -> Option<f64> {
         let middle = self.number(f64::midpoint(self.coordinate(from), self.coordinate(to)));
         if from < middle && middle < to {
@@ -183,8 +192,8 @@ impl Coordinates {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Returns the distance in coordinates of two numbers with the relative difference `share`. The numbers have about the
-    /// coordinate in `places` that is farther from zero.
+    /// Returns the distance in coordinates of two numbers with the relative difference `share`. The
+    /// numbers have about the coordinate in `places` that is farther from zero.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {
@@ -199,8 +208,8 @@ impl Coordinates {
         self.allowed != Allowed::Any
     }
 
-    /// Returns all allowed numbers between two others, in ascending order; `None` if any number is allowed or if there are more
-    /// than `most`.
+    /// Returns all allowed numbers between two others, in ascending order; `None` if any number is
+    /// allowed or if there are more than `most`.
     pub fn all_between(&self, [from, to]: [f64; 2], most: usize) -> Option<Vec<f64>> {
         let [one, other] = [
             self.allowed.count(from)?.round(),
@@ -218,8 +227,8 @@ impl Coordinates {
         Some(all)
     }
 
-    /// Returns the allowed numbers spread over the range in `intervals` intervals, or all of them if these are at most
-    /// `most`. The second value is true if these are all allowed numbers.
+    /// Returns the allowed numbers spread over the range in `intervals` intervals, or all of them
+    /// if these are at most `most`. The second value is true if these are all allowed numbers.
     pub fn spread(&self, intervals: usize, most: usize) -> (Vec<f64>, bool) {
         if let Some(all) = self.all_between(self.ends, most) {
             return (all, true);

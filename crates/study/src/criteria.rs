@@ -1,7 +1,8 @@
-//! Criteria by which other theories and this program decide whether a randomly rough body adheres without a preload.
+//! Criteria by which other theories and this program decide whether a randomly rough body adheres
+//! without a preload.
 //!
-//! Each criterion has its own conditions, and says so where they do not hold. The criteria disagree, because their theories
-//! have different limits.
+//! Each criterion has its own conditions, and says so where they do not hold. The criteria
+//! disagree, because their theories have different limits.
 
 use super::criterion::{Criterion, long_ranged};
 use super::ensemble::Ensemble;
@@ -22,9 +23,10 @@ const THIS_PROGRAM: Criterion = Criterion::new(
     Regime::VANISHING_SHARE,
 );
 
-/// Returns the criteria by which other theories and this program judge whether the bodies of a computed scene adhere without a
-/// preload; empty for a scene without adhesion. The criteria of this program come last and use medians over `ensemble`, or the
-/// scene's own profile without an ensemble.
+/// Returns the criteria by which other theories and this program judge whether the bodies of a
+/// computed scene adhere without a preload; empty for a scene without adhesion. The criteria of
+/// this program come last and use medians over `ensemble`, or the scene's own profile without an
+/// ensemble.
 ///
 /// Criteria for rough surfaces ignore the form of the body, and are left out for a smooth body.
 ///
@@ -75,8 +77,8 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
     }
 }
 
-/// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below [`Regime::VANISHING_SHARE`] adhesion
-/// has vanished, as in the definition of the regimes.
+/// Returns F_a(d=0) and F_a(F=0) as a share of the adhesion force of the smooth body. Below
+/// [`Regime::VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
     let own = [

@@ -3,7 +3,8 @@
 use asperity_data::{Warning, format_quantity, format_rounded};
 use serde::Serialize;
 
-/// Criterion by which one theory decides whether bodies adhere without a preload: a number of the scene and its threshold.
+/// Criterion by which one theory decides whether bodies adhere without a preload: a number of the
+/// scene and its threshold.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Criterion {
@@ -13,20 +14,22 @@ pub struct Criterion {
     pub symbol: &'static str,
     /// Publication that states the criterion.
     pub reference: &'static str,
-    /// Value of the number that is compared with [`Criterion::threshold`]; `None` if the scene does not determine this number.
+    /// Value of the number that is compared with [`Criterion::threshold`]; `None` if the scene does
+    /// not determine this number.
     pub value: Option<f64>,
     /// Value of [`Criterion::value`] at which [`Criterion::sticks`] changes.
     pub threshold: f64,
-    /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory are not met, or if the
-    /// number alone decides nothing.
+    /// Verdict: true if the bodies adhere without a preload. `None` if the conditions of the theory
+    /// are not met, or if the number alone decides nothing.
     pub sticks: Option<bool>,
-    /// Reason why [`Criterion::sticks`] is `None`, or a remark on how [`Criterion::value`] was computed.
+    /// Reason why [`Criterion::sticks`] is `None`, or a remark on how [`Criterion::value`] was
+    /// computed.
     pub reason: Option<String>,
 }
 
 impl Criterion {
-    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the rule of Hess for the largest
-    /// stretch of a spring applies.
+    /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the
+    /// rule of Hess for the largest stretch of a spring applies.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::LEAST_TABOR_NUMBER;
 
     /// Makes a criterion without a number.
@@ -47,7 +50,8 @@ impl Criterion {
         }
     }
 
-    /// Returns the criterion as one line of text, with the verdict [`Criterion::sticks`] or the reason why there is no verdict.
+    /// Returns the criterion as one line of text, with the verdict [`Criterion::sticks`] or the
+    /// reason why there is no verdict.
     pub fn words(&self) -> String {
         let behind = |sign: &str| {
             self.reason
@@ -75,7 +79,8 @@ impl Criterion {
         format!("{number}, {side} {threshold}: {verdict}{reason}")
     }
 
-    /// Returns a criterion by which bodies adhere below the threshold, unless its conditions are violated.
+    /// Returns a criterion by which bodies adhere below the threshold, unless its conditions are
+    /// violated.
     pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
         let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
         let value = Some(value).filter(|value| value.is_finite());

@@ -1,4 +1,5 @@
-//! Answers of [`find`](crate::find::find) against dense scans: about 400 runs over the searched range of a random question.
+//! Answers of [`find`](crate::find::find) against dense scans: about 400 runs over the searched
+//! range of a random question.
 
 use crate::find::Found;
 use crate::quantity::Quantity;
@@ -13,7 +14,8 @@ use std::path::Path;
 
 /// Number of runs of a dense scan.
 const RUNS: usize = 400;
-/// Relative distance from a crossing on either side at which the quantity must be on either side of the target.
+/// Relative distance from a crossing on either side at which the quantity must be on either side of
+/// the target.
 const BESIDE: f64 = 4e-9;
 
 const SCENES: [&str; 9] = [
@@ -229,7 +231,8 @@ impl Counts {
         }
     }
 
-    /// Returns true if runs beside each given crossing are on either side of the target, or one of them on it.
+    /// Returns true if runs beside each given crossing are on either side of the target, or one of
+    /// them on it.
     fn are_crossings(&self, case: &Case, question: &Question, answer: &Answer) -> bool {
         let length = case.document.scene().length;
         answer.crossings.iter().all(|&crossing| {

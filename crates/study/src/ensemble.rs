@@ -8,8 +8,9 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::Control;
 use asperity_scene::{Document, Scene, Simulation, Solver};
 
-/// Results of a scene on several random profiles. The first profile has the seed of the scene, and the others have the seeds
-/// that follow. If the profile of the scene is fixed, the ensemble is this profile alone.
+/// Results of a scene on several random profiles. The first profile has the seed of the scene, and
+/// the others have the seeds that follow. If the profile of the scene is fixed, the ensemble is
+/// this profile alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
     results: Results,
@@ -32,7 +33,8 @@ impl Ensemble {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Quantities that a table with one row for each profile shows in addition to [`Ensemble::NUMBERS`].
+    /// Quantities that a table with one row for each profile shows in addition to
+    /// [`Ensemble::NUMBERS`].
     pub const FURTHER: [Quantity; 5] = [
         Quantity::PreloadIndentation,
         Quantity::ContactFraction,
@@ -41,23 +43,24 @@ impl Ensemble {
         Quantity::TaborNumber,
     ];
 
-    /// Returns the usual number of profiles for a scene: 1 if its profile is fixed or its solver is [`Solver::Stepwise`],
-    /// otherwise [`Ensemble::PROFILES`].
+    /// Returns the usual number of profiles for a scene: 1 if its profile is fixed or its solver is
+    /// [`Solver::Stepwise`], otherwise [`Ensemble::PROFILES`].
     pub fn profiles_of(scene: &Scene) -> u64 {
         let several = scene.seed().is_some() && scene.numerics.solver == Solver::Exact;
         if several { Ensemble::PROFILES } else { 1 }
     }
 
-    /// Computes a checked scene on `profiles` random profiles. The recorded quantities are [`Ensemble::NUMBERS`], `further` and
-    /// [`Quantity::REGIMES`].
+    /// Computes a checked scene on `profiles` random profiles. The recorded quantities are
+    /// [`Ensemble::NUMBERS`], `further` and [`Quantity::REGIMES`].
     ///
-    /// `workers` is a pair: the simulation with which the first thread computes, and the number of threads that share the
-    /// profiles. The results do not depend on the number of threads. After each profile `report` receives the number of
-    /// computed profiles, and a function that returns a copy of the ensemble with the computed profiles.
+    /// `workers` is a pair: the simulation with which the first thread computes, and the number of
+    /// threads that share the profiles. The results do not depend on the number of threads. After
+    /// each profile `report` receives the number of computed profiles, and a function that returns
+    /// a copy of the ensemble with the computed profiles.
     ///
     /// # Errors
-    /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the memory does not
-    /// suffice, or if `stop` returned true.
+    /// Returns an error if several profiles are requested and the profile of the scene is fixed, if
+    /// the memory does not suffice, or if `stop` returned true.
     pub fn of(
         scene: &Scene,
         further: &[Quantity],
@@ -103,20 +106,22 @@ impl Ensemble {
         &self.results
     }
 
-    /// Returns the statistics of a quantity over the computed profiles; `None` if the quantity has no value on any profile.
+    /// Returns the statistics of a quantity over the computed profiles; `None` if the quantity has
+    /// no value on any profile.
     pub fn statistics(&self, quantity: Quantity) -> Option<Statistics> {
         self.results.statistics(0, quantity)
     }
 
-    /// Returns the values of a quantity on all profiles, sorted by the seeds of the profiles; `None` for a profile without a
-    /// value.
+    /// Returns the values of a quantity on all profiles, sorted by the seeds of the profiles;
+    /// `None` for a profile without a value.
     pub fn values(&self, quantity: Quantity) -> Vec<Option<f64>> {
         (0..self.profiles())
             .map(|line| self.results.value(0, line, quantity))
             .collect()
     }
 
-    /// Returns the premises of the model that profiles of the ensemble do not meet, each with the number of these profiles.
+    /// Returns the premises of the model that profiles of the ensemble do not meet, each with the
+    /// number of these profiles.
     pub fn warnings(&self) -> Vec<CountedWarning> {
         self.results.warnings(0)
     }
@@ -128,11 +133,13 @@ impl Ensemble {
     }
 }
 
-/// Computes a scene on `profiles` random profiles. Paths of files in the scene are relative to the folder of the scene file.
-/// The progress that `control` reports is the number of computed profiles.
+/// Computes a scene on `profiles` random profiles. Paths of files in the scene are relative to the
+/// folder of the scene file. The progress that `control` reports is the number of computed
+/// profiles.
 ///
 /// # Errors
-/// Returns an error if zero profiles or zero threads are requested. The errors of [`Ensemble::of`] are possible too.
+/// Returns an error if zero profiles or zero threads are requested. The errors of [`Ensemble::of`]
+/// are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -182,7 +189,8 @@ mod tests {
         )
     }
 
-    /// Each profile is the scene with the seed of that profile, and no bit depends on the number of threads.
+    /// Each profile is the scene with the seed of that profile, and no bit depends on the number of
+    /// threads.
     #[test]
     fn an_ensemble_is_the_scene_with_the_seeds_that_follow() {
         let scene = scene("pressure-sensitive");

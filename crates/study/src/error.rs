@@ -8,20 +8,23 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Message for a request of several profiles of a scene that has one: what was found, and what is allowed.
+/// Message for a request of several profiles of a scene that has one: what was found, and what is
+/// allowed.
 pub(super) const ONE_PROFILE: (&str, &str) = (
     "more than one profile, and the profile of this scene is fixed",
     "random roughness (SelfAffine, or an equivalent line)",
 );
 
-/// Error of a function that computes, writes or reads a study. Results that were written to files before the error are kept.
+/// Error of a function that computes, writes or reads a study. Results that were written to files
+/// before the error are kept.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
     /// A [`Plan`](crate::Plan) has errors. Each text describes one error in one line.
     #[error("{}", .0.join("\n"))]
     Plan(Vec<String>),
-    /// The folder of a study, or a file in it, cannot be read or written, is damaged, or does not belong to the study.
+    /// The folder of a study, or a file in it, cannot be read or written, is damaged, or does not
+    /// belong to the study.
     #[error("{}: {reason}", path_name(path))]
     Folder {
         /// Path of the folder or the file.
@@ -35,10 +38,12 @@ pub enum StudyError {
     /// A file of results, such as a table, could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The computation of the scene of a study failed, or a [`Stop`](crate::Stop) ended the computation.
+    /// The computation of the scene of a study failed, or a [`Stop`](crate::Stop) ended the
+    /// computation.
     #[error("{place}{error}")]
     Run {
-        /// Values on the axes and seed of the profile, as text that ends with a colon; empty if a single profile is computed.
+        /// Values on the axes and seed of the profile, as text that ends with a colon; empty if a
+        /// single profile is computed.
         place: String,
         /// Reason why the scene was not computed to the end.
         error: RunError,
@@ -46,11 +51,12 @@ pub enum StudyError {
     /// The solver of contacts in three dimensions returned an error.
     #[error(transparent)]
     HalfSpace(#[from] HalfSpaceError),
-    /// A value is out of range, an argument of a function is not allowed, or the study or scene lacks what was requested.
+    /// A value is out of range, an argument of a function is not allowed, or the study or scene
+    /// lacks what was requested.
     #[error("{}{found}; allowed: {allowed}", place.as_ref().map_or_else(String::new, |place| format!("{place}: ")))]
     Refused {
-        /// Path of the number of the scene whose value is not allowed, or name of the argument. `None` if the request as a
-        /// whole is not allowed.
+        /// Path of the number of the scene whose value is not allowed, or name of the argument.
+        /// `None` if the request as a whole is not allowed.
         place: Option<String>,
         /// Value or request that was found, in words.
         found: String,
@@ -69,7 +75,8 @@ pub enum StudyError {
         /// The two files whose results differ.
         files: [PathBuf; 2],
     },
-    /// The memory does not suffice for this number of records. [`Plan`](crate::Plan) explains what a record is.
+    /// The memory does not suffice for this number of records. [`Plan`](crate::Plan) explains what
+    /// a record is.
     #[error("there is not enough memory for {0} records")]
     TooManyRecords(u64),
     /// The study needs more memory on the requested number of threads than the system provides.
@@ -83,7 +90,8 @@ pub enum StudyError {
         /// Memory that the study needs on these threads, in bytes.
         bytes: u64,
     },
-    /// The operating system could not start a thread of the computation. The contained error states the reason.
+    /// The operating system could not start a thread of the computation. The contained error states
+    /// the reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
 }

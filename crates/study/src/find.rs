@@ -1,7 +1,9 @@
-//! The inverse question: at which value of a number of a scene, or at which preload, does a quantity reach a target?
+//! The inverse question: at which value of a number of a scene, or at which preload, does a
+//! quantity reach a target?
 //!
-//! Each profile is searched separately. The adhesion force never falls with the preload, so two preloads bracket its only
-//! crossing. Any other quantity is first computed at several numbers over the searched range.
+//! Each profile is searched separately. The adhesion force never falls with the preload, so two
+//! preloads bracket its only crossing. Any other quantity is first computed at several numbers over
+//! the searched range.
 
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
@@ -10,28 +12,31 @@ use super::question::{Answer, Question};
 use asperity_data::{Control, format_quantity, format_range, quantile};
 use asperity_scene::{Document, Simulation};
 
-/// Largest relative change of a quantity over the searched range with which the number counts as without influence. The
-/// error by the number of springs changes with the scene.
+/// Largest relative change of a quantity over the searched range with which the number counts as
+/// without influence. The error by the number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
-/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which a quantity reaches a target.
+/// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which
+/// a quantity reaches a target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// Question that is answered on each profile.
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// Reason why the scene could not be computed with one of the searched values of the number; `None` if it could be computed
-    /// with all of them.
+    /// Reason why the scene could not be computed with one of the searched values of the number;
+    /// `None` if it could be computed with all of them.
     pub refused: Option<String>,
 }
 
-/// Finds the value of a number of a scene at which a quantity has a given value, on each of `profiles` random profiles. `path`
-/// is the path of the number, or `preload`. `condition` is the quantity and its wanted value in SI units. [`Question::new`]
-/// states which numbers are searched. The progress that `control` reports is the number of finished profiles.
+/// Finds the value of a number of a scene at which a quantity has a given value, on each of
+/// `profiles` random profiles. `path` is the path of the number, or `preload`. `condition` is the
+/// quantity and its wanted value in SI units. [`Question::new`] states which numbers are searched.
+/// The progress that `control` reports is the number of finished profiles.
 ///
 /// # Errors
-/// Returns an error if zero threads are requested. The errors of [`Question::new`] and [`Found::of`] are possible too.
+/// Returns an error if zero threads are requested. The errors of [`Question::new`] and
+/// [`Found::of`] are possible too.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -39,7 +44,13 @@ pub struct Found {
 ///
 /// // The pull-off force of a sphere is (3/2)πγR.
 /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
-/// let found = find(&scene, "adhesion.work", (Quantity::AdhesionForce, 1e-5), 1, Control::default())?;
+/// let found = find(
+///     &scene,
+///     "adhesion.work",
+///     (Quantity::AdhesionForce, 1e-5),
+///     1,
+///     Control::default(),
+/// )?;
 /// let work = found.quantile(0.5).expect("the force is within reach");
 /// assert!((work / (1e-5 / (1.5 * std::f64::consts::PI * 1e-4)) - 1.0).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -59,13 +70,14 @@ pub fn find(
 }
 
 impl Found {
-    /// Answers a question on all its random profiles. `simulation` is the simulation of the first thread, and `jobs` is the
-    /// number of threads, which does not change the results. After each profile `report` receives the number of finished
-    /// profiles.
+    /// Answers a question on all its random profiles. `simulation` is the simulation of the first
+    /// thread, and `jobs` is the number of threads, which does not change the results. After each
+    /// profile `report` receives the number of finished profiles.
     ///
     /// # Errors
-    /// Returns an error if [`Question::searched`] is not a finite range, if the scene does not have the quantity, or if the
-    /// number does not change the quantity. It is also an error if a profile cannot be computed, or if `stop` returned true.
+    /// Returns an error if [`Question::searched`] is not a finite range, if the scene does not have
+    /// the quantity, or if the number does not change the quantity. It is also an error if a
+    /// profile cannot be computed, or if `stop` returned true.
     pub fn of(
         question: Question,
         (simulation, jobs): (Simulation, usize),
@@ -99,8 +111,8 @@ impl Found {
         Ok(found)
     }
 
-    /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the number has no influence
-    /// on the quantity.
+    /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the
+    /// number has no influence on the quantity.
     fn check(&self) -> Result<(), StudyError> {
         let Question {
             axis,
@@ -148,9 +160,9 @@ impl Found {
         Ok(())
     }
 
-    /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the number; `None` for a profile
-    /// without a crossing. If a preload is sought and the smallest searched preload suffices to reach the target, this preload
-    /// is returned.
+    /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the
+    /// number; `None` for a profile without a crossing. If a preload is sought and the smallest
+    /// searched preload suffices to reach the target, this preload is returned.
     pub fn values(&self) -> Vec<Option<f64>> {
         self.answers
             .iter()
@@ -163,16 +175,17 @@ impl Found {
         self.values().iter().filter(|value| value.is_none()).count()
     }
 
-    /// Returns the smallest and the largest value of the quantity in [`Answer::reachable`] of all profiles; `None` if the
-    /// quantity has no value on any profile.
+    /// Returns the smallest and the largest value of the quantity in [`Answer::reachable`] of all
+    /// profiles; `None` if the quantity has no value on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
         let all = || self.answers.iter().filter_map(|answer| answer.reachable);
         let least = all().map(|ends| ends.0).reduce(f64::min)?;
         Some((least, all().map(|ends| ends.1).reduce(f64::max)?))
     }
 
-    /// Returns the numbers of the profiles in ascending order. A profile without a crossing lies beyond the end of the
-    /// searched range where its crossing must be. If the quantity rises and is below the target, this is the upper end.
+    /// Returns the numbers of the profiles in ascending order. A profile without a crossing lies
+    /// beyond the end of the searched range where its crossing must be. If the quantity rises and
+    /// is below the target, this is the upper end.
     fn ascending(&self) -> Vec<f64> {
         let slope = |answer: &Answer| i64::from(answer.reached[1]) - i64::from(answer.reached[0]);
         let rises = self.answers.iter().map(slope).sum::<i64>() >= 0;
@@ -193,17 +206,20 @@ impl Found {
         places
     }
 
-    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share` of 0.5. A profile without a
-    /// value counts as beyond the searched range. Of a whole number, or of a number of whole waves, the nearest such value is
-    /// returned. `None` if the quantile lies beyond the searched range.
+    /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share`
+    /// of 0.5. A profile without a value counts as beyond the searched range. Of a whole number, or
+    /// of a number of whole waves, the nearest such value is returned. `None` if the quantile lies
+    /// beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
-        // Interpolation towards a number beyond the range, which is infinite, gives no finite value.
+        // Interpolation towards a number beyond the range, which is infinite, gives no finite
+        // value.
         let value = quantile(&self.ascending(), share).filter(|value| value.is_finite())?;
         // Between two whole numbers there is none.
         Some(self.question.allowed().nearest(value))
     }
 
-    /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile has a value.
+    /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile
+    /// has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = || self.values().into_iter().flatten();
         values().reduce(f64::min).zip(values().reduce(f64::max))
@@ -376,7 +392,8 @@ mod tests {
         );
     }
 
-    /// Each preload is where a run of its own shows the step, to the stated precision; no dense grid shows a smaller one.
+    /// Each preload is where a run of its own shows the step, to the stated precision; no dense
+    /// grid shows a smaller one.
     #[test]
     fn preloads_are_at_the_steps_that_runs_show() {
         let rough = scene("pressure-sensitive", 2048);
@@ -417,7 +434,8 @@ mod tests {
         );
     }
 
-    /// The number of patches rises with the preload, and falls as they grow together: two crossings at least.
+    /// The number of patches rises with the preload, and falls as they grow together: two crossings
+    /// at least.
     #[test]
     fn a_quantity_that_rises_and_falls_has_all_its_crossings() {
         let rough = scene("pressure-sensitive", 2048)
@@ -438,7 +456,8 @@ mod tests {
         assert_eq!(found.quantile(0.5), Some(answer.crossings[0]));
     }
 
-    /// A profile without a crossing lies beyond the searched range, and the median is unknown where half of them do.
+    /// A profile without a crossing lies beyond the searched range, and the median is unknown where
+    /// half of them do.
     #[test]
     fn medians_count_the_profiles_beyond_the_range() {
         let rough = scene("pressure-sensitive", 2048);
@@ -463,7 +482,8 @@ mod tests {
             };
             assert_eq!([1.0 - 1e-7, 1.0].map(reached), [false, true], "{answer:?}");
         }
-        // F_a rises with the work of adhesion: two profiles cross within this range, and three above.
+        // F_a rises with the work of adhesion: two profiles cross within this range, and three
+        // above.
         let range = (values[0] / 2.0, f64::midpoint(values[1], values[2]));
         let part = asked(&rough, scale, "F_a = 10 uN", 5, Some(range), 1).unwrap();
         assert_eq!(
@@ -478,7 +498,8 @@ mod tests {
         );
     }
 
-    /// F_a of a sphere does not depend on the preload: F_a/F_n has its only crossing at F_a divided by the ratio.
+    /// F_a of a sphere does not depend on the preload: F_a/F_n has its only crossing at F_a divided
+    /// by the ratio.
     #[test]
     fn ratios_are_found_from_no_preload_upwards() {
         let sphere = scene("jkr-sphere", 1 << 10);

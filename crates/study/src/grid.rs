@@ -8,19 +8,22 @@ use asperity_scene::{Regime, RoughnessParameter};
 
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
-/// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value on the vertical axis.
+/// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value
+/// on the vertical axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridCell {
-    /// Statistics over the random profiles for each quantity of the grid, in the order of [`Grid::layers`]; `None` if the
-    /// quantity has no value on any profile.
+    /// Statistics over the random profiles for each quantity of the grid, in the order of
+    /// [`Grid::layers`]; `None` if the quantity has no value on any profile.
     pub statistics: Vec<Option<Statistics>>,
-    /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
+    /// Numbers of profiles in each regime: first for [`Quantity::Regime`], then for
+    /// [`Quantity::RegimeAfterZeroForce`].
     pub regimes: [RegimeCounts; 2],
 }
 
 impl GridCell {
-    /// Returns the numbers of profiles in each regime. If `quantity` is [`Quantity::RegimeAfterZeroForce`], they are for this
-    /// regime, otherwise for [`Quantity::Regime`].
+    /// Returns the numbers of profiles in each regime. If `quantity` is
+    /// [`Quantity::RegimeAfterZeroForce`], they are for this regime, otherwise for
+    /// [`Quantity::Regime`].
     pub fn regimes_of(&self, quantity: Quantity) -> RegimeCounts {
         self.regimes[usize::from(quantity == Quantity::RegimeAfterZeroForce)]
     }
@@ -33,13 +36,14 @@ pub struct GridLayer {
     pub quantity: Quantity,
     /// Scale of the means of the quantity in a figure, linear or logarithmic.
     pub scale: AxisScale,
-    /// Smallest and largest of the means of the quantity in the [cells](GridCell). A logarithmic scale counts only means above
-    /// zero. `None` if there is no such mean.
+    /// Smallest and largest of the means of the quantity in the [cells](GridCell). A logarithmic
+    /// scale counts only means above zero. `None` if there is no such mean.
     pub range: Option<(f64, f64)>,
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means, on the given scale or on a scale that suits the means.
+    /// Makes a layer of a quantity with the range of its means, on the given scale or on a scale
+    /// that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let shown = means
@@ -56,8 +60,8 @@ impl GridLayer {
     }
 }
 
-/// Returns the logarithmic scale if all means are above zero and a third of them are below a fiftieth of the largest.
-/// Otherwise returns the linear scale.
+/// Returns the logarithmic scale if all means are above zero and a third of them are below a
+/// fiftieth of the largest. Otherwise returns the linear scale.
 pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     let largest = means.iter().copied().fold(0.0, f64::max);
     let small = means
@@ -72,29 +76,35 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     }
 }
 
-/// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if there is no such axis.
+/// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if
+/// there is no such axis.
 pub type GridPlace = (f64, Option<f64>);
 
-/// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each combination of values on these axes.
+/// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each
+/// combination of values on these axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Horizontal axis, with an ascending value for each column.
     pub across: Axis,
     /// Vertical axis, with an ascending value for each row; `None` for a grid along one axis.
     pub up: Option<Axis>,
-    /// Values on all other axes of the study, which are the same in the whole grid, as text such as `H = 0.3`.
+    /// Values on all other axes of the study, which are the same in the whole grid, as text such as
+    /// `H = 0.3`.
     pub fixed: Vec<String>,
-    /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the profiles in each regime.
+    /// Quantities that the grid shows. Regimes are not among them: [`GridCell::regimes`] counts the
+    /// profiles in each regime.
     pub layers: Vec<GridLayer>,
-    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is computed. An error states why
-    /// a cell cannot be computed.
+    /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
+    /// computed. An error states why a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
-    /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a coarser grid.
+    /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a
+    /// coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
 impl Grid {
-    /// Creates a grid from its axes, fixed values, layers and cells, as the fields of [`Grid`] describe them.
+    /// Creates a grid from its axes, fixed values, layers and cells, as the fields of [`Grid`]
+    /// describe them.
     pub fn new(
         across: Axis,
         up: Option<Axis>,
@@ -121,13 +131,14 @@ impl Grid {
         )
     }
 
-    /// Returns the layer of [`Grid::layers`] that shows a quantity; `None` if the grid does not show the quantity.
+    /// Returns the layer of [`Grid::layers`] that shows a quantity; `None` if the grid does not
+    /// show the quantity.
     pub fn layer(&self, quantity: Quantity) -> Option<&GridLayer> {
         self.layers.iter().find(|layer| layer.quantity == quantity)
     }
 
-    /// Returns the quantities that the grid shows. If regimes are known, the regime that follows from F_a(d=0) comes first and
-    /// the regime that follows from F_a(F=0) last.
+    /// Returns the quantities that the grid shows. If regimes are known, the regime that follows
+    /// from F_a(d=0) comes first and the regime that follows from F_a(F=0) last.
     pub fn quantities(&self) -> Vec<Quantity> {
         let [touch, zero_force] = Quantity::REGIMES
             .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
@@ -138,17 +149,17 @@ impl Grid {
             .collect()
     }
 
-    /// Returns true if there is a [cell](GridCell) in which less than three quarters of the profiles have the same regime of
-    /// adhesion. `regime` is one of [`Quantity::REGIMES`].
+    /// Returns true if there is a [cell](GridCell) in which less than three quarters of the
+    /// profiles have the same regime of adhesion. `regime` is one of [`Quantity::REGIMES`].
     pub fn is_split(&self, regime: Quantity) -> bool {
         self.each(false)
             .flatten()
             .any(|cell| cell.regimes_of(regime).split().is_some())
     }
 
-    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the row of this cell. An
-    /// incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell nearby in place of a missing one. `None` if the map
-    /// shows no cell there.
+    /// Returns the [cell](GridCell) that a map shows in a column and a row, then the column and the
+    /// row of this cell. An incomplete [`LiveMap`](crate::maps::LiveMap) shows a computed cell
+    /// nearby in place of a missing one. `None` if the map shows no cell there.
     pub fn shown(
         &self,
         column: usize,
@@ -172,11 +183,12 @@ impl Grid {
         (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
     }
 
-    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is true, a cell that is not
-    /// computed yet has the statistics of the cell that [`Grid::shown`] returns for it. If the quantity is a regime, its value
-    /// in a cell is the most frequent regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer
-    /// than three quarters of the profiles are in this regime, the value is halfway between the values of the two most frequent
-    /// regimes.
+    /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is
+    /// true, a cell that is not computed yet has the statistics of the cell that [`Grid::shown`]
+    /// returns for it. If the quantity is a regime, its value in a cell is the most frequent
+    /// regime: 0 (non-adhesive), ½ (pressure-sensitive) or 1 (pressure-insensitive). If fewer than
+    /// three quarters of the profiles are in this regime, the value is halfway between the values
+    /// of the two most frequent regimes.
     pub fn statistics(&self, quantity: Quantity, whole: bool) -> Vec<Option<Statistics>> {
         let layer = self
             .layers
@@ -196,9 +208,10 @@ impl Grid {
         self.each(whole).map(|cell| of(cell?)).collect()
     }
 
-    /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is known in any cell.
-    /// `quantity` chooses the regime as in [`GridCell::regimes_of`]. If `whole` is true, a cell that is not computed yet has
-    /// the regime of the cell that [`Grid::shown`] returns for it.
+    /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is
+    /// known in any cell. `quantity` chooses the regime as in [`GridCell::regimes_of`]. If `whole`
+    /// is true, a cell that is not computed yet has the regime of the cell that [`Grid::shown`]
+    /// returns for it.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
         let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
         let regimes: Vec<_> = self.each(whole).map(most).collect();
@@ -209,8 +222,8 @@ impl Grid {
         }
     }
 
-    /// Returns true if a place lies on the grid. Along each axis the grid begins half a [cell](GridCell) before the first value
-    /// and ends half a cell beyond the last value.
+    /// Returns true if a place lies on the grid. Along each axis the grid begins half a
+    /// [cell](GridCell) before the first value and ends half a cell beyond the last value.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
         let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
@@ -230,8 +243,8 @@ impl Grid {
         )
     }
 
-    /// Returns what [`Grid::shown`] returns for the [cell](GridCell) nearest to a place. If the place lies beyond the grid,
-    /// this cell is at the edge of the grid.
+    /// Returns what [`Grid::shown`] returns for the [cell](GridCell) nearest to a place. If the
+    /// place lies beyond the grid, this cell is at the edge of the grid.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
         let nearest =
@@ -241,8 +254,8 @@ impl Grid {
     }
 }
 
-/// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ vertical. Among other free
-/// axes the first is horizontal. Returns `None` if no axis is free.
+/// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ
+/// vertical. Among other free axes the first is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let find =
         |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));

@@ -4,18 +4,22 @@
 //!
 //! # Names by task
 //!
-//! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record; [`Changes`] to a plan.
-//! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of a plan, a [`Shard`], in a
-//!   [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes the tables from all parts. A [`Stop`] ends a computation.
-//! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and [`RegimeCounts`].
-//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find()) answers a [`Question`] by
-//!   [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a function
-//!   of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene: the [`Changed`] results for a smaller
-//!   and a larger value of this number.
+//! * Plans: [`Plan`] with [`Axis`], [`Spacing`], [`StiffnessRange`] and the [`Quantity`] to record;
+//!   [`Changes`] to a plan.
+//! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of
+//!   a plan, a [`Shard`], in a [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes
+//!   the tables from all parts. A [`Stop`] ends a computation.
+//! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and
+//!   [`RegimeCounts`].
+//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find())
+//!   answers a [`Question`] by [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and
+//!   [`Staircase`] have the adhesion force as a function of the preload. [`Sensitivity`] has an
+//!   [`Influence`] for each number of the scene: the [`Changed`] results for a smaller and a larger
+//!   value of this number.
 //! * Errors of all these functions: [`StudyError`].
 //!
-//! Programs with figures and tables use further names in the modules [`folders`], [`maps`], [`checks`], [`half_space`] and
-//! [`trust`].
+//! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
+//! [`checks`], [`half_space`] and [`trust`].
 
 mod answer_warnings;
 mod axis;
@@ -100,7 +104,8 @@ pub mod folders {
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes of a study, and the values of κ or e_el/γ at which adhesion without a preload vanishes.
+/// Maps of results over two axes of a study, and the values of κ or e_el/γ at which adhesion
+/// without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -109,13 +114,15 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Cases with known results. `asperity check` computes each case and compares its result with the known one.
+/// Cases with known results. `asperity check` computes each case and compares its result with the
+/// known one.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict};
 }
 
-/// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three dimensions.
+/// Comparison of a scene computed on one-dimensional profiles with the same scene computed in three
+/// dimensions.
 pub mod half_space {
     pub use crate::compared::Compared;
     pub use crate::reference::{
@@ -126,7 +133,8 @@ pub mod half_space {
     pub use crate::square_loops::SquareLoops;
 }
 
-/// Errors of an adhesion force, one for each source, and criteria by which other theories decide whether bodies adhere.
+/// Errors of an adhesion force, one for each source, and criteria by which other theories decide
+/// whether bodies adhere.
 pub mod trust {
     pub use crate::answer_warnings::warnings_of;
     pub use crate::budget::Budget;

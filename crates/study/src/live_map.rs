@@ -1,4 +1,5 @@
-//! The map of a scene over κ or e_el/γ and H: a study in memory that is computed from coarse to fine.
+//! The map of a scene over κ or e_el/γ and H: a study in memory that is computed from coarse to
+//! fine.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -37,8 +38,8 @@ impl Level {
         Level::ALL[3 - too_fine]
     }
 
-    /// Returns the indices of the values of an axis on this level at about equal distances. An axis with few values has all
-    /// of them.
+    /// Returns the indices of the values of an axis on this level at about equal distances. An axis
+    /// with few values has all of them.
     fn places(self, axis: &Axis) -> Vec<usize> {
         let (wanted, all) = ([5, 9, 17, 33][self as usize], axis.values.len());
         if 4 * all <= 5 * wanted {
@@ -51,7 +52,8 @@ impl Level {
     }
 }
 
-/// Map of a scene over κ or e_el/γ and the Hurst exponent H, which can be shown while it is computed.
+/// Map of a scene over κ or e_el/γ and the Hurst exponent H, which can be shown while it is
+/// computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LiveMap {
     results: Results,
@@ -75,7 +77,8 @@ impl LiveMap {
         self.results.plan()
     }
 
-    /// Returns the numbers of the [cells](Plan) that belong to a [`Level`], in groups of cells with the same value of H.
+    /// Returns the numbers of the [cells](Plan) that belong to a [`Level`], in groups of cells with
+    /// the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
         let places = |axis: usize| {
@@ -98,8 +101,8 @@ impl LiveMap {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
 
-    /// Sets the results of one [cell](Plan) on the random profile with the index `line`. The values are in the order of
-    /// [`Plan::record`].
+    /// Sets the results of one [cell](Plan) on the random profile with the index `line`. The values
+    /// are in the order of [`Plan::record`].
     pub fn set(&mut self, cell: u64, line: u64, values: &[f64]) {
         self.results.set(cell * self.plan().lines + line, values);
     }
@@ -116,7 +119,8 @@ impl LiveMap {
             .all(|cell| self.is_known(*cell))
     }
 
-    /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no such level.
+    /// Returns the finest level of which no [cell](Plan) is left to compute; `None` if there is no
+    /// such level.
     pub fn level(&self) -> Option<Level> {
         self.levels().take_while(|level| self.has(level)).last()
     }
@@ -126,8 +130,8 @@ impl LiveMap {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing [cells](Plan) from coarse to fine. `report` receives the map after each value of H. If `stop`
-    /// returns true, the computation ends and the map keeps its results.
+    /// Computes the missing [cells](Plan) from coarse to fine. `report` receives the map after each
+    /// value of H. If `stop` returns true, the computation ends and the map keeps its results.
     pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
         let plan = self.plan().clone();
         let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
@@ -158,8 +162,8 @@ impl LiveMap {
         }
     }
 
-    /// Returns the results so far as a [`Grid`] with H on the horizontal axis and κ or e_el/γ on the vertical axis. Without H
-    /// the grid has only a horizontal axis, κ or e_el/γ.
+    /// Returns the results so far as a [`Grid`] with H on the horizontal axis and κ or e_el/γ on
+    /// the vertical axis. Without H the grid has only a horizontal axis, κ or e_el/γ.
     pub fn grid(&self) -> Grid {
         let last = self.plan().axes.len() - 1;
         let mut grid = self.results.grid(
@@ -185,8 +189,8 @@ impl LiveMap {
         grid
     }
 
-    /// Returns the index of the cell shown in place of a cell: the cell itself or, until it is computed, a cell of a
-    /// coarser level.
+    /// Returns the index of the cell shown in place of a cell: the cell itself or, until it is
+    /// computed, a cell of a coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
         let plan = self.plan();
         let on_level = |level: Level| {

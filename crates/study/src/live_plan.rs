@@ -28,29 +28,39 @@ const KAPPAS: u32 = 33;
 /// Values of H, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Returns the values of κ with three digits, so that a scene with a shown value is exactly the scene of the cell.
+/// Returns the values of κ with three digits, so that a scene with a shown value is exactly the
+/// scene of the cell.
 fn kappas() -> Vec<f64> {
     let exact = |index: u32| ((f64::from(index) - 12.0) / 4.0).exp2();
     (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
 }
 
 impl Plan {
-    /// Number of random profiles for each [cell](crate::Plan) of a [`LiveMap`](crate::maps::LiveMap) of a scene with self-affine
-    /// roughness.
+    /// Number of random profiles for each [cell](crate::Plan) of a
+    /// [`LiveMap`](crate::maps::LiveMap) of a scene with self-affine roughness.
     pub const PROFILES_OF_MAP: u64 = 4;
 
-    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. Its axes are κ and, if the roughness has a
-    /// Hurst exponent H, also H.
+    /// Returns the plan of a [`LiveMap`](crate::maps::LiveMap) of a checked scene. Its axes are κ
+    /// and, if the roughness has a Hurst exponent H, also H.
     ///
     /// # Errors
-    /// Returns an error with the reason if the scene has no map, for example because the body is smooth.
+    /// Returns an error with the reason if the scene has no map, for example because the body is
+    /// smooth.
     ///
     /// ```
     /// use asperity_study::Plan;
     ///
     /// let plan = Plan::of_map(asperity_scene::open("pressure-sensitive")?.scene())?;
-    /// assert_eq!((plan.axes[0].path.as_str(), plan.lines), ("adhesion.kappa", Plan::PROFILES_OF_MAP));
-    /// assert!(Plan::of_map(asperity_scene::open("jkr-sphere")?.scene()).unwrap_err().to_string().contains("smooth"));
+    /// assert_eq!(
+    ///     (plan.axes[0].path.as_str(), plan.lines),
+    ///     ("adhesion.kappa", Plan::PROFILES_OF_MAP)
+    /// );
+    /// assert!(
+    ///     Plan::of_map(asperity_scene::open("jkr-sphere")?.scene())
+    ///         .unwrap_err()
+    ///         .to_string()
+    ///         .contains("smooth")
+    /// );
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of_map(scene: &Scene) -> Result<Plan, StudyError> {

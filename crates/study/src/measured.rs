@@ -1,5 +1,5 @@
-//! The measured files of a study: surfaces, and the table of a form. The plan holds the hash of the files, because their
-//! content determines the results as much as the plan does.
+//! The measured files of a study: surfaces, and the table of a form. The plan holds the hash of the
+//! files, because their content determines the results as much as the plan does.
 //!
 //! The hash is SHA-256, because one in 4e9 accidental changes would pass a checksum of 32 bits.
 
@@ -51,8 +51,9 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
     )
 }
 
-/// Returns the surface of a plan, if it has one, and the hash of its bytes, which must equal the hash in the plan. Several
-/// files are hashed one after the other. A table besides a surface adds its own hash.
+/// Returns the surface of a plan, if it has one, and the hash of its bytes, which must equal the
+/// hash in the plan. Several files are hashed one after the other. A table besides a surface adds
+/// its own hash.
 fn read(
     plan: &Plan,
     origin: impl Fn() -> String,

@@ -1,8 +1,8 @@
-//! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over the spectra that the
-//! measurement allows.
+//! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over
+//! the spectra that the measurement allows.
 //!
-//! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a spectrum that differs a
-//! little in a direction drawn from the uncertainty of the fit.
+//! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a
+//! spectrum that differs a little in a direction drawn from the uncertainty of the fit.
 
 use super::error::StudyError;
 use super::quantity::Quantity;
@@ -15,8 +15,9 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first order. Its longest
-/// waves are nearly unknown, and a whole step of their logarithms could be several powers of ten.
+/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first
+/// order. Its longest waves are nearly unknown, and a whole step of their logarithms could be
+/// several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile with the spectrum of a measured surface.
@@ -25,20 +26,23 @@ const SHARE: f64 = 1.0 / 32.0;
 pub struct ProfileAdhesion {
     /// Seed of the random phases of the profile.
     pub seed: u64,
-    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the force of the unloading is
-    /// never negative.
+    /// Adhesion force F_a in N for the spectrum that was fitted to the measurement; `None` if the
+    /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
-    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the fit; `None` if there is no
-    /// adhesion force before or after the change.
+    /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the
+    /// fit; `None` if there is no adhesion force before or after the change.
     pub fit_change: Option<f64>,
-    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime is unknown.
+    /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
+    /// is unknown.
     pub regime: Option<Regime>,
-    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if the regime is unknown.
+    /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if the regime
+    /// is unknown.
     pub regime_after_zero_force: Option<Regime>,
 }
 
 impl ProfileAdhesion {
-    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the spectrum and its uncertainty.
+    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the
+    /// spectrum and its uncertainty.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -83,27 +87,42 @@ pub struct MeasuredAdhesion {
 }
 
 impl MeasuredAdhesion {
-    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its measured surface. The first profile
-    /// has the seed of the scene, and the others have the seeds that follow. Paths of measured files are relative to the folder
-    /// of the scene file. `jobs` is the number of threads, which does not change the results.
+    /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its
+    /// measured surface. The first profile has the seed of the scene, and the others have the seeds
+    /// that follow. Paths of measured files are relative to the folder of the scene file. `jobs` is
+    /// the number of threads, which does not change the results.
     ///
     /// # Errors
-    /// Returns an error if the scene does not make random profiles from a measured surface, if a file cannot be read, or if a
-    /// profile cannot be computed.
+    /// Returns an error if the scene does not make random profiles from a measured surface, if a
+    /// file cannot be read, or if a profile cannot be computed.
     ///
     /// ```
     /// let folder = tempfile::tempdir()?;
-    /// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
-    /// let rows: String = (0..256).map(|i| format!("{i} {}\n", 30.0 * height(i))).collect();
-    /// std::fs::write(folder.path().join("line.txt"), format!("x [um] z [nm]\n{rows}"))?;
-    /// let text = r#"(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4, adhesion: (work: 0.05),
-    ///     roughness: Measured(file: "line.txt"), numerics: (points: 1024),
-    ///     loading: [ToForce(1.0e-4), ToSeparation])"#;
+    /// let height = |i: u32| {
+    ///     (1..60)
+    ///         .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+    ///         .sum::<f64>()
+    /// };
+    /// let rows: String = (0..256)
+    ///     .map(|i| format!("{i} {}\n", 30.0 * height(i)))
+    ///     .collect();
+    /// std::fs::write(
+    ///     folder.path().join("line.txt"),
+    ///     format!("x [um] z [nm]\n{rows}"),
+    /// )?;
+    /// let text = r#"(version: 1, material: (effective_modulus: 1.0e6), length: 2.56e-4,
+    /// adhesion: (work: 0.05),
+    /// roughness: Measured(file: "line.txt"), numerics: (points: 1024),
+    /// loading: [ToForce(1.0e-4), ToSeparation])"#;
     /// std::fs::write(folder.path().join("scene.ron"), text)?;
     /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
     /// let found = asperity_study::trust::MeasuredAdhesion::of(&scene, 4, 2)?;
     /// let (low, high) = found.fit_interval().ok_or("no force")?;
-    /// assert!(found.adhesion_force().is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high));
+    /// assert!(
+    ///     found
+    ///         .adhesion_force()
+    ///         .is_some_and(|all| low < all.quartiles[1] && all.quartiles[1] < high)
+    /// );
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
@@ -126,8 +145,9 @@ impl MeasuredAdhesion {
     pub const MOST_SPRINGS: u64 = 1 << 17;
 
     /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
-    /// [`MeasuredAdhesion::fit_deviation`] in N. `None` if the scene has more than [`MeasuredAdhesion::MOST_SPRINGS`] springs,
-    /// or does not make random profiles from a measured surface.
+    /// [`MeasuredAdhesion::fit_deviation`] in N. `None` if the scene has more than
+    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, or does not make random profiles from a measured
+    /// surface.
     pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
         let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
         is_quick.then(|| {
@@ -137,8 +157,9 @@ impl MeasuredAdhesion {
         })?
     }
 
-    /// Computes a scene on `count` random profiles with the spectrum of `line`, as [`MeasuredAdhesion::of`] does. `report`
-    /// is called with the number of computed profiles after each of them.
+    /// Computes a scene on `count` random profiles with the spectrum of `line`, as
+    /// [`MeasuredAdhesion::of`] does. `report` is called with the number of computed profiles after
+    /// each of them.
     ///
     /// # Errors
     /// Returns an error if a profile cannot be computed.
@@ -164,8 +185,8 @@ impl MeasuredAdhesion {
         Ok(MeasuredAdhesion { profiles })
     }
 
-    /// Returns the statistics of the adhesion force in N over the profiles, for the fitted spectrum; `None` if no profile has
-    /// an adhesion force.
+    /// Returns the statistics of the adhesion force in N over the profiles, for the fitted
+    /// spectrum; `None` if no profile has an adhesion force.
     pub fn adhesion_force(&self) -> Option<Statistics> {
         let forces = self
             .profiles
@@ -175,8 +196,9 @@ impl MeasuredAdhesion {
         Statistics::of(forces, Quantity::AdhesionForce.bounds())
     }
 
-    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the spectrum. It is the root mean
-    /// square of [`ProfileAdhesion::fit_change`] over the profiles; `None` for fewer than two profiles.
+    /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
+    /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles;
+    /// `None` for fewer than two profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
         rms(self
             .profiles
@@ -184,9 +206,10 @@ impl MeasuredAdhesion {
             .filter_map(|profile| profile.fit_change))
     }
 
-    /// Returns two forces in N, the median adhesion force divided by a factor and the median times this factor; `None` for
-    /// fewer than two profiles. The factor expresses the uncertainty of the spectrum. Its logarithm is the root mean square of
-    /// [`ProfileAdhesion::fit_change`] divided by [`ProfileAdhesion::adhesion_force`].
+    /// Returns two forces in N, the median adhesion force divided by a factor and the median times
+    /// this factor; `None` for fewer than two profiles. The factor expresses the uncertainty of the
+    /// spectrum. Its logarithm is the root mean square of [`ProfileAdhesion::fit_change`] divided
+    /// by [`ProfileAdhesion::adhesion_force`].
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
         let relative = |profile: &ProfileAdhesion| {
             Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
@@ -291,7 +314,8 @@ mod tests {
         );
     }
 
-    /// The files are read with the options of the scene, whether `periodic: true` is among them or not.
+    /// The files are read with the options of the scene, whether `periodic: true` is among them or
+    /// not.
     #[test]
     fn the_options_are_those_of_the_scene() {
         let folder = tempfile::tempdir().unwrap();

@@ -7,7 +7,8 @@ use asperity_data::check_room;
 
 /// Memory in bytes of code, stacks, files and the reserve of the allocator.
 const PROGRAM: u64 = 16 << 20;
-/// Bytes per spring of a Fourier transform that is kept for the next profile, up to [`LONGEST_KEPT`] springs.
+/// Bytes per spring of a Fourier transform that is kept for the next profile, up to
+/// [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
 /// Bytes per spring of unloadings from several preloads, where nearly every spring is an event.
@@ -29,7 +30,8 @@ impl Plan {
             } else {
                 0
             };
-            // The contact without adhesion or at zero force may add to the memory of the scene itself.
+            // The contact without adhesion or at zero force may add to the memory of the scene
+            // itself.
             let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
             Some((peak + kept + reversed, spare))

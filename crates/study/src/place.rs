@@ -8,8 +8,9 @@ use asperity_scene::{
 };
 
 impl Axis {
-    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no such value. `computed` has
-    /// the numbers that follow from the scene, such as κ, and is needed only for a measured surface.
+    /// Returns the value that the quantity of this axis has in a scene; `None` if the scene has no
+    /// such value. `computed` has the numbers that follow from the scene, such as κ, and is needed
+    /// only for a measured surface.
     pub fn value_in(&self, scene: &Scene, computed: Option<&Governing>) -> Option<f64> {
         if let Some(parameter) = self.target.parameter() {
             let known = governing(scene).or(computed.copied());
@@ -36,9 +37,9 @@ impl Axis {
     }
 }
 
-/// Returns the scene with other values on axes. Numbers of the scene are set first, then quantities that follow from
-/// several numbers, then κ or e_el/γ in place of a work of adhesion. The run applies a preload, which is no part of a
-/// scene.
+/// Returns the scene with other values on axes. Numbers of the scene are set first, then quantities
+/// that follow from several numbers, then κ or e_el/γ in place of a work of adhesion. The run
+/// applies a preload, which is no part of a scene.
 ///
 /// # Errors
 /// The scene lacks a number. The error has its path and the reason.
@@ -105,8 +106,8 @@ fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> A
     })
 }
 
-/// Returns path and value of the shortest wave that has this number of springs. The value is a mode, or a wavelength if the
-/// scene has wavelengths.
+/// Returns path and value of the shortest wave that has this number of springs. The value is a
+/// mode, or a wavelength if the scene has wavelengths.
 fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     let [points, length] =
         ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
@@ -116,7 +117,8 @@ fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene except counts and zeros, each with an axis over it that has no values.
+/// Returns the physical numbers of a scene except counts and zeros, each with an axis over it that
+/// has no values.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let tree = Tree::of(scene);
     let is_physical =
@@ -144,7 +146,8 @@ fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// Replaces the loading of a scene by a preload of this axis and separation, if the scene determines the unit of the axis.
+/// Replaces the loading of a scene by a preload of this axis and separation, if the scene
+/// determines the unit of the axis.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     if let Some(unit) = if axis.unit == "N" {
         Some(1.0)
@@ -156,12 +159,14 @@ pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
 }
 
 impl Axis {
-    /// Returns a copy of a scene file in which the quantity of each axis has the given value. If an axis is κ or e_el/γ and the
-    /// scene has a work of adhesion, the copy gets the work of adhesion that leads to the given κ or e_el/γ. If an axis is the
-    /// preload, the copy is loaded to this preload and then to separation.
+    /// Returns a copy of a scene file in which the quantity of each axis has the given value. If an
+    /// axis is κ or e_el/γ and the scene has a work of adhesion, the copy gets the work of adhesion
+    /// that leads to the given κ or e_el/γ. If an axis is the preload, the copy is loaded to this
+    /// preload and then to separation.
     ///
     /// # Errors
-    /// Returns an error if the scene lacks the quantity of an axis, or if the scene does not allow a value.
+    /// Returns an error if the scene lacks the quantity of an axis, or if the scene does not allow
+    /// a value.
     ///
     /// ```
     /// use asperity_study::{Axis, Spacing};

@@ -1,4 +1,5 @@
-//! The plan of a study: a scene, the axes along which its numbers vary, random profiles, and recorded quantities.
+//! The plan of a study: a scene, the axes along which its numbers vary, random profiles, and
+//! recorded quantities.
 
 use super::axis::Axis;
 use super::error::ONE_PROFILE;
@@ -14,10 +15,12 @@ pub(super) const PRELOAD: &str = "preload";
 
 /// Largest number of random profiles of a [`Plan`] for each [cell](Plan).
 pub const MOST_LINES: u64 = 1_000_000;
-/// Largest number of records of a [`Plan`]: the number of [cells](Plan) times the number of random profiles.
+/// Largest number of records of a [`Plan`]: the number of [cells](Plan) times the number of random
+/// profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of all axes are checked.
+/// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of
+/// all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
 /// Largest number of cells with invalid scenes that are named. Further ones are counted.
 const MOST_NAMED: usize = 8;
@@ -38,8 +41,9 @@ const SAME: [&[&str]; 3] = [
     ],
 ];
 
-/// Checked plan of a study: a scene, axes along which its numbers vary, random profiles, and quantities to record. A *cell* is
-/// one combination of values on the axes. A *record* has the recorded quantities of one cell on one random profile.
+/// Checked plan of a study: a scene, axes along which its numbers vary, random profiles, and
+/// quantities to record. A *cell* is one combination of values on the axes. A *record* has the
+/// recorded quantities of one cell on one random profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Title of the study in one line of text.
@@ -48,24 +52,27 @@ pub struct Plan {
     pub notice: String,
     /// Scene whose numbers vary. Paths of files in it are absolute.
     pub scene: Scene,
-    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An axis of preloads is always
-    /// the last one, and each preload replaces the loading of the scene.
+    /// Axes of the study. From one cell to the next, the value on the last axis changes fastest. An
+    /// axis of preloads is always the last one, and each preload replaces the loading of the scene.
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
-    /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the same in all [cells](Plan).
+    /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the
+    /// same in all [cells](Plan).
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,
-    /// Forces at which the contact is computed for [`Quantity::StiffnessExponent`] and [`Quantity::ForceExponent`].
+    /// Forces at which the contact is computed for [`Quantity::StiffnessExponent`] and
+    /// [`Quantity::ForceExponent`].
     pub stiffness: StiffnessRange,
-    /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene without such files, and for a
-    /// plan that is not in the [`Folder`](crate::Folder) of a study.
+    /// SHA-256 of the content of the measured files as 64 hexadecimal digits. `None` for a scene
+    /// without such files, and for a plan that is not in the [`Folder`](crate::Folder) of a study.
     pub measured_sha256: Option<String>,
 }
 
 /// Forces at which the contact without adhesion is computed for [`Quantity::StiffnessExponent`] and
-/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h, length L of the profile.
+/// [`Quantity::ForceExponent`]. They are in units of E* h L: effective modulus E*, rms height h,
+/// length L of the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessRange {
@@ -92,8 +99,8 @@ impl Plan {
     /// Largest number of [cells](Plan) of a plan.
     pub const MOST_CELLS: u64 = 10_000_000;
 
-    /// Makes the plan of a checked scene without axes: one cell on `lines` profiles, whose seeds begin with the seed of the
-    /// scene.
+    /// Makes the plan of a checked scene without axes: one cell on `lines` profiles, whose seeds
+    /// begin with the seed of the scene.
     pub(super) fn of_scene(scene: &Scene, lines: u64, record: &[Quantity]) -> Plan {
         Plan {
             title: String::new(),
@@ -108,7 +115,8 @@ impl Plan {
         }
     }
 
-    /// Returns the axis of the plan on which the preload varies; `None` if the plan has no such axis.
+    /// Returns the axis of the plan on which the preload varies; `None` if the plan has no such
+    /// axis.
     pub fn preloads(&self) -> Option<&Axis> {
         self.axes.last().filter(|axis| axis.is_of_preloads())
     }
@@ -118,12 +126,14 @@ impl Plan {
         &self.axes[..self.axes.len() - usize::from(self.preloads().is_some())]
     }
 
-    /// Returns the number of [cells](Plan), which is the number of combinations of values on the axes.
+    /// Returns the number of [cells](Plan), which is the number of combinations of values on the
+    /// axes.
     pub fn cells(&self) -> u64 {
         self.axes.iter().map(Axis::count).product()
     }
 
-    /// Returns the number of records of the complete study: the number of [cells](Plan) times the number of profiles.
+    /// Returns the number of records of the complete study: the number of [cells](Plan) times the
+    /// number of profiles.
     pub fn records_in_all(&self) -> u64 {
         self.cells() * self.lines
     }
@@ -132,8 +142,8 @@ impl Plan {
         self.places_on(0..self.axes.len(), cell)
     }
 
-    /// Returns the indices of the values for combination `number` of these axes, of which the last one varies fastest. The
-    /// index is 0 on the other axes.
+    /// Returns the indices of the values for combination `number` of these axes, of which the last
+    /// one varies fastest. The index is 0 on the other axes.
     pub(super) fn places_on(
         &self,
         axes: impl DoubleEndedIterator<Item = usize>,
@@ -167,7 +177,8 @@ impl Plan {
             .collect()
     }
 
-    /// Returns the values on all axes in [cell](Plan) number `cell` as text, such as `adhesion.kappa = 6.0`.
+    /// Returns the values on all axes in [cell](Plan) number `cell` as text, such as
+    /// `adhesion.kappa = 6.0`.
     pub fn coordinates(&self, cell: u64) -> String {
         let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
         let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
@@ -178,12 +189,13 @@ impl Plan {
         }
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the axes. A preload axis is the
-    /// exception: the scene keeps the loading of the plan's scene, because the preload is applied only when the cell is
-    /// computed.
+    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the
+    /// axes. A preload axis is the exception: the scene keeps the loading of the plan's scene,
+    /// because the preload is applied only when the cell is computed.
     ///
     /// # Errors
-    /// Returns an error if the scene lacks the number of an axis, or if a value is out of its range.
+    /// Returns an error if the scene lacks the number of an axis, or if a value is out of its
+    /// range.
     pub fn scene_of(&self, cell: u64) -> Result<CheckedScene, SceneErrors> {
         scene_with(&self.scene, self.axes.iter().zip(self.values(cell)))?.checked()
     }
@@ -203,7 +215,8 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The scenes of its cells are not checked again when the folder of a study is opened.
+/// Checks of a plan. The scenes of its cells are not checked again when the folder of a study is
+/// opened.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
@@ -291,7 +304,8 @@ impl Plan {
         wrong
     }
 
-    /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a measured file.
+    /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a
+    /// measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene {
@@ -338,10 +352,11 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Returns cells that represent all cells. If their scenes are allowed, all are allowed, and one of them needs the most
-    /// memory. They are the first cell of each combination of values except preloads. Of more than `most` combinations,
-    /// only the cells at the ends of all axes are returned. Each condition of a scene bounds a number from one side or from
-    /// both, and so holds between values at which it holds.
+    /// Returns cells that represent all cells. If their scenes are allowed, all are allowed, and
+    /// one of them needs the most memory. They are the first cell of each combination of values
+    /// except preloads. Of more than `most` combinations, only the cells at the ends of all axes
+    /// are returned. Each condition of a scene bounds a number from one side or from both, and so
+    /// holds between values at which it holds.
     pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
         if self.cells() / preloads <= most {

@@ -67,11 +67,13 @@ impl Plan {
         "self-averaging"
     );
 
-    /// Reads and checks a plan. `name_or_path` is the name of a built-in plan, such as `figure-6`, or the path of a file. The
-    /// path of a scene file in the plan is relative to the folder of the plan. `changes` are made before the plan is checked.
+    /// Reads and checks a plan. `name_or_path` is the name of a built-in plan, such as `figure-6`,
+    /// or the path of a file. The path of a scene file in the plan is relative to the folder of the
+    /// plan. `changes` are made before the plan is checked.
     ///
     /// # Errors
-    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a [cell](Plan) has an error.
+    /// Returns an error if the plan cannot be read, if it has an error, or if the scene of a
+    /// [cell](Plan) has an error.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};
@@ -93,8 +95,9 @@ impl Plan {
         Plan::parse(plan.text, plan.name, changes)
     }
 
-    /// Makes a plan of a study that varies numbers of a scene. Each of the `axes` is the path of a number and its values in SI
-    /// units. The quantities in `record` are recorded on `profiles` random profiles for each combination of values.
+    /// Makes a plan of a study that varies numbers of a scene. Each of the `axes` is the path of a
+    /// number and its values in SI units. The quantities in `record` are recorded on `profiles`
+    /// random profiles for each combination of values.
     ///
     /// # Errors
     /// Returns an error if the plan or the scene of a [cell](Plan) has an error.
@@ -103,10 +106,21 @@ impl Plan {
     /// use asperity_study::{Plan, Quantity};
     ///
     /// let scene = asperity_scene::open("pressure-sensitive")?;
-    /// let axes: [(&str, &[f64]); 2] = [("roughness.hurst", &[0.3, 0.7]), ("adhesion.kappa", &[2.0, 6.0, 20.0])];
-    /// let plan = Plan::new(&scene, &axes, 16, &[Quantity::AdhesionForce, Quantity::Regime])?;
+    /// let axes: [(&str, &[f64]); 2] = [
+    ///     ("roughness.hurst", &[0.3, 0.7]),
+    ///     ("adhesion.kappa", &[2.0, 6.0, 20.0]),
+    /// ];
+    /// let plan = Plan::new(
+    ///     &scene,
+    ///     &axes,
+    ///     16,
+    ///     &[Quantity::AdhesionForce, Quantity::Regime],
+    /// )?;
     /// assert_eq!((plan.cells(), plan.records_in_all()), (6, 96));
-    /// assert_eq!(plan.coordinates(4), "roughness.hurst = 0.7, adhesion.kappa = 6.0");
+    /// assert_eq!(
+    ///     plan.coordinates(4),
+    ///     "roughness.hurst = 0.7, adhesion.kappa = 6.0"
+    /// );
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(
@@ -146,8 +160,9 @@ impl Plan {
             })
     }
 
-    /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages begin with `name`, and the
-    /// path of a scene file in the plan is relative to the folder of `name`.
+    /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages
+    /// begin with `name`, and the path of a scene file in the plan is relative to the folder of
+    /// `name`.
     ///
     /// # Errors
     /// The errors are the same as those of [`Plan::open`].
@@ -231,7 +246,8 @@ impl Plan {
         }
     }
 
-    /// Returns the plan as the text of a plan file in RON that contains the scene itself instead of the path of a scene file.
+    /// Returns the plan as the text of a plan file in RON that contains the scene itself instead of
+    /// the path of a scene file.
     ///
     /// ```
     /// use asperity_study::{Changes, Plan};

@@ -10,8 +10,9 @@ use asperity_contact::{Figures, Move};
 use asperity_data::AxisScale;
 use asperity_scene::{CheckedScene, Outcome, RunError, Simulation, Solver};
 
-/// Number of preloads, and index of the preload of the scene among them. A linear axis extends from the force at first
-/// touch to twice this preload. A logarithmic axis extends over six decades, two of them above this preload.
+/// Number of preloads, and index of the preload of the scene among them. A linear axis extends from
+/// the force at first touch to twice this preload. A logarithmic axis extends over six decades, two
+/// of them above this preload.
 const PRELOADS: usize = 64;
 const PLACES: (f64, f64) = (31.0, 42.0);
 const DECADES: f64 = 6.0;
@@ -26,14 +27,16 @@ fn failed(error: RunError) -> StudyError {
     }
 }
 
-/// Adhesion force of a scene as a function of the preload, for the scene's own profile and for further random profiles.
+/// Adhesion force of a scene as a function of the preload, for the scene's own profile and for
+/// further random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PreloadCurve {
     /// Preloads in N at which the random profiles are computed, as an axis.
     pub axis: Axis,
     /// Adhesion force of the scene's own profile as a function of the preload.
     pub staircase: Staircase,
-    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own profile.
+    /// Results on random profiles at the preloads of `axis`. The first profile is the scene's own
+    /// profile.
     pub results: Results,
 }
 
@@ -41,13 +44,14 @@ impl PreloadCurve {
     /// Number of random profiles of a complete curve, including the scene's own profile.
     pub const PROFILES: usize = 16;
 
-    /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the preloads, linear or
-    /// logarithmic. If `begun` is an incomplete curve on the same scale, only the missing parts are computed. After each part
-    /// `report` receives the curve so far.
+    /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the
+    /// preloads, linear or logarithmic. If `begun` is an incomplete curve on the same scale, only
+    /// the missing parts are computed. After each part `report` receives the curve so far.
     ///
     /// # Errors
-    /// Returns an error if the scene has no adhesion or no stage that presses the bodies together, or if the solver of the scene
-    /// is not [`Solver::Exact`]. It is also an error if a profile or its contact cannot be computed, or if `stop` returned true.
+    /// Returns an error if the scene has no adhesion or no stage that presses the bodies together,
+    /// or if the solver of the scene is not [`Solver::Exact`]. It is also an error if a profile or
+    /// its contact cannot be computed, or if `stop` returned true.
     pub fn compute(
         (scene, outcome): (&CheckedScene, &Outcome),
         scale: AxisScale,
@@ -141,7 +145,8 @@ impl PreloadCurve {
         })
     }
 
-    /// Returns true if the curve is complete: the staircase, and all [`PreloadCurve::PROFILES`] random profiles.
+    /// Returns true if the curve is complete: the staircase, and all [`PreloadCurve::PROFILES`]
+    /// random profiles.
     pub fn is_whole(&self) -> bool {
         self.staircase.is_whole() && self.results.is_whole(0)
     }
@@ -151,8 +156,9 @@ impl PreloadCurve {
         self.results.records_of(0).count()
     }
 
-    /// Returns the statistics over the computed profiles of the adhesion force in N after a preload in N. `None` if the preload
-    /// is not on [`PreloadCurve::axis`], or if fewer than two profiles are computed.
+    /// Returns the statistics over the computed profiles of the adhesion force in N after a preload
+    /// in N. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two profiles
+    /// are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
         let spread = self.results.spread_of_adhesion().into_iter();
         let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();
@@ -248,7 +254,8 @@ mod tests {
             (Some(4), PreloadCurve::PROFILES, true)
         );
         assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
-        // The preload of the scene is among those of the axis, and its adhesion force on the staircase.
+        // The preload of the scene is among those of the axis, and its adhesion force on the
+        // staircase.
         let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
         let at = whole

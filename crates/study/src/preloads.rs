@@ -25,9 +25,9 @@ impl Axis {
     /// Smallest and largest number of preloads that an axis may have.
     pub const PRELOADS: RangeInclusive<usize> = 2..=512;
 
-    /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the number of preloads, and `log`
-    /// for equal ratios of neighbouring preloads. Without the number there are 64 preloads, and without `log` neighbouring
-    /// preloads have equal differences.
+    /// Reads preloads from text such as `1nN..20uN:64:log`: the first and the last preload, the
+    /// number of preloads, and `log` for equal ratios of neighbouring preloads. Without the number
+    /// there are 64 preloads, and without `log` neighbouring preloads have equal differences.
     ///
     /// # Errors
     /// Returns an error if the text has another form or if a number is not allowed.
@@ -36,8 +36,16 @@ impl Axis {
     /// use asperity_study::Axis;
     ///
     /// let axis = Axis::parse_preloads("1nN..1uN:4:log").expect("two forces");
-    /// assert_eq!((axis.values.len(), axis.values[0], axis.unit), (4, 1e-9, "N"));
-    /// assert!(Axis::parse_preloads("2uN..1uN").unwrap_err().to_string().contains("`from` less than `to`"));
+    /// assert_eq!(
+    ///     (axis.values.len(), axis.values[0], axis.unit),
+    ///     (4, 1e-9, "N")
+    /// );
+    /// assert!(
+    ///     Axis::parse_preloads("2uN..1uN")
+    ///         .unwrap_err()
+    ///         .to_string()
+    ///         .contains("`from` less than `to`")
+    /// );
     /// ```
     pub fn parse_preloads(text: &str) -> Result<Axis, StudyError> {
         let mut parts = text.split(':').map(str::trim);
@@ -57,7 +65,8 @@ impl Axis {
         Axis::of_preloads(ends, count, scale)
     }
 
-    /// Reads two numbers from text such as `1uN..20uN`, the smaller number first. `unit` is their SI unit, here `N`.
+    /// Reads two numbers from text such as `1uN..20uN`, the smaller number first. `unit` is their
+    /// SI unit, here `N`.
     ///
     /// # Errors
     /// Returns an error if the text has another form or another unit.
@@ -75,8 +84,9 @@ impl Axis {
         Ok((number(from)?, number(to)?))
     }
 
-    /// Creates an axis of `count` preloads in N, from the first to the second of two forces. Neighbouring preloads have equal
-    /// differences on a linear scale and equal ratios on a logarithmic scale.
+    /// Creates an axis of `count` preloads in N, from the first to the second of two forces.
+    /// Neighbouring preloads have equal differences on a linear scale and equal ratios on a
+    /// logarithmic scale.
     ///
     /// # Errors
     /// Returns an error if a force or the number of preloads is not allowed.
@@ -123,28 +133,31 @@ impl Axis {
     }
 }
 
-/// Adhesion force of one profile as a function of the preload. The force rises in steps: at certain preloads it jumps to a
-/// larger value.
+/// Adhesion force of one profile as a function of the preload. The force rises in steps: at certain
+/// preloads it jumps to a larger value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Staircase {
     /// Scale, linear or logarithmic, of the axis of preloads for which the staircase was computed.
     pub scale: AxisScale,
-    /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first touch.
+    /// Force at first touch in N, and adhesion force F_a(d=0) in N of a loop that turns at first
+    /// touch.
     pub touch: (f64, f64),
     /// Adhesion force F_a(F=0) in N of a loop that turns at zero force.
     pub zero_force: f64,
-    /// Ascending preloads in N, each with the adhesion force in N after this preload. The adhesion force is 0 if the force of
-    /// the unloading is never negative.
+    /// Ascending preloads in N, each with the adhesion force in N after this preload. The adhesion
+    /// force is 0 if the force of the unloading is never negative.
     pub forces: Vec<(f64, f64)>,
 }
 
 impl Staircase {
-    /// Computes the staircase of a checked scene at the preloads in N of an axis. Further preloads are added until each step
-    /// lies between two preloads that are at most 1/2048 of the axis apart, on the scale of the axis. `report` receives the
-    /// staircase at the preloads of the axis, and again after each refinement.
+    /// Computes the staircase of a checked scene at the preloads in N of an axis. Further preloads
+    /// are added until each step lies between two preloads that are at most 1/2048 of the axis
+    /// apart, on the scale of the axis. `report` receives the staircase at the preloads of the
+    /// axis, and again after each refinement.
     ///
     /// # Errors
-    /// Returns an error if a preload is below the force at first touch. The errors of [`Simulation::reverse`] are possible too.
+    /// Returns an error if a preload is below the force at first touch. The errors of
+    /// [`Simulation::reverse`] are possible too.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -153,7 +166,13 @@ impl Staircase {
     ///
     /// let scene = open("pressure-sensitive")?.set("numerics.points", "2048")?;
     /// let preloads = Axis::of_preloads((0.0, 4e-5), 9, AxisScale::Linear)?;
-    /// let stairs = Staircase::find(scene.scene(), &preloads, &mut Simulation::default(), &|| false, &mut |_| ())?;
+    /// let stairs = Staircase::find(
+    ///     scene.scene(),
+    ///     &preloads,
+    ///     &mut Simulation::default(),
+    ///     &|| false,
+    ///     &mut |_| (),
+    /// )?;
     /// assert!(stairs.is_whole());
     /// // The adhesion force never falls with the preload.
     /// assert!(stairs.forces.windows(2).all(|pair| pair[0].1 <= pair[1].1));
@@ -213,8 +232,8 @@ impl Staircase {
         Ok(all)
     }
 
-    /// Returns true if every step is known to lie between two preloads that are at most 1/2048 of the axis of preloads apart,
-    /// on the scale of the axis.
+    /// Returns true if every step is known to lie between two preloads that are at most 1/2048 of
+    /// the axis of preloads apart, on the scale of the axis.
     pub fn is_whole(&self) -> bool {
         !self.forces.is_empty() && self.halves().is_empty()
     }
@@ -238,7 +257,8 @@ impl Staircase {
         self.forces.windows(2).filter_map(middle).collect()
     }
 
-    /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and adhesion force in N.
+    /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and
+    /// adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
         self.forces
@@ -259,9 +279,10 @@ impl Results {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Returns each preload in N with the statistics of the adhesion force in N over the profiles. The axis of the study must
-    /// have preloads in N. A preload with fewer than two computed profiles is left out. A profile on which the force is never
-    /// negative has the adhesion force 0 N.
+    /// Returns each preload in N with the statistics of the adhesion force in N over the profiles.
+    /// The axis of the study must have preloads in N. A preload with fewer than two computed
+    /// profiles is left out. A profile on which the force is never negative has the adhesion force
+    /// 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
         let spread = |cell| {
             let (preload, forces) = self.forces_in(cell);
@@ -271,8 +292,9 @@ impl Results {
         (0..self.plan.cells()).filter_map(spread).collect()
     }
 
-    /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in N after this preload on
-    /// each computed profile. The axis of the study must have preloads in N; `None` if this axis has no values.
+    /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in
+    /// N after this preload on each computed profile. The axis of the study must have preloads in
+    /// N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
         let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
         let nearest =
@@ -395,7 +417,8 @@ mod tests {
         );
     }
 
-    /// Preloads in N are those of runs of their own, also of a smooth body, and a plan keeps their unit.
+    /// Preloads in N are those of runs of their own, also of a smooth body, and a plan keeps their
+    /// unit.
     #[test]
     fn preloads_of_a_plan_may_be_in_newtons() {
         for base in ["jkr-sphere", "pressure-sensitive"] {
@@ -440,8 +463,8 @@ mod tests {
         }
     }
 
-    /// Each step of the staircase lies where a fine grid of preloads shows it; preloads below zero turn while the bodies
-    /// are drawn together.
+    /// Each step of the staircase lies where a fine grid of preloads shows it; preloads below zero
+    /// turn while the bodies are drawn together.
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();

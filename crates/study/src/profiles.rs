@@ -1,4 +1,5 @@
-//! Computation of the random profiles of a plan on several threads. The results do not depend on the number of threads.
+//! Computation of the random profiles of a plan on several threads. The results do not depend on
+//! the number of threads.
 
 use super::error::StudyError;
 use super::plan::Plan;
@@ -9,12 +10,14 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 
-/// Function that a computation calls repeatedly. Once the function returns true, the computation ends.
+/// Function that a computation calls repeatedly. Once the function returns true, the computation
+/// ends.
 pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Solves profiles of a plan, given by their indices, on at most `jobs` threads, or on fewer if the memory does not
-/// suffice. Each thread has its own simulation, and the first thread uses this simulation. `receive` gets each result with
-/// the index of its profile, on this thread, as soon as the result is known.
+/// Solves profiles of a plan, given by their indices, on at most `jobs` threads, or on fewer if the
+/// memory does not suffice. Each thread has its own simulation, and the first thread uses this
+/// simulation. `receive` gets each result with the index of its profile, on this thread, as soon as
+/// the result is known.
 ///
 /// # Errors
 /// A profile fails. The error belongs to the first of the profiles that fail.
@@ -68,8 +71,8 @@ pub(super) fn on_profiles<R: Send>(
     .map(drop)
 }
 
-/// Returns results for the numbers below `count`, computed on `jobs` threads, each with its own `worker`. `receive` gets
-/// what the workers send, on this thread, as soon as it is sent.
+/// Returns results for the numbers below `count`, computed on `jobs` threads, each with its own
+/// `worker`. `receive` gets what the workers send, on this thread, as soon as it is sent.
 ///
 /// # Errors
 /// A number fails. The error belongs to the smallest number that fails.

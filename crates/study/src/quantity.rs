@@ -51,8 +51,8 @@ const SHARE: (f64, f64) = (0.0, 1.0);
 /// Makes the enum of the quantities and the table of their rows.
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
-        /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The text of each variant
-        /// begins with its name in plans and tables.
+        /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The
+        /// text of each variant begins with its name in plans and tables.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum Quantity {
             $(#[doc = concat!("`", $name, "`: ", $meaning, ".")] #[serde(rename = $name)] $variant,)*
@@ -195,7 +195,8 @@ quantities! {
 }
 
 impl Quantity {
-    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal adhesion force F_a,max.
+    /// Both adhesion forces without a preload, F_a(d=0) and F_a(F=0), each divided by the ideal
+    /// adhesion force F_a,max.
     pub const ADHESION_SHARES: [Quantity; 2] = [
         Quantity::FirstTouchAdhesionShare,
         Quantity::ZeroForceAdhesionShare,
@@ -204,8 +205,9 @@ impl Quantity {
     /// Regime of adhesion that follows from F_a(d=0), and regime that follows from F_a(F=0).
     pub const REGIMES: [Quantity; 2] = [Quantity::Regime, Quantity::RegimeAfterZeroForce];
 
-    /// Returns where the loading turns for the regimes that are shown on a map of this quantity: `turned at zero force` for
-    /// [`Quantity::RegimeAfterZeroForce`], and `turned at first touch` for any other quantity.
+    /// Returns where the loading turns for the regimes that are shown on a map of this quantity:
+    /// `turned at zero force` for [`Quantity::RegimeAfterZeroForce`], and `turned at first touch`
+    /// for any other quantity.
     pub fn protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "turned at zero force"
@@ -214,7 +216,8 @@ impl Quantity {
         }
     }
 
-    /// Returns the text of [`Quantity::protocol`] in short: `F=0` for zero force, `d=0` for first touch.
+    /// Returns the text of [`Quantity::protocol`] in short: `F=0` for zero force, `d=0` for first
+    /// touch.
     pub fn short_protocol(self) -> &'static str {
         if self == Quantity::RegimeAfterZeroForce {
             "F=0"
@@ -232,7 +235,8 @@ impl Quantity {
         &ROWS[self as usize]
     }
 
-    /// Returns the name of the quantity in plans and in columns of tables, such as `adhesion_force`.
+    /// Returns the name of the quantity in plans and in columns of tables, such as
+    /// `adhesion_force`.
     pub const fn name(self) -> &'static str {
         self.row().name
     }
@@ -256,10 +260,12 @@ impl Quantity {
         }
     }
 
-    /// Returns the quantity with this symbol or name. The words of a name may be separated by blanks, hyphens or `_`.
+    /// Returns the quantity with this symbol or name. The words of a name may be separated by
+    /// blanks, hyphens or `_`.
     ///
     /// # Errors
-    /// Returns an error if no quantity has this symbol or name, or if several quantities have this symbol.
+    /// Returns an error if no quantity has this symbol or name, or if several quantities have this
+    /// symbol.
     ///
     /// ```
     /// use asperity_study::Quantity;
@@ -300,12 +306,14 @@ impl Quantity {
         }
     }
 
-    /// Returns the meaning of the quantity as one line of text, such as `adhesion force after the preload`.
+    /// Returns the meaning of the quantity as one line of text, such as
+    /// `adhesion force after the preload`.
     pub const fn meaning(self) -> &'static str {
         self.row().meaning
     }
 
-    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. A missing bound is −∞ or ∞.
+    /// Returns the smallest and the largest value that the quantity can have, in its SI unit. A
+    /// missing bound is −∞ or ∞.
     pub const fn bounds(self) -> (f64, f64) {
         self.row().bounds
     }
@@ -314,8 +322,8 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Returns the value of the quantity in a case in its SI unit; NaN if the case has none. The value of a regime is its
-    /// index in [`asperity_scene::Regime::ALL`].
+    /// Returns the value of the quantity in a case in its SI unit; NaN if the case has none. The
+    /// value of a regime is its index in [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case)
             .filter(|value| value.is_finite())

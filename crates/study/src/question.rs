@@ -1,5 +1,5 @@
-//! The question at which value of a number of a scene, or at which preload, a quantity reaches a target, and its answer on one
-//! profile.
+//! The question at which value of a number of a scene, or at which preload, a quantity reaches a
+//! target, and its answer on one profile.
 
 use super::axis::{Axis, Spacing, Target};
 use super::coordinates::{Allowed, Coordinates};
@@ -13,30 +13,34 @@ use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 
 /// Ratio of the ends of the searched range to the number of the scene.
 const FACTOR: f64 = 100.0;
-/// Ratio of the largest searched preload to the preload of full contact, for a loading without a force.
+/// Ratio of the largest searched preload to the preload of full contact, for a loading without a
+/// force.
 const DEEPER: f64 = 10.0;
-/// Largest width of an allowed range that is searched as a whole, and share of the range that is left out at its ends.
+/// Largest width of an allowed range that is searched as a whole, and share of the range that is
+/// left out at its ends.
 const NARROW: f64 = 2.0;
 const MARGIN: f64 = 0.01;
-/// Share of the largest preload up to which preloads are spread evenly if the range begins at 0 N. Above it their
-/// logarithms are.
+/// Share of the largest preload up to which preloads are spread evenly if the range begins at 0 N.
+/// Above it their logarithms are.
 const EVEN_PRELOADS: f64 = 1e-5;
 
 /// Path of the work of adhesion.
 const WORK: &str = "adhesion.work";
 
-/// Question: at which value of one number of a scene does a quantity reach a target? It is asked for each of several random
-/// profiles.
+/// Question: at which value of one number of a scene does a quantity reach a target? It is asked
+/// for each of several random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// Number of the scene, or preload in N, whose value is sought. It is given as an axis without values.
+    /// Number of the scene, or preload in N, whose value is sought. It is given as an axis without
+    /// values.
     pub axis: Axis,
     /// Quantity that must reach [`Question::target`].
     pub quantity: Quantity,
     /// Target value of [`Question::quantity`] in the SI unit of the quantity.
     pub target: f64,
-    /// Smallest and largest value of the number that are tried, in SI units. If the number is not above zero in the scene,
-    /// [`Question::new`] sets both to NaN, and the caller must set the range before the question is answered.
+    /// Smallest and largest value of the number that are tried, in SI units. If the number is not
+    /// above zero in the scene, [`Question::new`] sets both to NaN, and the caller must set the
+    /// range before the question is answered.
     pub searched: (f64, f64),
     /// Scale of the searched number.
     scale: AxisScale,
@@ -63,33 +67,36 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target, or comes to rest on it. Each has a relative
-    /// error of at most 1e-9. If only some values are allowed, such as whole numbers, it is the allowed value beside the
-    /// crossing at which the quantity is at least the target, but for rounding.
+    /// Ascending values of the number at which the quantity crosses the target, or comes to rest on
+    /// it. Each has a relative error of at most 1e-9. If only some values are allowed, such as
+    /// whole numbers, it is the allowed value beside the crossing at which the quantity is at least
+    /// the target, but for rounding.
     pub crossings: Vec<f64>,
-    /// True if there may be more crossings than the listed ones, since the quantity comes close to the target between two
-    /// numbers at which it was computed. Also the first one may be missed.
+    /// True if there may be more crossings than the listed ones, since the quantity comes close to
+    /// the target between two numbers at which it was computed. Also the first one may be missed.
     pub may_miss: bool,
-    /// True if the crossings follow from a proof: the quantity cannot turn, or is known in closed form, or was computed at all
-    /// allowed numbers. Otherwise the quantity was computed at [`Answer::tried`] numbers, and a crossing between two of
-    /// them is missed if the quantity leaves its course there for a short way.
+    /// True if the crossings follow from a proof: the quantity cannot turn, or is known in closed
+    /// form, or was computed at all allowed numbers. Otherwise the quantity was computed at
+    /// [`Answer::tried`] numbers, and a crossing between two of them is missed if the quantity
+    /// leaves its course there for a short way.
     pub is_proven: bool,
     /// Number of computations.
     pub tried: u64,
-    /// True if the quantity is at least the target: first for the smallest, then for the largest searched number at which it
-    /// has a value.
+    /// True if the quantity is at least the target: first for the smallest, then for the largest
+    /// searched number at which it has a value.
     pub reached: [bool; 2],
-    /// True if F_a(d=0) reaches the target already, so that no preload is needed. False if no preload is sought or if the
-    /// quantity is not an adhesion force after the preload.
+    /// True if F_a(d=0) reaches the target already, so that no preload is needed. False if no
+    /// preload is sought or if the quantity is not an adhesion force after the preload.
     pub at_touch: bool,
-    /// Smallest and largest value of the quantity at all numbers at which it was computed; `None` if it has no value at any of
-    /// them.
+    /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
+    /// if it has no value at any of them.
     pub reachable: Option<(f64, f64)>,
 }
 
 impl Question {
-    /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side is the symbol or the name of
-    /// a [`Quantity`]. The right side is a value with a unit, and the unit may have a prefix.
+    /// Reads a condition such as `F_a/F_a,max = 80 %` or `dissipated energy = 2 pJ`. The left side
+    /// is the symbol or the name of a [`Quantity`]. The right side is a value with a unit, and the
+    /// unit may have a prefix.
     ///
     /// # Errors
     /// Returns an error if the text has another form, or if the quantity cannot have this value.
@@ -98,8 +105,16 @@ impl Question {
     /// use asperity_study::Quantity;
     /// use asperity_study::Question;
     ///
-    /// assert_eq!(Question::parse_condition("F_a/F_a,max = 80 %").ok(), Some((Quantity::AdhesionShare, 0.8)));
-    /// assert!(Question::parse_condition("F_a/F_a,max = 120 %").unwrap_err().to_string().contains("allowed: from 0 to 1"));
+    /// assert_eq!(
+    ///     Question::parse_condition("F_a/F_a,max = 80 %").ok(),
+    ///     Some((Quantity::AdhesionShare, 0.8))
+    /// );
+    /// assert!(
+    ///     Question::parse_condition("F_a/F_a,max = 120 %")
+    ///         .unwrap_err()
+    ///         .to_string()
+    ///         .contains("allowed: from 0 to 1")
+    /// );
     /// ```
     pub fn parse_condition(text: &str) -> Result<(Quantity, f64), StudyError> {
         // The symbol F_a(F=0) has the sign itself.
@@ -129,14 +144,17 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes a question: at which value of the number at `path` does a quantity have a given value? It is asked for `profiles`
-    /// random profiles of a checked scene. `path` may be `preload`. Numbers from a hundredth to a hundred times the value in
-    /// the scene are searched. For a number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
-    /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the scene is loaded.
+    /// Makes a question: at which value of the number at `path` does a quantity have a given value?
+    /// It is asked for `profiles` random profiles of a checked scene. `path` may be `preload`.
+    /// Numbers from a hundredth to a hundred times the value in the scene are searched. For a
+    /// number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
+    /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the
+    /// scene is loaded.
     ///
     /// # Errors
-    /// Returns an error if the scene lacks the number, or if several profiles are requested and the profile of the scene is
-    /// fixed. It is also an error to ask for a preload if the solver of the scene is not [`Solver::Exact`].
+    /// Returns an error if the scene lacks the number, or if several profiles are requested and the
+    /// profile of the scene is fixed. It is also an error to ask for a preload if the solver of the
+    /// scene is not [`Solver::Exact`].
     pub fn new(
         scene: &CheckedScene,
         path: &str,
@@ -254,15 +272,17 @@ impl Question {
         self.axis.is_of_preloads()
     }
 
-    /// Returns how the quantity depends on the sought number, as far as this is known for any profile.
+    /// Returns how the quantity depends on the sought number, as far as this is known for any
+    /// profile.
     pub(super) fn course(&self) -> Course {
         match self.axis.target {
             Target::Preload { .. } => match self.quantity {
                 Quantity::AdhesionCoefficient => Course::Ratio,
                 Quantity::PullOffIndentation => Course::Steps,
                 Quantity::Fragments => Course::Unknown,
-                // A deeper preload leaves more springs in contact at each indentation of the unloading. Therefore the pull and
-                // the area of the loop grow. Quantities without a loading are constant.
+                // A deeper preload leaves more springs in contact at each indentation of the
+                // unloading. Therefore the pull and the area of the loop grow. Quantities without a
+                // loading are constant.
                 _ => Course::OneWay,
             },
             _ if self.is_adhesion_over_work() => Course::OneWay,
@@ -270,8 +290,9 @@ impl Question {
         }
     }
 
-    /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is the adhesion force of a
-    /// loop. A larger work of adhesion leaves more springs in contact at each indentation.
+    /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is
+    /// the adhesion force of a loop. A larger work of adhesion leaves more springs in contact at
+    /// each indentation.
     fn is_adhesion_over_work(&self) -> bool {
         let is_work = matches!(self.axis.target, Target::Number(Field { path: WORK, .. }));
         let scene = &self.plan.scene;
@@ -292,13 +313,15 @@ impl Question {
         (is_work || self.axis.target.parameter().is_some()) && is_loop_force && is_rigid
     }
 
-    /// Returns true if the first preload that reaches the target is sought: the quantity never falls with the preload.
+    /// Returns true if the first preload that reaches the target is sought: the quantity never
+    /// falls with the preload.
     pub fn seeks_least_preload(&self) -> bool {
         self.is_of_preload() && self.course() == Course::OneWay
     }
 
-    /// Returns true if the waves of the roughness are given by wavelengths and the sought number changes how many of them fit
-    /// on the length. Only numbers at which a whole number of waves fits are answers.
+    /// Returns true if the waves of the roughness are given by wavelengths and the sought number
+    /// changes how many of them fit on the length. Only numbers at which a whole number of waves
+    /// fits are answers.
     pub fn is_of_whole_waves(&self) -> bool {
         matches!(
             self.allowed(),
@@ -330,7 +353,8 @@ impl Question {
     }
 }
 
-/// Returns the same quantity turned at first touch, for an adhesion force over the preload, which never falls.
+/// Returns the same quantity turned at first touch, for an adhesion force over the preload, which
+/// never falls.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => {
@@ -343,7 +367,8 @@ pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     }
 }
 
-/// Returns the quantities that are recorded at each number: the quantity of the question, then one that the search needs.
+/// Returns the quantities that are recorded at each number: the quantity of the question, then one
+/// that the search needs.
 fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
     let follows_steps = matches!(
         quantity,
@@ -356,7 +381,8 @@ fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
         .collect()
 }
 
-/// Returns the scale and the range on which a number is searched whose value in the scene is `present`.
+/// Returns the scale and the range on which a number is searched whose value in the scene is
+/// `present`.
 fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
     let ends = if let Target::Number(field) = axis.target {
         field.range.ends()
@@ -376,7 +402,8 @@ fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
 }
 
 impl Answer {
-    /// Returns the number of the profile: the first crossing, or the smallest preload that reaches the target.
+    /// Returns the number of the profile: the first crossing, or the smallest preload that reaches
+    /// the target.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.seeks_least_preload() && self.reached[0];
         if already {

@@ -1,4 +1,5 @@
-//! The recorder of a streak, which computes its loadings on one profile and reads the recorded quantities.
+//! The recorder of a streak, which computes its loadings on one profile and reads the recorded
+//! quantities.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
@@ -10,14 +11,15 @@ use asperity_scene::{CheckedScene, Governing, Outcome, Roughness, RunError, Simu
 use asperity_surface::SurfaceError;
 use std::mem::take;
 
-/// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity that the case does not
-/// have.
+/// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity
+/// that the case does not have.
 pub(super) type Records = Vec<Vec<f64>>;
 
 /// Values of a record, or the reason in one line why they cannot be computed.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Recorder of the cases of a plan. It keeps the profile, its contact tree and its properties from case to case.
+/// Recorder of the cases of a plan. It keeps the profile, its contact tree and its properties from
+/// case to case.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
@@ -40,7 +42,8 @@ impl<'p> Recorder<'p> {
         }
     }
 
-    /// Returns the premises that the cases recorded so far do not meet, each list with the number of the cell, and forgets them.
+    /// Returns the premises that the cases recorded so far do not meet, each list with the number
+    /// of the cell, and forgets them.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }
@@ -251,8 +254,9 @@ impl<'p> Recorder<'p> {
         Ok(record)
     }
 
-    /// Returns the exponents of the contact without adhesion, fitted to logarithms over the range of forces of the plan. No
-    /// spring is stretched, so the stiffness is E* times the contact length.
+    /// Returns the exponents of the contact without adhesion, fitted to logarithms over the range
+    /// of forces of the plan. No spring is stretched, so the stiffness is E* times the contact
+    /// length.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else {

@@ -1,8 +1,9 @@
-//! The same contact as a profile and in three dimensions: means over random profiles and random squares with one spectrum.
+//! The same contact as a profile and in three dimensions: means over random profiles and random
+//! squares with one spectrum.
 //!
-//! A free rigid square of the side L is compared with a profile (line) of the length L, without a fit. Line and square are
-//! independent draws, so only their means are compared. At the same force the line has 1.1 to 4.2 times the area of contact in
-//! three dimensions.
+//! A free rigid square of the side L is compared with a profile (line) of the length L, without a
+//! fit. Line and square are independent draws, so only their means are compared. At the same force
+//! the line has 1.1 to 4.2 times the area of contact in three dimensions.
 
 use super::compared::Compared;
 use super::reference_budget::ReferenceBudget;
@@ -11,7 +12,8 @@ use asperity_contact::Move;
 use asperity_scene::Scene;
 use serde::Serialize;
 
-/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells along the side of a square.
+/// Options of a [`Reference`]: numbers of random profiles, of random squares, and of grid cells
+/// along the side of a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ReferenceOptions {
     /// Number of grid cells along the side of a square, a power of two.
@@ -26,8 +28,9 @@ pub struct ReferenceOptions {
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
-    /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16 random profiles for each square.
-    /// `maps` is the number of squares. `None` means 12 squares for a scene with adhesion, and 24 without adhesion.
+    /// Returns the usual options for a scene: 64 grid cells along the side of a square, and 16
+    /// random profiles for each square. `maps` is the number of squares. `None` means 12 squares
+    /// for a scene with adhesion, and 24 without adhesion.
     pub fn of(scene: &Scene, maps: Option<u64>) -> ReferenceOptions {
         let maps = maps.unwrap_or(if scene.adhesion.is_some() { 12 } else { 24 });
         ReferenceOptions {
@@ -38,14 +41,16 @@ impl ReferenceOptions {
     }
 }
 
-/// Comparison of random profiles with random squares in three dimensions under one force, without adhesion.
+/// Comparison of random profiles with random squares in three dimensions under one force, without
+/// adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Loaded {
     /// Force on each profile and on each square, N.
     pub force: f64,
     /// Indentation in m at this force, counted from first touch.
     pub indentation: Compared,
-    /// Stiffness of the contact in N/m at this force: the change of force divided by the change of indentation.
+    /// Stiffness of the contact in N/m at this force: the change of force divided by the change of
+    /// indentation.
     pub stiffness: Compared,
     /// Mean area of contact of the squares at this force, m².
     pub area: f64,
@@ -63,15 +68,16 @@ impl Loaded {
     }
 }
 
-/// Force at which profiles and squares are not compared, because too few grid cells of the squares are in contact.
+/// Force at which profiles and squares are not compared, because too few grid cells of the squares
+/// are in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
     /// Force on each square, N.
     pub force: f64,
     /// Mean number of grid cells of a square in contact, less than [`Loaded::LEAST_CELLS`].
     pub cells: f64,
-    /// Number of grid cells along the side of a square with which enough cells would be in contact; `None` if it is more
-    /// than the solver allows.
+    /// Number of grid cells along the side of a square with which enough cells would be in contact;
+    /// `None` if it is more than the solver allows.
     pub grid: Option<usize>,
 }
 
@@ -82,54 +88,60 @@ pub struct RoughnessOfBoth {
     pub line: ComparedRoughness,
     /// Roughness of the squares without adhesion. It has the rms height of the profiles.
     pub half_space: ComparedRoughness,
-    /// Roughness of the squares with adhesion, with the elastic energy of the profiles; `None` for a scene without adhesion.
+    /// Roughness of the squares with adhesion, with the elastic energy of the profiles; `None` for
+    /// a scene without adhesion.
     pub adhesive_half_space: Option<ComparedRoughness>,
 }
 
-/// Comparison of a scene on random profiles with the same scene on random squares in three dimensions. A square is a rigid rough
-/// body of the side L on an elastic half-space.
+/// Comparison of a scene on random profiles with the same scene on random squares in three
+/// dimensions. A square is a rigid rough body of the side L on an elastic half-space.
 ///
-/// Both are pressed alike: from separation to the same force or indentation, and back to separation. Of a longer loading this
-/// is the last loop, to the stage with the largest force after the last separation.
+/// Both are pressed alike: from separation to the same force or indentation, and back to
+/// separation. Of a longer loading this is the last loop, to the stage with the largest force after
+/// the last separation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Numbers of profiles, squares and grid cells with which the comparison was computed.
     #[serde(flatten)]
     pub options: ReferenceOptions,
-    /// Longest and shortest wave of the roughness on profiles and squares, each as its number of periods over the length L;
-    /// `None` for a smooth body.
+    /// Longest and shortest wave of the roughness on profiles and squares, each as its number of
+    /// periods over the length L; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Number of periods over L of the shortest wave of the scene, if the comparison omits this wave because the grid of the
-    /// squares is too coarse; otherwise `None`.
+    /// Number of periods over L of the shortest wave of the scene, if the comparison omits this
+    /// wave because the grid of the squares is too coarse; otherwise `None`.
     pub omitted: Option<u64>,
     /// Roughness of profiles and squares; `None` for a smooth body.
     pub roughness: Option<RoughnessOfBoth>,
-    /// Work of adhesion on opening in J/m², the same on profiles and squares; `None` without adhesion.
+    /// Work of adhesion on opening in J/m², the same on profiles and squares; `None` without
+    /// adhesion.
     pub work_of_adhesion: Option<f64>,
     /// Stages of the loop of profiles and squares.
     pub compared_loading: [Move; 2],
-    /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement of the instrument, this is
-    /// the mean force of the profiles there.
+    /// Force in N at which the loop turns. If the loop turns at an indentation or at a displacement
+    /// of the instrument, this is the mean force of the profiles there.
     pub preload: f64,
-    /// Comparison without adhesion at several forces, from a hundredth of the preload to the preload, where at least
-    /// [`Loaded::LEAST_CELLS`] grid cells of a square are in contact.
+    /// Comparison without adhesion at several forces, from a hundredth of the preload to the
+    /// preload, where at least [`Loaded::LEAST_CELLS`] grid cells of a square are in contact.
     pub loading: Vec<Loaded>,
     /// Forces at which fewer grid cells are in contact.
     pub left_out: Vec<LeftOut>,
-    /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without adhesion.
-    pub adhesion_force: Option<Compared>,
-    /// Comparison of the adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for a scene without adhesion.
-    pub first_touch_adhesion_force: Option<Compared>,
-    /// Comparison of the energy in J that the contact loses in the loop to the preload and back; `None` for a scene without
+    /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
     /// adhesion.
+    pub adhesion_force: Option<Compared>,
+    /// Comparison of the adhesion force F_a(d=0) in N of loops that turn at first touch; `None` for
+    /// a scene without adhesion.
+    pub first_touch_adhesion_force: Option<Compared>,
+    /// Comparison of the energy in J that the contact loses in the loop to the preload and back;
+    /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// True for a smooth body of revolution for which the profile is exact, so that every difference is an error of the
-    /// squares.
+    /// True for a smooth body of revolution for which the profile is exact, so that every
+    /// difference is an error of the squares.
     pub line_is_exact: bool,
-    /// Errors of the comparison of adhesion forces, or of indentations for a scene without adhesion, one for each source.
+    /// Errors of the comparison of adhesion forces, or of indentations for a scene without
+    /// adhesion, one for each source.
     pub budget: ReferenceBudget,
-    /// Number of convolutions over the grid of a square that the solver computed for all squares together, a measure of the
-    /// computing work.
+    /// Number of convolutions over the grid of a square that the solver computed for all squares
+    /// together, a measure of the computing work.
     pub convolutions: u64,
     /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
@@ -160,7 +172,8 @@ pub enum ReferenceEvent {
     },
     /// All profiles are computed, and the computation of the squares begins.
     ProfilesEnd {
-        /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene has no adhesion.
+        /// Adhesion force of each profile in N, or its indentation at the preload in m if the scene
+        /// has no adhesion.
         lines: Vec<f64>,
     },
     /// A square is computed at one more force or indentation.
@@ -172,13 +185,15 @@ pub enum ReferenceEvent {
     Square {
         /// Points of the force curve of the square, each with indentation in m and force in N.
         curve: Vec<(f64, f64)>,
-        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene has no adhesion.
+        /// Adhesion force of the square in N, or its indentation at the preload in m if the scene
+        /// has no adhesion.
         headline: f64,
     },
 }
 
 impl Reference {
-    /// Returns the comparison of the adhesion force, or of the indentation at the preload if the scene has no adhesion.
+    /// Returns the comparison of the adhesion force, or of the indentation at the preload if the
+    /// scene has no adhesion.
     pub fn headline(&self) -> Option<&Compared> {
         self.adhesion_force
             .as_ref()
@@ -232,7 +247,8 @@ mod tests {
         }
     }
 
-    /// For a sphere the line is exact, so that both models agree to the error of the grid, and this error is named.
+    /// For a sphere the line is exact, so that both models agree to the error of the grid, and this
+    /// error is named.
     #[test]
     fn a_sphere_is_the_same_in_both_models() {
         let scene = open("jkr-sphere").unwrap();
@@ -288,8 +304,8 @@ mod tests {
         }
     }
 
-    /// The line of a rough body is a model, whose stiffness is of the size of that of squares. No bit but the
-    /// times depends on the number of threads.
+    /// The line of a rough body is a model, whose stiffness is of the size of that of squares. No
+    /// bit but the times depends on the number of threads.
     #[test]
     fn a_rough_body_is_compared_in_the_mean() {
         let scene = open("pressure-sensitive").unwrap();
@@ -340,7 +356,8 @@ mod tests {
         );
     }
 
-    /// Only the last loop is compared, which begins after the last separation and ends in separation.
+    /// Only the last loop is compared, which begins after the last separation and ends in
+    /// separation.
     #[test]
     fn the_last_loop_is_compared() {
         let square = coarse_square();
@@ -462,7 +479,8 @@ mod tests {
         );
     }
 
-    /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within the intervals of both.
+    /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within
+    /// the intervals of both.
     #[test]
     fn the_table_of_the_page_is_that_of_the_squares() {
         let page = std::fs::read_to_string(format!("{DOCS}line-and-three-dimensions.md")).unwrap();
@@ -494,7 +512,8 @@ mod tests {
                 off < error.hypot(found.error.unwrap()),
                 "{ratio} ± {error}: {found:?}"
             );
-            // Three squares scatter more than twelve, but no number is another one by a factor of two.
+            // Three squares scatter more than twelve, but no number is another one by a factor of
+            // two.
             assert!(
                 (0.5..2.0).contains(&(found.ratio / ratio)),
                 "{ratio}: {found:?}"

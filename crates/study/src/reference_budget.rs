@@ -3,24 +3,28 @@
 use super::compared::Compared;
 use serde::Serialize;
 
-/// Errors of a [`Reference`](super::reference::Reference), one for each source of errors. All except `solver` are relative
-/// errors of the adhesion force, or of the indentation at the preload if the scene has no adhesion.
+/// Errors of a [`Reference`](super::reference::Reference), one for each source of errors. All
+/// except `solver` are relative errors of the adhesion force, or of the indentation at the preload
+/// if the scene has no adhesion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ReferenceBudget {
-    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid cell of any square, divided by
-    /// the rms height of the square.
+    /// Largest error of the gap between the bodies in the contacts without adhesion, at any grid
+    /// cell of any square, divided by the rms height of the square.
     pub solver: f64,
-    /// Error of the mean over the squares by their grid. It is the relative difference between this mean and the mean over
-    /// the same squares with half as many grid cells along the side, or the difference from the profile if the profile is
-    /// exact and differs more. `None` if half as many cells are too few.
+    /// Error of the mean over the squares by their grid. It is the relative difference between this
+    /// mean and the mean over the same squares with half as many grid cells along the side, or the
+    /// difference from the profile if the profile is exact and differs more. `None` if half as many
+    /// cells are too few.
     pub grid: Option<f64>,
-    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this ratio; `None` for fewer than two
-    /// profiles or squares.
+    /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
+    /// ratio; `None` for fewer than two profiles or squares.
     pub sample: Option<f64>,
-    /// Mean over the profiles divided by the mean over the squares, minus 1; `None` if this ratio is unknown.
+    /// Mean over the profiles divided by the mean over the squares, minus 1; `None` if this ratio
+    /// is unknown.
     pub difference: Option<f64>,
-    /// Smallest error of the model that the comparison shows: the part of `difference`, without its sign, that exceeds the
-    /// errors `sample` and `grid`. It is 0 if these errors can explain the difference, and `None` if one of them is unknown.
+    /// Smallest error of the model that the comparison shows: the part of `difference`, without its
+    /// sign, that exceeds the errors `sample` and `grid`. It is 0 if these errors can explain the
+    /// difference, and `None` if one of them is unknown.
     pub model: Option<f64>,
     /// Name of the field with the largest known error: `solver`, `grid`, `sample` or `model`.
     pub largest: &'static str,
@@ -36,8 +40,8 @@ pub(super) struct Bodies {
 }
 
 impl ReferenceBudget {
-    /// Collects the errors. `headline` is the comparison of the adhesion force or of the indentation, and `solver` the error
-    /// [`ReferenceBudget::solver`].
+    /// Collects the errors. `headline` is the comparison of the adhesion force or of the
+    /// indentation, and `solver` the error [`ReferenceBudget::solver`].
     pub(super) fn new(solver: f64, headline: Option<&Compared>, bodies: Bodies) -> ReferenceBudget {
         let mut budget = ReferenceBudget {
             solver,
@@ -100,7 +104,8 @@ mod tests {
         line_is_exact: false,
     };
 
-    /// A ratio of `lines`/2 with the error `error` in a comparison whose coarse squares differ by `grid`.
+    /// A ratio of `lines`/2 with the error `error` in a comparison whose coarse squares differ by
+    /// `grid`.
     fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
         let values = Values {
             lines: vec![lines; 2],
@@ -152,7 +157,8 @@ mod tests {
         );
     }
 
-    /// A smooth square differs from a line of the same length, and the line of a body of revolution is exact.
+    /// A smooth square differs from a line of the same length, and the line of a body of revolution
+    /// is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

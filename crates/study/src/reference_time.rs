@@ -1,11 +1,13 @@
-//! Time of a comparison with squares in three dimensions, estimated from small squares before it begins.
+//! Time of a comparison with squares in three dimensions, estimated from small squares before it
+//! begins.
 
 use super::error::StudyError;
 use super::spatial::{Body, SquareLoading, Watch};
 use asperity_data::format_rounded;
 use std::time::Instant;
 
-/// Smallest number of cells along the side of a square, and of the coarser square that is compared with it.
+/// Smallest number of cells along the side of a square, and of the coarser square that is compared
+/// with it.
 pub const LEAST_CELLS: usize = 32;
 /// Smallest time in s of a square from which the time of larger squares follows.
 const LEAST_TIMED: f64 = 0.2;
@@ -14,7 +16,8 @@ const GROWTH: [f64; 2] = [6.5, 8.5];
 /// Longest time of a comparison in s, which is a day.
 pub const LONGEST: f64 = 86_400.0;
 
-/// Computing time of a square, estimated from smaller squares, each with twice the cells of the one before.
+/// Computing time of a square, estimated from smaller squares, each with twice the cells of the one
+/// before.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareTime {
     /// Time of a square and of the coarser square that is compared with it, s.
@@ -73,7 +76,8 @@ impl SquareTime {
     }
 }
 
-/// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a day.
+/// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a
+/// day.
 pub fn check_time(
     cells: usize,
     maps: u64,

@@ -22,7 +22,8 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct Resolved {
     /// Scene of the profiles.
     pub line: CheckedScene,
-    /// Spectrum of the random profiles of a measured surface, without the waves that squares do not resolve.
+    /// Spectrum of the random profiles of a measured surface, without the waves that squares do not
+    /// resolve.
     measured: Option<Arc<MeasuredRoughness>>,
     pub body: Body,
     /// Roughness of the profiles; `None` for smooth ones.
@@ -31,8 +32,8 @@ pub(super) struct Resolved {
     pub waves: Option<(u64, u64)>,
     /// Last wave of the scene, if it is left out.
     pub omitted: Option<u64>,
-    /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards, for which the profile is
-    /// exact while the contact ends before the profile does.
+    /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards,
+    /// for which the profile is exact while the contact ends before the profile does.
     pub line_is_exact: bool,
 }
 
@@ -136,7 +137,8 @@ impl Resolved {
         Ok(resolved)
     }
 
-    /// Gives the squares the waves of a spectrum. `amplitude` is that of the profiles with these modes.
+    /// Gives the squares the waves of a spectrum. `amplitude` is that of the profiles with these
+    /// modes.
     fn roughen(&mut self, spectrum: Spectrum, modes: (u64, u64), amplitude: Amplitude) {
         let shells = Shells::new(spectrum, self.body.side, modes);
         let line = ComparedRoughness {

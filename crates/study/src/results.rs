@@ -17,7 +17,8 @@ use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
-/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random profile.
+/// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random
+/// profile.
 #[derive(Clone)]
 pub struct Results {
     pub(super) plan: Plan,
@@ -40,8 +41,8 @@ pub struct CountedWarning {
     pub profiles: u64,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study. A record has the values of one [cell](Plan) on one random
-/// profile.
+/// What [`merge`](crate::merge) found in the files of a study. A record has the values of one
+/// [cell](Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
@@ -49,8 +50,8 @@ pub struct Merged {
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First few of the records that cannot be computed, each with the number of the [cell](Plan), the seed of the profile and
-    /// the reason.
+    /// First few of the records that cannot be computed, each with the number of the [cell](Plan),
+    /// the seed of the profile and the reason.
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
@@ -134,12 +135,14 @@ impl Results {
         })
     }
 
-    /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random profiles, with the recorded
-    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the loading of the scene.
+    /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random
+    /// profiles, with the recorded quantities `record`. Its only axis, if given, is `preloads`:
+    /// preloads in N that replace the loading of the scene.
     ///
     /// # Errors
-    /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an error if `preloads` are
-    /// given and the solver of the scene is not [`Solver::Exact`], or if the memory does not suffice for the study.
+    /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an
+    /// error if `preloads` are given and the solver of the scene is not [`Solver::Exact`], or if
+    /// the memory does not suffice for the study.
     pub fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -160,11 +163,13 @@ impl Results {
         })
     }
 
-    /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the scene are relative to `folder`.
-    /// `jobs` is the number of threads, which does not change the results.
+    /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the
+    /// scene are relative to `folder`. `jobs` is the number of threads, which does not change the
+    /// results.
     ///
     /// # Errors
-    /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are possible too.
+    /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are
+    /// possible too.
     pub fn of_scene(
         scene: &Scene,
         folder: &Path,
@@ -184,9 +189,9 @@ impl Results {
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair: the simulation with which
-    /// the first thread computes, and the number of threads. After each profile `report` receives the results so far, on the
-    /// calling thread.
+    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair:
+    /// the simulation with which the first thread computes, and the number of threads. After each
+    /// profile `report` receives the results so far, on the calling thread.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -299,7 +304,8 @@ impl Results {
         Ok((results, merged))
     }
 
-    /// Returns the error for two different records with the same index, of which the second is in the file `other`.
+    /// Returns the error for two different records with the same index, of which the second is in
+    /// the file `other`.
     fn conflict(
         &self,
         folder: &Folder,
@@ -355,8 +361,8 @@ impl Results {
         }
     }
 
-    /// Returns the cells that cannot be computed on a profile: the number of the [cell](Plan), the index of the profile, and
-    /// the reason.
+    /// Returns the cells that cannot be computed on a profile: the number of the [cell](Plan), the
+    /// index of the profile, and the reason.
     pub fn failed(&self) -> impl Iterator<Item = (u64, u64, &str)> {
         let lines = self.plan.lines;
         self.failed
@@ -384,9 +390,9 @@ impl Results {
             .flatten()
     }
 
-    /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with the number of these
-    /// profiles. Results that were read from files have no such list; their column [`Quantity::Warnings`] has the number of
-    /// premises.
+    /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
+    /// the number of these profiles. Results that were read from files have no such list; their
+    /// column [`Quantity::Warnings`] has the number of premises.
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
@@ -400,7 +406,8 @@ impl Results {
         counted
     }
 
-    /// Returns the premises of the model that profiles do not meet in any [cell](Plan), each with the number of these profiles.
+    /// Returns the premises of the model that profiles do not meet in any [cell](Plan), each with
+    /// the number of these profiles.
     pub fn all_warnings(&self) -> Vec<CountedWarning> {
         let mut counted: Vec<CountedWarning> = Vec::new();
         for line in 0..self.plan.lines {
@@ -424,9 +431,9 @@ impl Results {
         &self.plan
     }
 
-    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`, in the order of
-    /// [`Plan::record`]. `None` if they are not computed or cannot be computed. A quantity without a value is NaN. A regime is
-    /// an index into [`asperity_scene::Regime::ALL`].
+    /// Returns the values of the quantities in a [cell](Plan) on the profile with the index `line`,
+    /// in the order of [`Plan::record`]. `None` if they are not computed or cannot be computed. A
+    /// quantity without a value is NaN. A regime is an index into [`asperity_scene::Regime::ALL`].
     pub fn record(&self, cell: u64, line: u64) -> Option<&[f64]> {
         self.at(cell * self.plan.lines + line)
     }
@@ -440,8 +447,8 @@ impl Results {
         (self.done[place as usize] && !self.failed.contains_key(&place)).then_some(values)
     }
 
-    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in the SI unit of the quantity.
-    /// `None` if the quantity is not recorded or has no value.
+    /// Returns the value of a quantity in a [cell](Plan) on the profile with the index `line`, in
+    /// the SI unit of the quantity. `None` if the quantity is not recorded or has no value.
     pub fn value(&self, cell: u64, line: u64, quantity: Quantity) -> Option<f64> {
         let column = self.plan.column(quantity)?;
         self.record(cell, line)
@@ -449,14 +456,14 @@ impl Results {
             .filter(|value| !value.is_nan())
     }
 
-    /// Returns the regime of adhesion of a [cell](Plan) on the profile with the index `line`; `None` if it is not recorded or
-    /// not known. `regime` is one of [`Quantity::REGIMES`].
+    /// Returns the regime of adhesion of a [cell](Plan) on the profile with the index `line`;
+    /// `None` if it is not recorded or not known. `regime` is one of [`Quantity::REGIMES`].
     pub fn regime(&self, cell: u64, line: u64, regime: Quantity) -> Option<Regime> {
         regime_of(self.value(cell, line, regime)?)
     }
 
-    /// Returns the index of each profile on which a [cell](Plan) is computed, with the values of the quantities in the order of
-    /// [`Plan::record`].
+    /// Returns the index of each profile on which a [cell](Plan) is computed, with the values of
+    /// the quantities in the order of [`Plan::record`].
     pub fn records_of(&self, cell: u64) -> impl Iterator<Item = (u64, &[f64])> {
         (0..self.plan.lines).filter_map(move |line| Some((line, self.record(cell, line)?)))
     }
@@ -470,7 +477,8 @@ impl Results {
         (0..self.plan.lines).all(|line| self.has(cell, line))
     }
 
-    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all profiles with a value.
+    /// Returns the values of a quantity in a [cell](Plan), in the SI unit of the quantity, on all
+    /// profiles with a value.
     pub fn values(&self, cell: u64, quantity: Quantity) -> Vec<f64> {
         let Some(column) = self.plan.column(quantity) else {
             return Vec::new();
@@ -481,7 +489,8 @@ impl Results {
             .collect()
     }
 
-    /// Returns the statistics of a quantity over the profiles of a [cell](Plan); `None` if no profile has a value.
+    /// Returns the statistics of a quantity over the profiles of a [cell](Plan); `None` if no
+    /// profile has a value.
     ///
     /// ```
     /// use asperity_data::Control;
@@ -499,8 +508,8 @@ impl Results {
         Statistics::of(self.values(cell, quantity), quantity.bounds())
     }
 
-    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for [`Quantity::Regime`], then for
-    /// [`Quantity::RegimeAfterZeroForce`].
+    /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for
+    /// [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
         let regime = |line, of| self.regime(cell, line, of);
         Quantity::REGIMES
@@ -519,15 +528,16 @@ impl Results {
             .collect()
     }
 
-    /// Returns a recorded quantity with a scale for the whole study, either the given one or one that suits all means.
+    /// Returns a recorded quantity with a scale for the whole study, either the given one or one
+    /// that suits all means.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means =
             (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
-    /// Returns the cells over one or two axes with the quantities of these layers. `places` has the indices of the values
-    /// on the other axes.
+    /// Returns the cells over one or two axes with the quantities of these layers. `places` has the
+    /// indices of the values on the other axes.
     pub(super) fn grid(
         &self,
         (across, up): (usize, Option<usize>),

@@ -1,15 +1,16 @@
 //! The numbers by which theories judge the adhesion between nominally flat, randomly rough bodies.
 //!
-//! The numbers are moments of the surface in two dimensions: rms height h, rms gradient g, and rms mean curvature c, which
-//! is half of the rms Laplacian. The equivalent profile has these moments by construction, C1D = πq C2D.
+//! The numbers are moments of the surface in two dimensions: rms height h, rms gradient g, and rms
+//! mean curvature c, which is half of the rms Laplacian. The equivalent profile has these moments
+//! by construction, C1D = πq C2D.
 
 use super::criterion::{Criterion, long_ranged, number};
 use asperity_scene::Governing;
 use asperity_surface::{Amplitude, SelfAffine};
 use std::f64::consts::{E, PI, TAU};
 
-/// Largest range of attraction divided by the gap (16/3)g²/c at which the criterion of Pastewka and Robbins holds; Monti,
-/// Sanner and Pastewka (2021).
+/// Largest range of attraction divided by the gap (16/3)g²/c at which the criterion of Pastewka and
+/// Robbins holds; Monti, Sanner and Pastewka (2021).
 const MOST_OF_GAP: f64 = 0.1;
 
 /// Hurst exponents at which the repulsion 0.75 q_L h E* e^(−2u/h) of the bearing area model holds.
@@ -68,14 +69,15 @@ impl RoughContact {
         ]
     }
 
-    /// Returns the rms mean curvature c of the surface in 1/m: half of its rms Laplacian, which is the rms curvature of the
-    /// profile.
+    /// Returns the rms mean curvature c of the surface in 1/m: half of its rms Laplacian, which is
+    /// the rms curvature of the profile.
     fn mean_curvature(&self) -> f64 {
         0.5 * self.amplitude.rms_curvature
     }
 
-    /// Elastic energy of the bodies pressed flat, divided by the work of adhesion, Persson and Tosatti (2001). Bodies
-    /// conform where they gain more energy than they store. The limit for ever shorter waves exists only for H > ½.
+    /// Elastic energy of the bodies pressed flat, divided by the work of adhesion, Persson and
+    /// Tosatti (2001). Bodies conform where they gain more energy than they store. The limit for
+    /// ever shorter waves exists only for H > ½.
     fn persson_tosatti(&self) -> Criterion {
         let rough = self
             .spectrum
@@ -86,12 +88,12 @@ impl RoughContact {
         PERSSON_TOSATTI.judge(value, &[long_ranged(self.tabor_number), rough])
     }
 
-    /// P = (g z₀/2ℓ)(g²/(c z₀))^(2/3) with ℓ = γ/E*, Pastewka and Robbins (2014), eq. (10). Contact spots have the mean
-    /// chord 4g/c and the mean pressure E*g/2 of a contact without adhesion. For P < π(3/16)^(2/3) the edge with a gap
-    /// below z₀ attracts more than the spots repel.
+    /// P = (g z₀/2ℓ)(g²/(c z₀))^(2/3) with ℓ = γ/E*, Pastewka and Robbins (2014), eq. (10). Contact
+    /// spots have the mean chord 4g/c and the mean pressure E*g/2 of a contact without adhesion.
+    /// For P < π(3/16)^(2/3) the edge with a gap below z₀ attracts more than the spots repel.
     ///
-    /// c is half of the Laplacian, as in the published example of `ContactEngineering/Adhesion`. With the whole Laplacian P
-    /// would be 1.6 times smaller.
+    /// c is half of the Laplacian, as in the published example of `ContactEngineering/Adhesion`.
+    /// With the whole Laplacian P would be 1.6 times smaller.
     fn pastewka_robbins(&self) -> Criterion {
         let (gradient, range) = (self.amplitude.rms_gradient, self.range);
         let scale = gradient.powi(2) / self.mean_curvature();
@@ -106,9 +108,10 @@ impl RoughContact {
         PASTEWKA_ROBBINS.judge(value, &[far])
     }
 
-    /// Returns h/h_c. The largest rms height h_c is the one at which the attraction γφ(u/h)/h of the bearing area exceeds
-    /// the repulsion 0.75 q_L h E* e^(−2u/h) at some mean gap u, with the normal density φ: h_c² = ℓλ_L e²/(0.75·√(2π)·2π)
-    /// = 0.626 ℓλ_L, published as 0.6; Ciavarella (2018).
+    /// Returns h/h_c. The largest rms height h_c is the one at which the attraction γφ(u/h)/h of
+    /// the bearing area exceeds the repulsion 0.75 q_L h E* e^(−2u/h) at some mean gap u, with the
+    /// normal density φ: h_c² = ℓλ_L e²/(0.75·√(2π)·2π) = 0.626 ℓλ_L, published as 0.6; Ciavarella
+    /// (2018).
     fn bearing_area(&self) -> Criterion {
         let Some(SelfAffine {
             hurst,
@@ -141,10 +144,12 @@ impl RoughContact {
         BEARING_AREA.judge(self.amplitude.rms_height / critical, &[soft, other])
     }
 
-    /// θ = (E*/γ)√(σ³/ρ), Fuller and Tabor (1975), with the rms height σ and the radius ρ = 1/c of the summits. Surfaces
-    /// bond by themselves for θ below 1, and never for θ above 12, Gui et al. (1999).
+    /// θ = (E*/γ)√(σ³/ρ), Fuller and Tabor (1975), with the rms height σ and the radius ρ = 1/c of
+    /// the summits. Surfaces bond by themselves for θ below 1, and never for θ above 12, Gui et al.
+    /// (1999).
     ///
-    /// Summits count as separate if together they cover at most the area, each pressed in by σ: πρσ times their density.
+    /// Summits count as separate if together they cover at most the area, each pressed in by σ: πρσ
+    /// times their density.
     fn fuller_tabor(&self) -> Criterion {
         let Summits { height, density } = Summits::of(self.amplitude);
         let curvature = self.mean_curvature();
@@ -176,8 +181,9 @@ struct Summits {
 }
 
 impl Summits {
-    /// Summits by the moments m₀ = h², m₂ = g²/2, m₄ = (3/8)⟨(∇²z)²⟩ of profiles cut from the surface: σ² = m₀(1 −
-    /// 0.8968/α) with Nayak's bandwidth α = m₀m₄/m₂² (Bush, Gibson and Keogh 1976), density (m₄/m₂)/(6π√3) (Nayak 1971).
+    /// Summits by the moments m₀ = h², m₂ = g²/2, m₄ = (3/8)⟨(∇²z)²⟩ of profiles cut from the
+    /// surface: σ² = m₀(1 − 0.8968/α) with Nayak's bandwidth α = m₀m₄/m₂² (Bush, Gibson and Keogh
+    /// 1976), density (m₄/m₂)/(6π√3) (Nayak 1971).
     fn of(amplitude: Amplitude) -> Summits {
         let Amplitude {
             rms_height,
@@ -198,7 +204,8 @@ impl Summits {
 mod tests {
     use super::*;
 
-    /// A self-affine contact of this H, whose waves begin at the roll-off of 1/100 of the length and end at 1/`ratio` of it.
+    /// A self-affine contact of this H, whose waves begin at the roll-off of 1/100 of the length
+    /// and end at 1/`ratio` of it.
     fn contact(
         hurst: f64,
         longest: f64,
@@ -305,8 +312,8 @@ mod tests {
         );
     }
 
-    /// The threshold of P from the balance of forces itself: the gap beside a contact strip of width d and radius R = 2/c,
-    /// integrated, gives the width that attracts.
+    /// The threshold of P from the balance of forces itself: the gap beside a contact strip of
+    /// width d and radius R = 2/c, integrated, gives the width that attracts.
     #[test]
     fn the_edge_of_spots_attracts_as_much_as_they_repel_at_the_threshold() {
         assert!(near(
@@ -328,7 +335,8 @@ mod tests {
             (0..10_000).map(slope).sum::<f64>() * step / radius
         };
         let width = root(1e-9 * half, half, |s| gap(s) - soft.range);
-        // Attraction (γ/z₀)·s on the perimeter against E*(g/2)·d/π, with the perimeter per area π/d.
+        // Attraction (γ/z₀)·s on the perimeter against E*(g/2)·d/π, with the perimeter per area
+        // π/d.
         let stretch = gradient / 2.0 * diameter / PI * soft.range / width;
         let found = RoughContact { stretch, ..soft }
             .pastewka_robbins()
@@ -376,7 +384,8 @@ mod tests {
         );
     }
 
-    /// Heights and number of the maxima of random surfaces, sums of plane waves, are those of the summits.
+    /// Heights and number of the maxima of random surfaces, sums of plane waves, are those of the
+    /// summits.
     #[test]
     fn summits_are_those_of_random_surfaces() {
         const SIDE: usize = 120;
@@ -447,7 +456,8 @@ mod tests {
         }
     }
 
-    /// θ compares the Hertzian force that presses a summit in by σ with its pull-off force by JKR theory.
+    /// θ compares the Hertzian force that presses a summit in by σ with its pull-off force by JKR
+    /// theory.
     #[test]
     fn theta_is_hertzian_repulsion_over_pull_off_force() {
         let narrow = contact(0.8, 1e-5, 2, 1e-8, 1e-9, 3e-10);

@@ -1,5 +1,5 @@
-//! Computation of the records of a plan that a folder lacks, on all processor cores. The results do not depend on the
-//! number of threads.
+//! Computation of the records of a plan that a folder lacks, on all processor cores. The results do
+//! not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
 use super::compute::Streaks;
@@ -18,17 +18,18 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Longest time that written records wait for the disk. A power cut loses waiting records, which are computed again. One
-/// sync takes tenths of a millisecond, and many on network file systems. On a local disk 100 000 records of 256 springs
-/// take 11 s with this wait, 12 s if each sync takes all records since the one before, and 190 s with a sync for each
-/// record. For cells of thousands of springs there is no difference.
+/// Longest time that written records wait for the disk. A power cut loses waiting records, which
+/// are computed again. One sync takes tenths of a millisecond, and many on network file systems. On
+/// a local disk 100 000 records of 256 springs take 11 s with this wait, 12 s if each sync takes
+/// all records since the one before, and 190 s with a sync for each record. For cells of thousands
+/// of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
 /// Number of records that may wait between computation and file.
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
-/// Progress of [`run_study`], counted in records of the [`Shard`] that it computes. A record has the values of one
-/// [cell](crate::Plan) on one random profile.
+/// Progress of [`run_study`], counted in records of the [`Shard`] that it computes. A record has
+/// the values of one [cell](crate::Plan) on one random profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StudyProgress {
     /// Number of records of the shard that exist now.
@@ -47,26 +48,28 @@ impl StudyProgress {
         self.done == self.total
     }
 
-    /// Returns how many records this run of [`run_study`] has computed per second so far; `None` before the first record.
+    /// Returns how many records this run of [`run_study`] has computed per second so far; `None`
+    /// before the first record.
     pub fn rate(&self) -> Option<f64> {
         rate(self.done - self.before, self.elapsed.as_secs_f64())
     }
 
-    /// Returns the estimated time for the missing records of the shard at [`StudyProgress::rate`]; `None` before the first
-    /// record.
+    /// Returns the estimated time for the missing records of the shard at [`StudyProgress::rate`];
+    /// `None` before the first record.
     pub fn left(&self) -> Option<Duration> {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
 }
 
-/// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new file in the folder.
-/// `threads` is the number of threads. `stop` is called after each loading. If it returns true, the computation ends without an
-/// error. `report` receives the progress several times a second and at the end.
+/// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
+/// file in the folder. `threads` is the number of threads. `stop` is called after each loading. If
+/// it returns true, the computation ends without an error. `report` receives the progress several
+/// times a second and at the end.
 ///
 /// # Errors
-/// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file cannot be read or written.
-/// Records written before the error are kept.
+/// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file
+/// cannot be read or written. Records written before the error are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,
@@ -89,7 +92,8 @@ pub fn run_study(
     if progress.is_complete() {
         return Ok(progress);
     }
-    // Read once, so that all threads compute from the same bytes, even if the file changes meanwhile.
+    // Read once, so that all threads compute from the same bytes, even if the file changes
+    // meanwhile.
     let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
     let (path, mut file) = folder.new_file(shard)?;
@@ -134,8 +138,8 @@ pub fn run_study(
     Ok(progress)
 }
 
-/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. The progress counts only
-/// records that have reached the disk.
+/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. The
+/// progress counts only records that have reached the disk.
 fn write(
     (path, file): (&Path, &mut File),
     receiver: Receiver<String>,

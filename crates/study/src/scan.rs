@@ -1,8 +1,9 @@
 //! Scan of a quantity over a range of numbers in which it may rise and fall.
 //!
-//! The quantity is first computed at numbers that are spread evenly. Intervals are then halved where the quantity may reach
-//! the target between two numbers: where the distance of the quantity from the target is no larger than its deviations from a
-//! straight line nearby, and where it turns close to the target.
+//! The quantity is first computed at numbers that are spread evenly. Intervals are then halved
+//! where the quantity may reach the target between two numbers: where the distance of the quantity
+//! from the target is no larger than its deviations from a straight line nearby, and where it turns
+//! close to the target.
 
 use super::coordinates::Coordinates;
 use asperity_scene::RunError;
@@ -14,10 +15,12 @@ pub(super) const INTERVALS: usize = 32;
 pub(super) const MOST_TRIED: usize = 192;
 /// Smallest share of the range, in coordinates, to which an interval is halved.
 const NARROWEST: f64 = 1.0 / 4096.0;
-/// Ratio of the distance from the target to the deviation from a straight line up to which an interval is halved.
+/// Ratio of the distance from the target to the deviation from a straight line up to which an
+/// interval is halved.
 const SAFETY: f64 = 4.0;
 
-/// Share of all values of the quantity within which it turns close to the target, divided by [`SAFETY`].
+/// Share of all values of the quantity within which it turns close to the target, divided by
+/// [`SAFETY`].
 const CLOSE: f64 = 1.0 / 400.0;
 
 /// A number and the quantity there, which is NaN if the quantity has no value.
@@ -77,7 +80,8 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Computes the quantity at all allowed numbers between those without a value at the ends of the range, if these are few.
+    /// Computes the quantity at all allowed numbers between those without a value at the ends of
+    /// the range, if these are few.
     fn complete(&mut self, compute: &mut Compute<'_>) -> Result<(), RunError> {
         let is_known = |tried: &Tried| !tried.value.is_nan();
         let first = self.tried.iter().position(is_known).unwrap_or(0);
@@ -147,7 +151,8 @@ impl Scan {
         suspects
     }
 
-    /// Returns true if a crossing may be missed: the quantity comes close to the target between two numbers.
+    /// Returns true if a crossing may be missed: the quantity comes close to the target between two
+    /// numbers.
     pub fn may_miss(&self) -> bool {
         let may_hide = |index: usize| {
             let ends = [self.tried[index].number, self.tried[index + 1].number];
@@ -188,7 +193,8 @@ impl Scan {
             return f64::INFINITY;
         }
         let distances = [(from - self.target).abs(), (to - self.target).abs()];
-        // Beyond both ends of an interval without a crossing, between the ends of one that has a crossing.
+        // Beyond both ends of an interval without a crossing, between the ends of one that has a
+        // crossing.
         let distance = if self.is_crossed(index) {
             0.5 * (to - from).abs()
         } else {
@@ -206,8 +212,8 @@ impl Scan {
         }
     }
 
-    /// Returns true if interval `index` has an end at which the quantity is closer to the target than at the numbers beside it,
-    /// and on the same side.
+    /// Returns true if interval `index` has an end at which the quantity is closer to the target
+    /// than at the numbers beside it, and on the same side.
     fn turns(&self, index: usize) -> bool {
         let distance = |point: usize| (self.tried[point].value - self.target).abs();
         let end = if distance(index) <= distance(index + 1) {
@@ -237,8 +243,9 @@ impl Scan {
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns how far the quantity may deviate from a straight line in interval `index`: the median deviation at the eight
-    /// numbers nearest to it. A single jump of the quantity causes deviations at two numbers only.
+    /// Returns how far the quantity may deviate from a straight line in interval `index`: the
+    /// median deviation at the eight numbers nearest to it. A single jump of the quantity causes
+    /// deviations at two numbers only.
     fn deviation(&self, index: usize) -> f64 {
         let width = self.width(index);
         let first = index.saturating_sub(3);
@@ -249,8 +256,8 @@ impl Scan {
         deviations.get(deviations.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Returns the deviation of the quantity at number `point` from a straight line through the neighbours, extrapolated to
-    /// an interval of this width if it is wider.
+    /// Returns the deviation of the quantity at number `point` from a straight line through the
+    /// neighbours, extrapolated to an interval of this width if it is wider.
     fn deviation_at(&self, point: usize, width: f64) -> Option<f64> {
         let [before, here, after] =
             [point.checked_sub(1)?, point, point + 1].map(|point| self.tried.get(point));

@@ -13,12 +13,13 @@ use super::stairs::{Stair, ratio_crossings, step_crossings};
 use asperity_scene::{RunError, Simulation};
 use std::cmp::Ordering;
 
-/// Relative difference up to which a value counts as the target. Energies are constant between two steps but for rounding.
+/// Relative difference up to which a value counts as the target. Energies are constant between two
+/// steps but for rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Question {
-    /// Answers the question on one profile. The second value is the reason why the scene could not be computed with one of
-    /// the numbers.
+    /// Answers the question on one profile. The second value is the reason why the scene could not
+    /// be computed with one of the numbers.
     ///
     /// # Errors
     /// Returns an error if `stop` returned true or if the memory does not suffice.
@@ -124,7 +125,8 @@ impl Search<'_> {
         let target = self.question.target;
         answer.is_proven = true;
         if to <= 0.0 || target <= 0.0 {
-            // The ratio exists above 0 N only, and it is zero only where F_a is zero: up to its first step.
+            // The ratio exists above 0 N only, and it is zero only where F_a is zero: up to its
+            // first step.
             let stairs = self.climb(&[from.max(0.0), to])?;
             let is_zero = stairs
                 .first()
@@ -172,8 +174,8 @@ impl Search<'_> {
                 .collect())
         })?;
         answer.is_proven = scan.is_complete();
-        // The number of patches and the place of the smallest force jump without a warning, and profiles with other numbers of
-        // waves are other profiles.
+        // The number of patches and the place of the smallest force jump without a warning, and
+        // profiles with other numbers of waves are other profiles.
         let jumps = coordinates.is_discrete()
             || matches!(
                 self.question.quantity,
@@ -186,8 +188,9 @@ impl Search<'_> {
         self.add_crossings(coordinates, &scan.tried, answer)
     }
 
-    /// Adds the numbers between which the quantity passes the target, or comes to rest on it. Between a number without a value
-    /// and one with a value other than the target, no crossing is known.
+    /// Adds the numbers between which the quantity passes the target, or comes to rest on it.
+    /// Between a number without a value and one with a value other than the target, no crossing is
+    /// known.
     fn add_crossings(
         &mut self,
         coordinates: &Coordinates,
@@ -211,7 +214,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Returns the number between two others at which the quantity passes the target, or comes to rest on it.
+    /// Returns the number between two others at which the quantity passes the target, or comes to
+    /// rest on it.
     fn crossing(
         &mut self,
         coordinates: &Coordinates,
@@ -251,7 +255,8 @@ impl Search<'_> {
         Ok(self.compute(&[number])?[0][0])
     }
 
-    /// Computes stairs of the adhesion force at preloads. The adhesion force is 0 if the unloading never pulls.
+    /// Computes stairs of the adhesion force at preloads. The adhesion force is 0 if the unloading
+    /// never pulls.
     fn climb(&mut self, preloads: &[f64]) -> Result<Vec<Stair>, RunError> {
         let records = self.compute(preloads)?;
         let stair = |(&preload, values): (&f64, &Vec<f64>)| {
@@ -265,7 +270,8 @@ impl Search<'_> {
         Ok(preloads.iter().zip(&records).map(stair).collect())
     }
 
-    /// Computes the recorded quantities at each of several numbers; NaN for those that have no value.
+    /// Computes the recorded quantities at each of several numbers; NaN for those that have no
+    /// value.
     fn compute(&mut self, numbers: &[f64]) -> Result<Vec<Vec<f64>>, RunError> {
         let question = self.question;
         let axis = Axis {

@@ -8,11 +8,13 @@ use super::quantity::Quantity;
 use super::results::Results;
 use asperity_data::{AxisScale, format_quantity, parse_quantity};
 
-/// Largest number of values of a second axis that is shown as curves. With more values the figure is a map.
+/// Largest number of values of a second axis that is shown as curves. With more values the figure
+/// is a map.
 const MOST_CURVES: usize = 5;
 const MOST_NAMED: usize = 12;
 
-/// Choice of the quantities, axes and values of a study that a figure shows. Each field is an option of `asperity sweep plot`.
+/// Choice of the quantities, axes and values of a study that a figure shows. Each field is an
+/// option of `asperity sweep plot`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
@@ -59,23 +61,25 @@ pub struct Selected {
     pub grid: Grid,
     /// Quantities that the figure shows, one in each panel.
     pub quantities: Vec<Quantity>,
-    /// True if the figure shows the rows of a grid with two axes as curves over the horizontal axis.
+    /// True if the figure shows the rows of a grid with two axes as curves over the horizontal
+    /// axis.
     pub curves: bool,
-    /// Sentence that states the preload of the figure, if the study has several preloads and the figure shows the first one
-    /// because the user chose none; otherwise `None`.
+    /// Sentence that states the preload of the figure, if the study has several preloads and the
+    /// figure shows the first one because the user chose none; otherwise `None`.
     pub note: Option<String>,
 }
 
-/// Indices of the axes that the user named as horizontal and vertical, and for each axis of the study the index of its
-/// fixed value.
+/// Indices of the axes that the user named as horizontal and vertical, and for each axis of the
+/// study the index of its fixed value.
 type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
 
 impl Selection {
     /// Returns the part of a study that the fields of this selection choose.
     ///
     /// # Errors
-    /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error if, apart from the axis of
-    /// preloads, more than two axes have several values and are not fixed by [`Selection::at`].
+    /// Returns an error if the study lacks a chosen quantity, axis or value. It is also an error
+    /// if, apart from the axis of preloads, more than two axes have several values and are not
+    /// fixed by [`Selection::at`].
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
@@ -199,8 +203,9 @@ impl Selection {
         Ok(([across, up], fixed))
     }
 
-    /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the user names them, H
-    /// is horizontal and κ or e_el/γ vertical, or curves extend along the longer of two axes.
+    /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless
+    /// the user names them, H is horizontal and κ or e_el/γ vertical, or curves extend along the
+    /// longer of two axes.
     fn free(
         &self,
         axes: &[Axis],
@@ -263,14 +268,16 @@ fn first_preload(
     ))
 }
 
-/// Returns true if axis `one` has few values and axis `other` many. The few values are then curves over the other axis.
+/// Returns true if axis `one` has few values and axis `other` many. The few values are then curves
+/// over the other axis.
 fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
     let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
     few(one) && !few(other)
 }
 
-/// Returns a quantity shown as curves. A single curve has a linear scale, with a second, logarithmic chart for small
-/// values. Several curves need one scale on which the highest does not hide the others.
+/// Returns a quantity shown as curves. A single curve has a linear scale, with a second,
+/// logarithmic chart for small values. Several curves need one scale on which the highest does not
+/// hide the others.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));

@@ -1,5 +1,5 @@
-//! The sensitivity of the results of a scene: how the medians over random profiles change when each number of the scene changes
-//! by a tenth.
+//! The sensitivity of the results of a scene: how the medians over random profiles change when each
+//! number of the scene changes by a tenth.
 
 use super::axis::{Axis, Shapes, Spacing};
 use super::cells::Streak;
@@ -15,17 +15,18 @@ use asperity_data::median;
 use asperity_scene::{CheckedScene, Scene, SceneErrors, Simulation};
 use std::cmp::Reverse;
 
-/// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result that the scene does not
-/// have.
+/// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result
+/// that the scene does not have.
 type Values = [Option<f64>; 3];
 
 /// Results of a scene in which one number is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Changed {
-    /// Medians of the results over the profiles in SI units, in the order of [`Sensitivity::RESULTS`].
+    /// Medians of the results over the profiles in SI units, in the order of
+    /// [`Sensitivity::RESULTS`].
     pub medians: Values,
-    /// For each result, the smallest and the largest relative change among the profiles; `None` if the profile of the scene is
-    /// fixed.
+    /// For each result, the smallest and the largest relative change among the profiles; `None` if
+    /// the profile of the scene is fixed.
     pub range: [Option<(f64, f64)>; 3],
 }
 
@@ -34,32 +35,38 @@ pub struct Changed {
 pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
-    /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A wavelength is the one that is
-    /// computed, of which a whole number fits on the length.
+    /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A
+    /// wavelength is the one that is computed, of which a whole number fits on the length.
     pub value: f64,
-    /// First the smaller, then the larger value of the number, each with the results for this value; `None` if the scene does
-    /// not allow the value. The changes of a wavelength and of a whole number differ from [`Sensitivity::STEP`].
+    /// First the smaller, then the larger value of the number, each with the results for this
+    /// value; `None` if the scene does not allow the value. The changes of a wavelength and of a
+    /// whole number differ from [`Sensitivity::STEP`].
     pub sides: [(f64, Option<Changed>); 2],
 }
 
 impl Influence {
-    /// Returns the change of the number divided by its size. `side` is 0 for the smaller value and 1 for the larger one.
+    /// Returns the change of the number divided by its size. `side` is 0 for the smaller value and
+    /// 1 for the larger one.
     pub fn step(&self, side: usize) -> f64 {
         (self.sides[side].0 - self.value) / self.value.abs()
     }
 }
 
-/// How much the results of a scene change if one number of the scene is changed by a tenth, for each number.
+/// How much the results of a scene change if one number of the scene is changed by a tenth, for
+/// each number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
     pub profiles: u64,
-    /// Medians over the profiles of the results of the unchanged scene in SI units, in the order of [`Sensitivity::RESULTS`].
+    /// Medians over the profiles of the results of the unchanged scene in SI units, in the order of
+    /// [`Sensitivity::RESULTS`].
     pub present: Values,
-    /// Smallest results, then largest results of the unchanged scene among the profiles, in SI units and in the order of
-    /// [`Sensitivity::RESULTS`]; `None` if the profile of the scene is fixed.
+    /// Smallest results, then largest results of the unchanged scene among the profiles, in SI
+    /// units and in the order of [`Sensitivity::RESULTS`]; `None` if the profile of the scene is
+    /// fixed.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene. Zeros and counts, such as the number of springs, are left out.
+    /// Results for changes of each number of the scene. Zeros and counts, such as the number of
+    /// springs, are left out.
     pub influences: Vec<Influence>,
 }
 
@@ -67,8 +74,9 @@ pub struct Sensitivity {
 type Solved = Vec<[f64; 3]>;
 
 impl Sensitivity {
-    /// Relative change by which each number of the scene is made smaller and larger. A whole number changes by at least 1, and a
-    /// wavelength by at least one wave on the length. [`Influence::step`] is the change that is made.
+    /// Relative change by which each number of the scene is made smaller and larger. A whole number
+    /// changes by at least 1, and a wavelength by at least one wave on the length.
+    /// [`Influence::step`] is the change that is made.
     pub const STEP: f64 = 0.1;
 
     /// Results of the scene whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
@@ -78,12 +86,14 @@ impl Sensitivity {
         Quantity::DissipatedEnergy,
     ];
 
-    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random profiles. There are as many
-    /// profiles as [`Ensemble::profiles_of`] returns. A scene with κ instead of a work of adhesion keeps κ when another number
-    /// changes. Where the length changes, the numbers of waves on it stay, so wavelengths change with it.
+    /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
+    /// profiles. There are as many profiles as [`Ensemble::profiles_of`] returns. A scene with κ
+    /// instead of a work of adhesion keeps κ when another number changes. Where the length changes,
+    /// the numbers of waves on it stay, so wavelengths change with it.
     ///
-    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads, which does not change the
-    /// results. After each profile `report` receives the sensitivity over the profiles so far.
+    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads,
+    /// which does not change the results. After each profile `report` receives the sensitivity over
+    /// the profiles so far.
     ///
     /// # Errors
     /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
@@ -94,8 +104,17 @@ impl Sensitivity {
     ///
     /// // F_a = (3/2)πγR of a sphere is in proportion to γ.
     /// let scene = open("jkr-sphere")?.set("numerics.points", "1024")?;
-    /// let found = Sensitivity::of(scene.scene(), (Simulation::default(), 1), &|| false, &mut |_| ())?;
-    /// let work = found.influences.iter().find(|one| one.axis.path == "adhesion.work").ok_or("no work")?;
+    /// let found = Sensitivity::of(
+    ///     scene.scene(),
+    ///     (Simulation::default(), 1),
+    ///     &|| false,
+    ///     &mut |_| (),
+    /// )?;
+    /// let work = found
+    ///     .influences
+    ///     .iter()
+    ///     .find(|one| one.axis.path == "adhesion.work")
+    ///     .ok_or("no work")?;
     /// let larger = work.sides[1].1.ok_or("refused")?.medians[0].ok_or("no force")?;
     /// assert!((larger / found.present[0].ok_or("no force")? - 1.1).abs() < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -216,14 +235,15 @@ impl Sensitivity {
         }
     }
 
-    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A change is `None` if a value is
-    /// missing, or if the value in [`Sensitivity::present`] is zero.
+    /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A
+    /// change is `None` if a value is missing, or if the value in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
         [0, 1, 2]
             .map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
     }
 
-    /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene has an adhesion force.
+    /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene
+    /// has an adhesion force.
     pub fn missing(&self) -> Option<&'static str> {
         let is_known = self.present[0].is_some_and(|force| force != 0.0);
         (!is_known).then_some(
@@ -231,8 +251,9 @@ impl Sensitivity {
         )
     }
 
-    /// Returns the numbers of the scene sorted by the relative change that they cause in one result, the largest change first.
-    /// `result` is the index of the result in [`Sensitivity::RESULTS`].
+    /// Returns the numbers of the scene sorted by the relative change that they cause in one
+    /// result, the largest change first. `result` is the index of the result in
+    /// [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
         let size = |influence: &&Influence| {
@@ -247,7 +268,8 @@ impl Sensitivity {
     }
 }
 
-/// Returns the number with which a scene computes: of a wavelength a whole number fits on the length.
+/// Returns the number with which a scene computes: of a wavelength a whole number fits on the
+/// length.
 fn computed(allowed: Allowed, value: f64) -> f64 {
     if matches!(allowed, Allowed::Fractions(_)) {
         allowed.nearest(value)
@@ -256,8 +278,9 @@ fn computed(allowed: Allowed, value: f64) -> f64 {
     }
 }
 
-/// Returns a number that is changed up or down by the share [`Sensitivity::STEP`], or to the nearest other number that is
-/// allowed, and the scene with this number. The scene is `None` if the number is not allowed.
+/// Returns a number that is changed up or down by the share [`Sensitivity::STEP`], or to the
+/// nearest other number that is allowed, and the scene with this number. The scene is `None` if the
+/// number is not allowed.
 fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<CheckedScene>) {
     let step = Sensitivity::STEP * value.abs();
     let number = match Allowed::of(axis, scene) {
@@ -279,7 +302,8 @@ fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<Ch
     )
 }
 
-/// Returns the scene with another value of a number. Where the length changes, the numbers of waves on it stay.
+/// Returns the scene with another value of a number. Where the length changes, the numbers of waves
+/// on it stay.
 fn with_number(scene: &Scene, axis: &Axis, number: f64) -> Result<Scene, SceneErrors> {
     let mut values = vec![(axis.clone(), number)];
     if let Allowed::Multiples(_) = Allowed::of(axis, scene) {
@@ -356,7 +380,8 @@ mod tests {
         assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
     }
 
-    /// Wavelengths move by whole waves, and the results are those of a scene with these modes. The length moves with its waves.
+    /// Wavelengths move by whole waves, and the results are those of a scene with these modes. The
+    /// length moves with its waves.
     #[test]
     fn wavelengths_change_by_whole_waves() {
         let base = open("pressure-sensitive")

@@ -6,8 +6,8 @@ use std::str::FromStr;
 
 const MOST: u32 = 1_000_000;
 
-/// Part of a plan that one process computes. The plan is divided into `count` parts of about the same size, and this is part
-/// number `number`.
+/// Part of a plan that one process computes. The plan is divided into `count` parts of about the
+/// same size, and this is part number `number`.
 ///
 /// ```
 /// use asperity_study::Shard;

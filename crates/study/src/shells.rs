@@ -4,7 +4,8 @@ use asperity_surface::{EquivalentLine, SelfAffine};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Roughness of the profiles or of the squares of a comparison, as it follows from the waves that were computed.
+/// Roughness of the profiles or of the squares of a comparison, as it follows from the waves that
+/// were computed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ComparedRoughness {
     /// Root mean square height h, m.
@@ -52,8 +53,8 @@ impl Spectrum {
         0.5 * amplitude * amplitude
     }
 
-    /// Returns the mean square height in m² of a wave of a surface that has this spectrum at all wave numbers. `waves` is
-    /// the number of periods over the side.
+    /// Returns the mean square height in m² of a wave of a surface that has this spectrum at all
+    /// wave numbers. `waves` is the number of periods over the side.
     fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         match self {
             Spectrum::SelfAffine {
@@ -65,14 +66,15 @@ impl Spectrum {
     }
 }
 
-/// Waves of a random square. A square of the side L has waves with whole numbers of periods along both sides, so that few
-/// of them have nearly the wave number of a mode of the line. The waves with |k| from k − ½ to k + ½ periods over the side
-/// are shell k. Their variances are those of the spectrum times a factor of the shell. With this factor they sum to the
-/// variance A_k²/2 of mode k, so that square and line have the same rms height.
+/// Waves of a random square. A square of the side L has waves with whole numbers of periods along
+/// both sides, so that few of them have nearly the wave number of a mode of the line. The waves
+/// with |k| from k − ½ to k + ½ periods over the side are shell k. Their variances are those of the
+/// spectrum times a factor of the shell. With this factor they sum to the variance A_k²/2 of mode
+/// k, so that square and line have the same rms height.
 ///
-/// In a shell the variances fall by a further factor 1/|k|. Most waves of the first shells are shorter than the mode of
-/// their shell, and with this factor less of the variance belongs to them: e_el of modes 1 to 8 exceeds that of the line
-/// by 4 to 5 %, without the factor by 4 to 7 %.
+/// In a shell the variances fall by a further factor 1/|k|. Most waves of the first shells are
+/// shorter than the mode of their shell, and with this factor less of the variance belongs to them:
+/// e_el of modes 1 to 8 exceeds that of the line by 4 to 5 %, without the factor by 4 to 7 %.
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,
@@ -105,7 +107,8 @@ impl Shells {
         shells
     }
 
-    /// Calls a function with the shell, as an index from the first mode on, and the number of periods of each wave.
+    /// Calls a function with the shell, as an index from the first mode on, and the number of
+    /// periods of each wave.
     fn for_each_wave(&self, mut call: impl FnMut(usize, f64, &Shells)) {
         let most = self.modes.1 as i64 + 1;
         // A quarter of all waves; a quarter turn makes the others.
@@ -121,7 +124,8 @@ impl Shells {
         }
     }
 
-    /// Returns the index of the shell of a wave, from the first mode on; `None` for a wave that the squares do not have.
+    /// Returns the index of the shell of a wave, from the first mode on; `None` for a wave that the
+    /// squares do not have.
     fn shell(&self, waves: f64) -> Option<usize> {
         // No wave lies on the edge of a shell: the square of k + ½ is no whole number.
         let mode = waves.round() as u64;
@@ -131,7 +135,8 @@ impl Shells {
             .then(|| (mode - first) as usize)
     }
 
-    /// Returns the mean square height in m² that a wave adds to the square. `waves` is the number of periods over the side.
+    /// Returns the mean square height in m² that a wave adds to the square. `waves` is the number
+    /// of periods over the side.
     pub fn variance(&self, waves: f64) -> f64 {
         match self.shell(waves) {
             Some(shell) => self.factors[shell] * self.variance_before_scaling(waves),
@@ -180,7 +185,8 @@ mod tests {
         }
     }
 
-    /// Squares and lines have the same rms height, and nearly the same rms gradient and elastic energy.
+    /// Squares and lines have the same rms height, and nearly the same rms gradient and elastic
+    /// energy.
     #[test]
     fn a_square_is_as_rough_as_the_line() {
         let height = 4e-7;
@@ -228,7 +234,8 @@ mod tests {
         }
     }
 
-    /// The stated roughness is that of the heights, whose gradients are differences over a fine grid.
+    /// The stated roughness is that of the heights, whose gradients are differences over a fine
+    /// grid.
     #[test]
     fn the_heights_have_the_stated_roughness() {
         let cells = 256;

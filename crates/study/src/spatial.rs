@@ -1,4 +1,5 @@
-//! The body of a scene in three dimensions: one random square on a half-space, loaded without and with adhesion.
+//! The body of a scene in three dimensions: one random square on a half-space, loaded without and
+//! with adhesion.
 
 use super::error::StudyError;
 use super::shells::Shells;
@@ -25,7 +26,8 @@ pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
-    /// Factor of the heights of the roughness in contacts with adhesion. With it squares and lines have the same e_el/γ.
+    /// Factor of the heights of the roughness in contacts with adhesion. With it squares and lines
+    /// have the same e_el/γ.
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
@@ -150,7 +152,8 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Returns the adhesion force in N, or the indentation in m under the last force if there is no adhesion.
+    /// Returns the adhesion force in N, or the indentation in m under the last force if there is no
+    /// adhesion.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
             Some(pulling) => Some(pulling.adhesion_force),
@@ -175,8 +178,8 @@ impl Body {
                 .max(3 * heights)
     }
 
-    /// Loads the square with these random phases to each force without adhesion, and in a loop to the turning point and
-    /// back with adhesion.
+    /// Loads the square with these random phases to each force without adhesion, and in a loop to
+    /// the turning point and back with adhesion.
     pub fn load(
         &self,
         cells: usize,
@@ -208,8 +211,8 @@ impl Body {
         Ok(loads)
     }
 
-    /// Returns the heights in m of the square with these random phases, row by row. The heights of the roughness are
-    /// multiplied by a factor.
+    /// Returns the heights in m of the square with these random phases, row by row. The heights of
+    /// the roughness are multiplied by a factor.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(
@@ -231,7 +234,8 @@ impl Body {
         Ok(heights)
     }
 
-    /// Brings a square with adhesion to first touch. `works` are the works of adhesion on closing and on opening, J/m².
+    /// Brings a square with adhesion to first touch. `works` are the works of adhesion on closing
+    /// and on opening, J/m².
     fn begin_loop<'a>(
         &self,
         heights: &[f64],

@@ -1,4 +1,5 @@
-//! Loops of random squares in three dimensions for comparison with the profile, as far as they are computed.
+//! Loops of random squares in three dimensions for comparison with the profile, as far as they are
+//! computed.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -13,11 +14,14 @@ use asperity_scene::{CheckedScene, Simulation};
 pub struct SquareLoops {
     /// Number of squares that the complete comparison has.
     pub maps: u64,
-    /// Force curve of each computed square from first touch on: points with indentation in m and force in N.
+    /// Force curve of each computed square from first touch on: points with indentation in m and
+    /// force in N.
     pub curves: Vec<Vec<(f64, f64)>>,
-    /// Adhesion force of each random profile in N, or its indentation at the preload in m if the scene has no adhesion.
+    /// Adhesion force of each random profile in N, or its indentation at the preload in m if the
+    /// scene has no adhesion.
     pub lines: Vec<f64>,
-    /// Adhesion force of each computed square in N, or its indentation at the preload in m if the scene has no adhesion.
+    /// Adhesion force of each computed square in N, or its indentation at the preload in m if the
+    /// scene has no adhesion.
     pub squares: Vec<f64>,
     /// Estimated share of the computation of the squares that is done, from 0 to 1.
     pub share: f64,
@@ -26,9 +30,10 @@ pub struct SquareLoops {
 }
 
 impl SquareLoops {
-    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`]. `simulation` knows the
-    /// folder of the measured files of the scene, and `jobs` is the number of threads. `report` receives the curves so far
-    /// at the beginning, after each hundredth of the computation, and after each square.
+    /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`].
+    /// `simulation` knows the folder of the measured files of the scene, and `jobs` is the number
+    /// of threads. `report` receives the curves so far at the beginning, after each hundredth of
+    /// the computation, and after each square.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
@@ -77,8 +82,8 @@ impl SquareLoops {
         true
     }
 
-    /// Compares the values [`SquareLoops::lines`] of the profiles with the values [`SquareLoops::squares`]; `None`
-    /// before the first square is computed.
+    /// Compares the values [`SquareLoops::lines`] of the profiles with the values
+    /// [`SquareLoops::squares`]; `None` before the first square is computed.
     pub fn headline(&self) -> Option<Compared> {
         let values = Values {
             lines: self.lines.clone(),
@@ -88,9 +93,10 @@ impl SquareLoops {
         values.compared()
     }
 
-    /// Returns the mean and the scatter of the force of the computed squares as a function of the indentation. There is one
-    /// band for loading, and a second band for unloading if the scene has adhesion. A band is three curves: mean force minus
-    /// standard deviation, mean force, and mean force plus standard deviation.
+    /// Returns the mean and the scatter of the force of the computed squares as a function of the
+    /// indentation. There is one band for loading, and a second band for unloading if the scene has
+    /// adhesion. A band is three curves: mean force minus standard deviation, mean force, and mean
+    /// force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
         let stages = |curve: &Vec<(f64, f64)>| {
             let deepest = (0..curve.len())
@@ -144,7 +150,8 @@ impl SquareLoops {
 /// Steps of a band.
 const BAND_POINTS: usize = 100;
 
-/// Returns the force in N at an indentation in m, between points in the order of their indentations.
+/// Returns the force in N at an indentation in m, between points in the order of their
+/// indentations.
 fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
     let after = points
         .partition_point(|point| point.0 < indentation)

@@ -1,5 +1,5 @@
-//! Crossings of quantities that follow from the adhesion force over the preload, which rises in steps and is constant between
-//! two steps.
+//! Crossings of quantities that follow from the adhesion force over the preload, which rises in
+//! steps and is constant between two steps.
 
 use super::bracket::WITHIN;
 use super::coordinates::Coordinates;
@@ -15,7 +15,8 @@ const WIDE: f64 = 4.0;
 const LEAST: f64 = 1e-20;
 /// Ratio of the ends of the interval that is cut off from an interval from 0 N.
 const FROM_ZERO: f64 = 16.0;
-/// Smallest share of the range, in coordinates, to which an interval with a step is halved if it has no crossing.
+/// Smallest share of the range, in coordinates, to which an interval with a step is halved if it
+/// has no crossing.
 const NARROWEST: f64 = 1.0 / 4096.0;
 
 /// A preload in N with the adhesion force F_a in N after it and the value of a quantity.
@@ -57,8 +58,8 @@ impl Flight {
         high - low > SAME * high.abs()
     }
 
-    /// Looks for preloads at which F_a is `ratio` times the preload. `depth` is the number of splits before, and `range` the
-    /// length of the searched range in N.
+    /// Looks for preloads at which F_a is `ratio` times the preload. `depth` is the number of
+    /// splits before, and `range` the length of the searched range in N.
     fn look(&self, ratio: f64, depth: usize, range: f64) -> Found {
         let (low, high) = (self.low, self.high);
         let excess = |stair: Stair| stair.adhesion_force - ratio * stair.preload;
@@ -85,7 +86,8 @@ impl Flight {
                 Found::Nothing
             };
         }
-        // On the stair of the lower end the crossing is here. Above the second preload the ratio is smaller everywhere.
+        // On the stair of the lower end the crossing is here. Above the second preload the ratio is
+        // smaller everywhere.
         let stair = if is_above[0] { low } else { high };
         let preload = at_most(stair.adhesion_force, ratio);
         if depth.is_multiple_of(2) && low.preload < preload && preload < high.preload {
@@ -115,7 +117,8 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Returns the preloads between two others, at least 0 N, at which F_a is `ratio` times the preload. The ratio is above zero.
+/// Returns the preloads between two others, at least 0 N, at which F_a is `ratio` times the
+/// preload. The ratio is above zero.
 pub(super) fn ratio_crossings(
     ends: [f64; 2],
     ratio: f64,
@@ -168,8 +171,9 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Returns neighbouring stairs between which a quantity passes the target that is constant wherever F_a is constant. The
-/// second value is true if such a pair may be missing, because two steps are closer together than the stairs.
+/// Returns neighbouring stairs between which a quantity passes the target that is constant wherever
+/// F_a is constant. The second value is true if such a pair may be missing, because two steps are
+/// closer together than the stairs.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,
@@ -225,7 +229,8 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 
-    /// Stairs with the adhesion force after the last of the steps (preload, adhesion force) up to a preload.
+    /// Stairs with the adhesion force after the last of the steps (preload, adhesion force) up to a
+    /// preload.
     fn stairs(steps: &[(f64, f64)], preloads: &[f64]) -> Vec<Stair> {
         let stair = |&preload: &f64| {
             let adhesion_force = steps

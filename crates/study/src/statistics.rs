@@ -1,4 +1,5 @@
-//! Statistics over random profiles: mean, spread and quartiles of a quantity, and numbers of profiles in each regime.
+//! Statistics over random profiles: mean, spread and quartiles of a quantity, and numbers of
+//! profiles in each regime.
 
 use asperity_data::{
     format_range, format_rounded, mean, quantile, quartiles, standard_deviation, student_quantile,
@@ -14,8 +15,8 @@ const AGREEING_SHARE: f64 = 0.75;
 
 /// Smallest number of profiles whose median has an interval.
 const FEWEST: usize = 4;
-/// Half the width of the interval of a median in quantiles, times the root of the number of profiles. It is the normal
-/// approximation of the binomial distribution for 95 of 100 cases.
+/// Half the width of the interval of a median in quantiles, times the root of the number of
+/// profiles. It is the normal approximation of the binomial distribution for 95 of 100 cases.
 const HALF: f64 = 0.98;
 
 /// Share of one profile in a mean above which a warning is given.
@@ -28,31 +29,36 @@ pub struct Statistics {
     pub count: usize,
     /// Mean of the quantity over the profiles with a value.
     pub mean: f64,
-    /// Lower quartile, median and upper quartile of the quantity, interpolated between neighbouring values.
+    /// Lower quartile, median and upper quartile of the quantity, interpolated between neighbouring
+    /// values.
     pub quartiles: [f64; 3],
     /// Smallest and largest value of the quantity among the profiles.
     pub range: (f64, f64),
-    /// Lower and upper end of the 95 % confidence interval of the median, for any distribution. With 8 profiles it holds the
-    /// median of infinitely many profiles in about 93 of 100 cases, with 16 and more in about 95. `None` for fewer than 4
-    /// values.
+    /// Lower and upper end of the 95 % confidence interval of the median, for any distribution.
+    /// With 8 profiles it holds the median of infinitely many profiles in about 93 of 100 cases,
+    /// with 16 and more in about 95. `None` for fewer than 4 values.
     pub median_interval: Option<(f64, f64)>,
-    /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single value.
+    /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single
+    /// value.
     #[serde(flatten)]
     pub spread: Option<Spread>,
 }
 
-/// Spread of the values of a quantity over several random profiles, and confidence interval of the mean.
+/// Spread of the values of a quantity over several random profiles, and confidence interval of the
+/// mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Sample standard deviation of the values, with the divisor `count − 1`.
     pub standard_deviation: f64,
-    /// Standard error of the mean: the standard deviation divided by the square root of the number of values.
+    /// Standard error of the mean: the standard deviation divided by the square root of the number
+    /// of values.
     pub standard_error: f64,
-    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the quantity has a bound, such as 0
-    /// for a force, the interval does not reach this bound.
+    /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the
+    /// quantity has a bound, such as 0 for a force, the interval does not reach this bound.
     ///
-    /// The interval assumes that the mean of these values is normally distributed. If few of many profiles make most of the
-    /// mean, it is too narrow: for F_a(d=0) it holds the mean in about 82 of 100 cases with 8 profiles, 86 with 32 and 92 with
+    /// The interval assumes that the mean of these values is normally distributed. If few of many
+    /// profiles make most of the mean, it is too narrow: for F_a(d=0) it holds the mean in about 82
+    /// of 100 cases with 8 profiles, 86 with 32 and 92 with
     /// 64. [`Statistics::median_interval`] has no such assumption.
     pub confidence_interval: (f64, f64),
 }
@@ -61,8 +67,9 @@ pub struct Spread {
 type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Computes the statistics of values of a quantity; `None` if there are none. `bounds` are the smallest and the largest
-    /// value that the quantity can have, −∞ and ∞ if it has no bounds. Values that are not finite are left out.
+    /// Computes the statistics of values of a quantity; `None` if there are none. `bounds` are the
+    /// smallest and the largest value that the quantity can have, −∞ and ∞ if it has no bounds.
+    /// Values that are not finite are left out.
     ///
     /// ```
     /// use asperity_study::{Quantity, Statistics};
@@ -107,8 +114,8 @@ impl Statistics {
         })
     }
 
-    /// Statistics that a table shows of each quantity, one in each column: the last part of the name of the column, such as
-    /// `median`, and the function that returns the value in the column.
+    /// Statistics that a table shows of each quantity, one in each column: the last part of the
+    /// name of the column, such as `median`, and the function that returns the value in the column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -121,12 +128,16 @@ impl Statistics {
         ("max", |all| Some(all.range.1)),
     ];
 
-    /// Returns text with the median, the quartiles and the range, or with the value if there is only one. `unit` is the SI unit
-    /// of the quantity.
+    /// Returns text with the median, the quartiles and the range, or with the value if there is
+    /// only one. `unit` is the SI unit of the quantity.
     ///
     /// ```
-    /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY)).expect("three values");
-    /// assert_eq!(all.words("N"), "median 2 µN (quartiles 1.5 to 2.5 µN, range 1 to 3 µN)");
+    /// let all = asperity_study::Statistics::of(vec![1e-6, 2e-6, 3e-6], (0.0, f64::INFINITY))
+    ///     .expect("three values");
+    /// assert_eq!(
+    ///     all.words("N"),
+    ///     "median 2 µN (quartiles 1.5 to 2.5 µN, range 1 to 3 µN)"
+    /// );
     /// ```
     pub fn words(&self, unit: &str) -> String {
         let ([lower, median, upper], (least, most)) = (self.quartiles, self.range);
@@ -139,8 +150,9 @@ impl Statistics {
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
-    /// Returns a warning if there are at least three values and the largest value is more than half of the sum of all values;
-    /// otherwise `None`. `what` is the name of the quantity in the sentence.
+    /// Returns a warning if there are at least three values and the largest value is more than half
+    /// of the sum of all values; otherwise `None`. `what` is the name of the quantity in the
+    /// sentence.
     pub fn warning(&self, what: &str) -> Option<String> {
         let share = self
             .share_of_largest()
@@ -151,14 +163,15 @@ impl Statistics {
         ))
     }
 
-    /// Returns the largest value of the quantity divided by the sum of the values on all profiles; `None` if a value is negative
-    /// or the sum is zero.
+    /// Returns the largest value of the quantity divided by the sum of the values on all profiles;
+    /// `None` if a value is negative or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
         let share = self.range.1 / (self.mean * self.count as f64);
         Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a single value each end is the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a
+    /// single value each end is the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -169,9 +182,9 @@ impl Statistics {
     }
 }
 
-/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added to the mean. With one bound
-/// it is added to the logarithm of the distance from the bound, with two bounds to the logarithm of the ratio of both
-/// distances. The interval never reaches a bound.
+/// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added
+/// to the mean. With one bound it is added to the logarithm of the distance from the bound, with
+/// two bounds to the logarithm of the ratio of both distances. The interval never reaches a bound.
 fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     let (above, below) = (mean - least, most - mean);
     // Rounding may have carried the mean itself across a bound.
@@ -189,8 +202,8 @@ fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
     (end(-half), end(half))
 }
 
-/// Returns an interval of ascending values that holds the median of any distribution in about 95 of 100 cases; `None` for
-/// few values.
+/// Returns an interval of ascending values that holds the median of any distribution in about 95 of
+/// 100 cases; `None` for few values.
 pub(crate) fn median_interval(ascending: &[f64]) -> Option<(f64, f64)> {
     let count = ascending.len();
     if count < FEWEST {
@@ -214,7 +227,8 @@ pub struct RegimeCounts {
 }
 
 impl RegimeCounts {
-    /// Counts the profiles in each regime. `regimes` has the regime of each profile; `None` is counted in [`RegimeCounts::none`].
+    /// Counts the profiles in each regime. `regimes` has the regime of each profile; `None` is
+    /// counted in [`RegimeCounts::none`].
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = [0; 4];
         regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
@@ -241,22 +255,31 @@ impl RegimeCounts {
         self.known().iter().sum::<usize>() + self.none
     }
 
-    /// Returns the most frequent regime and the number of profiles in this regime. `None` if no regime is known.
+    /// Returns the most frequent regime and the number of profiles in this regime. `None` if no
+    /// regime is known.
     ///
     /// ```
     /// use asperity_scene::Regime;
     /// use asperity_study::RegimeCounts;
     ///
-    /// let regimes = [Some(Regime::NonAdhesive), Some(Regime::PressureSensitive), Some(Regime::NonAdhesive), None];
+    /// let regimes = [
+    ///     Some(Regime::NonAdhesive),
+    ///     Some(Regime::PressureSensitive),
+    ///     Some(Regime::NonAdhesive),
+    ///     None,
+    /// ];
     /// let counts = RegimeCounts::of(regimes.into_iter());
-    /// assert_eq!((counts.profiles(), counts.most()), (4, Some((Regime::NonAdhesive, 2))));
+    /// assert_eq!(
+    ///     (counts.profiles(), counts.most()),
+    ///     (4, Some((Regime::NonAdhesive, 2)))
+    /// );
     /// ```
     pub fn most(self) -> Option<(Regime, usize)> {
         self.ordered()[0]
     }
 
-    /// Returns the second most frequent regime if less than three quarters of the profiles of known regime are in the most
-    /// frequent regime; otherwise `None`.
+    /// Returns the second most frequent regime if less than three quarters of the profiles of known
+    /// regime are in the most frequent regime; otherwise `None`.
     pub fn split(self) -> Option<Regime> {
         let [most, second, _] = self.ordered();
         let agree = self.shares()?[most?.0 as usize] >= AGREEING_SHARE;
@@ -271,8 +294,8 @@ impl RegimeCounts {
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
 
-    /// Returns the names of the regimes that occur, each with its number of profiles. Profiles of unknown regime have the name
-    /// `not known`.
+    /// Returns the names of the regimes that occur, each with its number of profiles. Profiles of
+    /// unknown regime have the name `not known`.
     pub fn present(self) -> impl Iterator<Item = (&'static str, usize)> {
         let counts = self.known().into_iter().chain([self.none]);
         let names = Regime::ALL
@@ -282,8 +305,8 @@ impl RegimeCounts {
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Returns for each regime, in the order of [`Regime::ALL`], the share of the profiles of known regime that are in it;
-    /// `None` if no regime is known.
+    /// Returns for each regime, in the order of [`Regime::ALL`], the share of the profiles of known
+    /// regime that are in it; `None` if no regime is known.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))
@@ -301,7 +324,8 @@ mod tests {
         (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
     }
 
-    /// Shares of samples of `count` log-normal forces whose intervals hold the median and the mean of the distribution.
+    /// Shares of samples of `count` log-normal forces whose intervals hold the median and the mean
+    /// of the distribution.
     fn shares_held(count: usize, deviation: f64, samples: u32) -> [f64; 2] {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let truths = [1.0, (0.5 * deviation * deviation).exp()];
@@ -319,8 +343,9 @@ mod tests {
         held.map(|held| f64::from(held) / f64::from(samples))
     }
 
-    /// The interval of the median holds it in about 95 of 100 samples, however skewed the forces are. The interval of the mean
-    /// does so for forces that scatter little, and fails for forces that scatter much, as its documentation states.
+    /// The interval of the median holds it in about 95 of 100 samples, however skewed the forces
+    /// are. The interval of the mean does so for forces that scatter little, and fails for forces
+    /// that scatter much, as its documentation states.
     #[test]
     fn intervals_hold_the_median_always_and_the_mean_of_forces_that_scatter_little() {
         for count in [8, 16, 32, 128] {

@@ -9,8 +9,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Progress of the study in a [`Folder`], counted in records. A record has the values of one [cell](crate::Plan) on one random
-/// profile.
+/// Progress of the study in a [`Folder`], counted in records. A record has the values of one
+/// [cell](crate::Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
     /// Number of records in the files of the study. A repeated record is counted once.
@@ -34,8 +34,8 @@ pub struct ShardStatus {
     pub shard: String,
     /// Number of records of the shard once it is complete.
     pub total: u64,
-    /// Number of records of the shard that are already in files of the study. A record has the results of one
-    /// [cell](crate::Plan) on one random profile.
+    /// Number of records of the shard that are already in files of the study. A record has the
+    /// results of one [cell](crate::Plan) on one random profile.
     pub done: u64,
     /// Processes that have worked on the shard, each with the records that it wrote.
     pub attempts: Vec<Attempt>,
@@ -56,8 +56,8 @@ pub struct Attempt {
     pub written: f64,
     /// Number of records that the process wrote.
     pub records: u64,
-    /// Mean number of records that the process wrote per second from its beginning to its last write; `None` if both times are
-    /// equal.
+    /// Mean number of records that the process wrote per second from its beginning to its last
+    /// write; `None` if both times are equal.
     pub rate: Option<f64>,
 }
 
@@ -127,8 +127,8 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Returns the number of all records of a shard, and the number of existing ones. Counting all shards together takes as
-/// long as counting the whole study.
+/// Returns the number of all records of a shard, and the number of existing ones. Counting all
+/// shards together takes as long as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let (mut total, mut there) = (0, 0);
     for Streak { cells, line } in shard

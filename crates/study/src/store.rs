@@ -1,7 +1,7 @@
 //! The folder of a study: its plan, and one file for each process that has worked on it.
 //!
-//! A shard file is only ever appended to, by the process that made it. Each record is a line with a checksum. However a process
-//! ends, its written records remain, and an incomplete line is ignored.
+//! A shard file is only ever appended to, by the process that made it. Each record is a line with a
+//! checksum. However a process ends, its written records remain, and an incomplete line is ignored.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -37,7 +37,8 @@ const FAILED: &str = ",:";
 /// Number of characters of the checksum and the comma after it.
 const CHECKSUM: usize = 9;
 
-/// Folder of a study on disk, with the plan and one file of results for each process that has worked on the study.
+/// Folder of a study on disk, with the plan and one file of results for each process that has
+/// worked on the study.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -74,27 +75,36 @@ pub struct ShardFile {
     pub written: f64,
 }
 
-/// Record of a study: its index, counted by cell, then by seed, and one value for each quantity of the plan, NaN if
-/// missing, or the reason why there are none.
+/// Record of a study: its index, counted by cell, then by seed, and one value for each quantity of
+/// the plan, NaN if missing, or the reason why there are none.
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
-    /// Creates the folder of a study with a plan. If the folder exists with the same plan, it is opened as it is.
+    /// Creates the folder of a study with a plan. If the folder exists with the same plan, it is
+    /// opened as it is.
     ///
     /// # Errors
-    /// Returns an error if the folder has another plan or cannot be written, or if a measured file has changed or cannot be
-    /// read.
+    /// Returns an error if the folder has another plan or cannot be written, or if a measured file
+    /// has changed or cannot be read.
     ///
     /// ```
-    /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, merge, run_study};
     /// use asperity_study::folders::Status;
+    /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, merge, run_study};
     ///
     /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "256")?;
-    /// let plan = Plan::new(&scene, &[("adhesion.work", &[0.01, 0.02])], 1, &[Quantity::AdhesionForce])?;
+    /// let plan = Plan::new(
+    ///     &scene,
+    ///     &[("adhesion.work", &[0.01, 0.02])],
+    ///     1,
+    ///     &[Quantity::AdhesionForce],
+    /// )?;
     /// let place = tempfile::tempdir()?;
     /// let folder = Folder::create(place.path(), &plan)?;
     /// run_study(&folder, Shard::WHOLE, 2, &|| false, &mut |_| ())?;
-    /// assert_eq!((Status::of(&folder)?.missing, merge(&folder)?.records), (0, 2));
+    /// assert_eq!(
+    ///     (Status::of(&folder)?.missing, merge(&folder)?.records),
+    ///     (0, 2)
+    /// );
     /// assert_eq!(Results::open(place.path())?.plan().cells(), 2);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -210,7 +220,8 @@ impl Folder {
     /// Returns the files with the results of all processes, sorted by name.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read, or if it belongs to another plan or has another version of the format.
+    /// Returns an error if a file cannot be read, or if it belongs to another plan or has another
+    /// version of the format.
     pub fn files(&self) -> Result<Vec<ShardFile>, StudyError> {
         let shards = self.path.join(SHARDS);
         let listed = fs::read_dir(&shards)
@@ -228,8 +239,8 @@ impl Folder {
             .collect()
     }
 
-    /// Returns the records of a file in the order of writing. A record is `None` if its line is incomplete, was changed
-    /// later, or is no record of this plan.
+    /// Returns the records of a file in the order of writing. A record is `None` if its line is
+    /// incomplete, was changed later, or is no record of this plan.
     pub(super) fn records<'f>(
         &'f self,
         file: &'f ShardFile,
@@ -257,8 +268,8 @@ impl Folder {
         }))
     }
 
-    /// Returns which records exist, by index, after all files are synced to the disk. Otherwise a power cut could lose
-    /// records that a killed process did not sync, although they were counted.
+    /// Returns which records exist, by index, after all files are synced to the disk. Otherwise a
+    /// power cut could lose records that a killed process did not sync, although they were counted.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
@@ -309,7 +320,8 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
     }))
 }
 
-/// Reads a whole header. A crash cannot cause an error in a header, so an error is a fault of the writer.
+/// Reads a whole header. A crash cannot cause an error in a header, so an error is a fault of the
+/// writer.
 fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     let header: ShardHeader = serde_json::from_str(payload).map_err(|error| {
         format!(
@@ -341,7 +353,8 @@ pub(super) fn seal(payload: &str, into: &mut String) {
     );
 }
 
-/// Returns the payload of a line without its line break; `None` if it does not agree with the checksum.
+/// Returns the payload of a line without its line break; `None` if it does not agree with the
+/// checksum.
 pub(super) fn unseal(line: &str) -> Option<&str> {
     let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
     let checksum = checksum.strip_suffix(',')?;
@@ -350,7 +363,8 @@ pub(super) fn unseal(line: &str) -> Option<&str> {
     is_ours.then_some(payload)
 }
 
-/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column. A reason follows a colon.
+/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column. A reason
+/// follows a colon.
 pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
     let mut payload = format!("{cell},{seed}");
     if let Err(reason) = record {
@@ -367,7 +381,8 @@ pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String)
     seal(&payload, into);
 }
 
-/// Returns cell, seed and values of a payload, with NaN for empty columns; `None` unless it has `count` values or a reason.
+/// Returns cell, seed and values of a payload, with NaN for empty columns; `None` unless it has
+/// `count` values or a reason.
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
     if let Some((place, reason)) = payload.split_once(FAILED) {
         let (cell, seed) = place.split_once(',')?;
@@ -390,7 +405,8 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
-/// Returns the lines of a text without their line breaks; `None` for a line that is too long, incomplete or not text.
+/// Returns the lines of a text without their line breaks; `None` for a line that is too long,
+/// incomplete or not text.
 pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
     std::iter::from_fn(move || {
         let mut line = Vec::new();
@@ -410,7 +426,8 @@ fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
 
-/// Returns the error for a folder with another plan than `plan`. `there` is the text of this other plan.
+/// Returns the error for a folder with another plan than `plan`. `there` is the text of this other
+/// plan.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
     // If only the content of the measured file differs, the error is specific.

@@ -9,8 +9,8 @@ use super::results::Results;
 use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
-/// Results of a study as maps over two of its axes, one map for each combination of values on the other axes. If the study has
-/// only one axis, the map is a curve.
+/// Results of a study as maps over two of its axes, one map for each combination of values on the
+/// other axes. If the study has only one axis, the map is a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyMap {
     folder: PathBuf,
@@ -27,13 +27,14 @@ impl StudyMap {
     /// Reads the maps of a study from its folder.
     ///
     /// # Errors
-    /// Returns an error if [`merge`](crate::merge) has not written the tables of the study yet, or if no axis of the study has
-    /// two values.
+    /// Returns an error if [`merge`](crate::merge) has not written the tables of the study yet, or
+    /// if no axis of the study has two values.
     pub fn open(folder: &Path) -> Result<StudyMap, StudyError> {
         StudyMap::of(Results::open(folder)?, folder)
     }
 
-    /// Makes the maps of the study whose results are `study`. `folder` is the folder from which the results were read.
+    /// Makes the maps of the study whose results are `study`. `folder` is the folder from which the
+    /// results were read.
     ///
     /// # Errors
     /// Returns an error if no axis of the study has two values.
@@ -81,7 +82,8 @@ impl StudyMap {
         self.study.plan()
     }
 
-    /// Returns the number of maps, one for each combination of values on the axes of the study that are not axes of the maps.
+    /// Returns the number of maps, one for each combination of values on the axes of the study that
+    /// are not axes of the maps.
     pub fn slices(&self) -> u64 {
         self.others
             .iter()
@@ -89,12 +91,14 @@ impl StudyMap {
             .product()
     }
 
-    /// Returns for each axis of the study the index of the value of a map; 0 on the axes of the map itself.
+    /// Returns for each axis of the study the index of the value of a map; 0 on the axes of the map
+    /// itself.
     fn places(&self, slice: u64) -> Vec<usize> {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
 
-    /// Returns the axes of the study that are not axes of the map, each with the index of the map's value.
+    /// Returns the axes of the study that are not axes of the map, each with the index of the map's
+    /// value.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others
@@ -118,8 +122,8 @@ impl StudyMap {
             .map(|axis| &self.plan().axes[axis])
     }
 
-    /// Returns the scene of a map on the first profile of the study, with these values on the axes of the map. An axis
-    /// without a value here keeps the value of the plan's scene.
+    /// Returns the scene of a map on the first profile of the study, with these values on the axes
+    /// of the map. An axis without a value here keeps the value of the plan's scene.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -163,8 +167,8 @@ impl StudyMap {
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` belongs to map number `slice`. It may have any values on the axes of the map and any number of
-    /// points of the force curve.
+    /// Returns true if `scene` belongs to map number `slice`. It may have any values on the axes of
+    /// the map and any number of points of the force curve.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> = self
             .over()
@@ -184,7 +188,8 @@ impl StudyMap {
         }
     }
 
-    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are not axes of the maps.
+    /// Returns a copy of a scene file with the values of map number `slice` on the axes that are
+    /// not axes of the maps.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow these values.
@@ -197,7 +202,8 @@ impl StudyMap {
     }
 }
 
-/// Returns κ and H of a scene, if the scene states them. For a measured profile they follow only from its file.
+/// Returns κ and H of a scene, if the scene states them. For a measured profile they follow only
+/// from its file.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
     let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else {
         return None;
@@ -222,7 +228,8 @@ mod tests {
     use asperity_data::AxisScale;
     use asperity_scene::Regime;
 
-    /// A plan with κ not in ascending order and before H, two preloads, another axis and five profiles.
+    /// A plan with κ not in ascending order and before H, two preloads, another axis and five
+    /// profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",
@@ -244,8 +251,8 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Maps of a plan in which the coefficient of a cell is its number, the preload is its number in µN, and the profiles
-    /// are in the regimes of `REGIMES`. Cell 5 is missing.
+    /// Maps of a plan in which the coefficient of a cell is its number, the preload is its number
+    /// in µN, and the profiles are in the regimes of `REGIMES`. Cell 5 is missing.
     fn study_map(plan: &str) -> StudyMap {
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
         let folder = tempfile::tempdir().unwrap();

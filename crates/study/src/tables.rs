@@ -1,4 +1,5 @@
-//! Tables of a study: all recorded values, their statistics over the profiles, and a description of the columns.
+//! Tables of a study: all recorded values, their statistics over the profiles, and a description of
+//! the columns.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -26,21 +27,24 @@ const REASON: &str = "reason";
 const LONGEST_SIDECAR: usize = 1 << 26;
 
 impl Merged {
-    /// Name of the file with the table of all results. The table has one row for each [cell](Plan) and profile.
+    /// Name of the file with the table of all results. The table has one row for each [cell](Plan)
+    /// and profile.
     pub const RESULTS: &str = "results.csv";
-    /// Name of the file with the table of statistics over the profiles. The table has one row for each [cell](Plan).
+    /// Name of the file with the table of statistics over the profiles. The table has one row for
+    /// each [cell](Plan).
     pub const SUMMARY: &str = "summary.csv";
-    /// Name of the file that describes the columns of the tables [`Merged::RESULTS`] and [`Merged::SUMMARY`].
+    /// Name of the file that describes the columns of the tables [`Merged::RESULTS`] and
+    /// [`Merged::SUMMARY`].
     pub const SIDECAR: &str = "results.json";
 }
 
-/// Merges the results of all processes in the folder of a study, and writes the tables [`Merged::RESULTS`] and
-/// [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some results are missing, the tables have the existing
-/// ones.
+/// Merges the results of all processes in the folder of a study, and writes the tables
+/// [`Merged::RESULTS`] and [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some
+/// results are missing, the tables have the existing ones.
 ///
 /// # Errors
-/// Returns an error if two files have different results for the same [cell](Plan) and profile, or if a file cannot be read or
-/// written.
+/// Returns an error if two files have different results for the same [cell](Plan) and profile, or
+/// if a file cannot be read or written.
 pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     remove_abandoned(folder.path());
@@ -131,8 +135,9 @@ fn recorded_hash(folder: &Path) -> Option<String> {
 }
 
 impl Results {
-    /// Returns a table with a row for each [cell](Plan) and each profile on which the cell is computed. Its columns are the
-    /// values on the axes, the seed of the profile, and the recorded quantities.
+    /// Returns a table with a row for each [cell](Plan) and each profile on which the cell is
+    /// computed. Its columns are the values on the axes, the seed of the profile, and the recorded
+    /// quantities.
     pub fn table(&self) -> Table<'_> {
         let rows = || {
             let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
@@ -157,7 +162,8 @@ impl Results {
         self.with_reasons(table, |row| row.3)
     }
 
-    /// Completes the table with a column of the reasons of records without values, if there are any.
+    /// Completes the table with a column of the reasons of records without values, if there are
+    /// any.
     fn with_reasons<'a, T: 'a>(
         &'a self,
         table: TableOf<'a, T>,
@@ -173,8 +179,8 @@ impl Results {
         }
     }
 
-    /// Returns the table of the cells with records: number of profiles and, for each quantity, mean, standard deviation and
-    /// confidence interval.
+    /// Returns the table of the cells with records: number of profiles and, for each quantity,
+    /// mean, standard deviation and confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
         let nothing = |cell| GridCell {
@@ -210,11 +216,12 @@ impl Results {
         self.with_reasons(table, |row| row.2)
     }
 
-    /// Reads the results of a study from the folder of the study, in which [`merge`] has written the tables.
+    /// Reads the results of a study from the folder of the study, in which [`merge`] has written
+    /// the tables.
     ///
     /// # Errors
-    /// Returns an error if the folder contains no study. It is also an error if the table [`Merged::RESULTS`] is missing, was
-    /// changed or belongs to another plan.
+    /// Returns an error if the folder contains no study. It is also an error if the table
+    /// [`Merged::RESULTS`] is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
         let path = folder.join(Merged::RESULTS);

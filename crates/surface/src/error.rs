@@ -10,7 +10,8 @@ use thiserror::Error;
 const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
                                   or X3P in Gwyddion";
 
-/// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count from 0, after decompression.
+/// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count
+/// from 0, after decompression.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -27,12 +28,14 @@ pub enum Place {
     Part(String),
     /// Field of a scene file, by its path in the scene, such as `roughness.file`.
     Field(&'static str),
-    /// Place in one of several measurements in a file: the name of the measurement, and the place in it.
+    /// Place in one of several measurements in a file: the name of the measurement, and the place
+    /// in it.
     Measurement(String, Box<Place>),
-    /// Place in one of several surfaces that are analysed together, with the index of the surface from 0.
+    /// Place in one of several surfaces that are analysed together, with the index of the surface
+    /// from 0.
     Surface(usize, Box<Place>),
-    /// Place in a file that a field of the scene names. The values are the path of the field, the path of the file, and the
-    /// place in the file.
+    /// Place in a file that a field of the scene names. The values are the path of the field, the
+    /// path of the file, and the place in the file.
     FileOf(&'static str, String, Box<Place>),
 }
 
@@ -64,8 +67,8 @@ impl Place {
     }
 }
 
-/// Reason why a surface, a form or a profile cannot be read, made or analysed. The message names the file only if the place
-/// is a [`Place::FileOf`].
+/// Reason why a surface, a form or a profile cannot be read, made or analysed. The message names
+/// the file only if the place is a [`Place::FileOf`].
 ///
 /// ```
 /// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
@@ -83,7 +86,8 @@ pub enum SurfaceError {
         place: Place,
         /// What was found there, in words.
         found: String,
-        /// What is allowed there, in words, and where possible an option with which the file can be read.
+        /// What is allowed there, in words, and where possible an option with which the file can be
+        /// read.
         allowed: String,
     },
     /// The operating system cannot read a file.
@@ -122,7 +126,8 @@ impl SurfaceError {
         self.place().all().find_map(of)
     }
 
-    /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of a text.
+    /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of
+    /// a text.
     pub fn line(&self) -> Option<usize> {
         self.find(|place| {
             if let Place::Line(number) = place {
@@ -133,7 +138,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all surfaces together.
+    /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all
+    /// surfaces together.
     pub fn surface(&self) -> Option<usize> {
         self.find(|place| {
             if let Place::Surface(index, _) = place {
@@ -144,7 +150,8 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the field of the scene with the fault, such as `roughness.file`; `None` for a surface that belongs to no scene.
+    /// Returns the field of the scene with the fault, such as `roughness.file`; `None` for a
+    /// surface that belongs to no scene.
     pub fn field(&self) -> Option<&'static str> {
         self.find(|place| match place {
             Place::Field(name) | Place::FileOf(name, ..) => Some(*name),
@@ -176,8 +183,8 @@ impl SurfaceError {
         self
     }
 
-    /// Returns the same error with a longer place: the field `roughness.file` of the scene, the path `file`, and the present
-    /// place inside this file.
+    /// Returns the same error with a longer place: the field `roughness.file` of the scene, the
+    /// path `file`, and the present place inside this file.
     pub fn in_measured(self, file: &Path) -> Self {
         self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
     }
@@ -234,7 +241,8 @@ impl From<TextFault> for SurfaceError {
     }
 }
 
-/// Creates a [`SurfaceError::Refused`] from the place of a fault, what was found there, and what is allowed there.
+/// Creates a [`SurfaceError::Refused`] from the place of a fault, what was found there, and what is
+/// allowed there.
 pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> SurfaceError {
     SurfaceError::Refused {
         place,

@@ -4,17 +4,19 @@
 //!
 //! # Names by task
 //!
-//! * To read a surface: [`read`] takes a file, [`parse`] takes its content, and both return a [`Topography`]. Both take
-//!   [`ReadOptions`], such as a [`Unit`] or a [`Cut`]. [`Cropped`] counts empty rows and columns that are left out.
-//! * To analyse surfaces: [`analyse`] takes [`AnalysisOptions`], such as a [`Detrend`], and returns an [`Analysis`]. The
-//!   analysis has [`PointStatistics`], [`LineMoments`], each of which is a [`Moment`], and a [`SelfAffineFit`], each of whose
-//!   parameters is a [`ValueWithError`].
-//! * To make rigid profiles: [`EquivalentLine`] has the spectrum of a measured surface, [`SelfAffine`] is a spectrum given by
-//!   few numbers and computes its [`Amplitude`], and [`Form`] is the shape without roughness, which may be a [`FormTable`].
+//! * To read a surface: [`read`] takes a file, [`parse`] takes its content, and both return a
+//!   [`Topography`]. Both take [`ReadOptions`], such as a [`Unit`] or a [`Cut`]. [`Cropped`] counts
+//!   empty rows and columns that are left out.
+//! * To analyse surfaces: [`analyse`] takes [`AnalysisOptions`], such as a [`Detrend`], and returns
+//!   an [`Analysis`]. The analysis has [`PointStatistics`], [`LineMoments`], each of which is a
+//!   [`Moment`], and a [`SelfAffineFit`], each of whose parameters is a [`ValueWithError`].
+//! * To make rigid profiles: [`EquivalentLine`] has the spectrum of a measured surface,
+//!   [`SelfAffine`] is a spectrum given by few numbers and computes its [`Amplitude`], and [`Form`]
+//!   is the shape without roughness, which may be a [`FormTable`].
 //! * Errors: [`SurfaceError`] names what is refused, and its [`Place`].
 //!
-//! The modules are for programs that need more: [`lines`] makes the profiles of whole scenes, [`spectra`] has spectra for
-//! figures, and [`files`] helps to read other formats.
+//! The modules are for programs that need more: [`lines`] makes the profiles of whole scenes,
+//! [`spectra`] has spectra for figures, and [`files`] helps to read other formats.
 
 mod error;
 mod line;
@@ -35,15 +37,16 @@ pub use topography::open::{parse, read};
 pub use topography::reading::ReadOptions;
 pub use topography::surface::{Cropped, Cut, Detrend, Topography};
 
-/// Functions for programs that read files of other data, such as measured force curves. They read the bytes of a file,
-/// decompress gzip and parse columns of NumPy arrays.
+/// Functions for programs that read files of other data, such as measured force curves. They read
+/// the bytes of a file, decompress gzip and parse columns of NumPy arrays.
 pub mod files {
     pub use crate::error::refused;
     pub use crate::topography::npy::columns;
     pub use crate::topography::open::{content, unpacked};
 }
 
-/// Rigid profiles with random or measured roughness, for programs that compute a contact from a scene file.
+/// Rigid profiles with random or measured roughness, for programs that compute a contact from a
+/// scene file.
 pub mod lines {
     pub use crate::line::equivalent::MeasuredRoughness;
     pub use crate::line::form::{power_law_factor, struve_0};

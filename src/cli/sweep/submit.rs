@@ -1,9 +1,10 @@
-//! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs, one task for each shard.
+//! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs, one task for
+//! each shard.
 //!
-//! Slurm starts a task at least once: if a node is lost its task is started again, while the lost one may still be running.
-//! That does no harm, as each attempt writes its own file and the merge counts a record once. Slurm restarts slowly, so the
-//! script itself restarts a killed program at once, which continues where its results end. The task that completes the
-//! study merges it.
+//! Slurm starts a task at least once: if a node is lost its task is started again, while the lost
+//! one may still be running. That does no harm, as each attempt writes its own file and the merge
+//! counts a record once. Slurm restarts slowly, so the script itself restarts a killed program at
+//! once, which continues where its results end. The task that completes the study merges it.
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
@@ -86,8 +87,8 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// The job script, with absolute paths on the nodes. Its directives are defaults: variables `SBATCH_…` and options of
-/// sbatch override them.
+/// The job script, with absolute paths on the nodes. Its directives are defaults: variables
+/// `SBATCH_…` and options of sbatch override them.
 fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
     // Slurm ends directives at a backslash and reads double quotes.
     let allowed = "allowed: UTF-8 without backslashes, double quotes and control characters";
@@ -129,7 +130,8 @@ done
     ))
 }
 
-/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why it refused.
+/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why
+/// it refused.
 fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
     let not_run = |error: io::Error| {
         match error.kind() {

@@ -1,5 +1,5 @@
-//! Studies of the present scene: error of its outcome, springs for a tolerance, data of the shown pane, and the curve of a
-//! typed value.
+//! Studies of the present scene: error of its outcome, springs for a tolerance, data of the shown
+//! pane, and the curve of a typed value.
 
 use super::{edit, measured, target};
 use crate::explorer::action::Task;
@@ -17,7 +17,8 @@ use asperity_study::half_space::SquareLoops;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Largest number of springs for which a demo estimates the error: above, viewers would have to wait.
+/// Largest number of springs for which a demo estimates the error: above, viewers would have to
+/// wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
 /// Empty: the paths of an explored scene are absolute or relative to the working folder.
@@ -30,7 +31,8 @@ pub struct Choosing {
     pub found: Option<Result<Choice, ChoiceError>>,
 }
 
-/// The studies that the present state needs and that have not ended, in the order in which they are performed.
+/// The studies that the present state needs and that have not ended, in the order in which they are
+/// performed.
 pub fn studies(app: &mut App) -> Vec<Study> {
     let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
     wanted.extend(target::study(app));

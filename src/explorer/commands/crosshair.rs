@@ -1,5 +1,5 @@
-//! The crosshair of the selected pane, for readings: on profile and close-up at a position along the line, on other charts
-//! at a share of the horizontal axis.
+//! The crosshair of the selected pane, for readings: on profile and close-up at a position along
+//! the line, on other charts at a share of the horizontal axis.
 
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
@@ -60,8 +60,8 @@ pub fn point_at(app: &mut App, x: f64) {
     app.view.crosshair = Some(share.clamp(low, high));
 }
 
-/// Positions, as shares, of the left and right end of the selected pane: of the part of the profile, or of the curves of
-/// another chart.
+/// Positions, as shares, of the left and right end of the selected pane: of the part of the
+/// profile, or of the curves of another chart.
 fn ends(app: &App) -> (f64, f64) {
     let share = |spring: usize| (spring as f64 / springs(app)).min(1.0);
     if let Some(section) = app.section() {

@@ -40,7 +40,8 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     }
 }
 
-/// Opens the help: the notice of the scene, for which a small window has no room, the contents of the panes, and all keys.
+/// Opens the help: the notice of the scene, for which a small window has no room, the contents of
+/// the panes, and all keys.
 pub fn open_help(app: &mut App) {
     let topic = |name: &str, text: &str| Topic {
         section: "What you see",
@@ -130,8 +131,8 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     );
 }
 
-/// Moves the selection of the list, or of the parameters, by a page: half the rows of a window, since an entry may take two
-/// rows.
+/// Moves the selection of the list, or of the parameters, by a page: half the rows of a window,
+/// since an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
     let rows = if key.code == KeyCode::PageUp {
@@ -146,7 +147,8 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Accepts the typed line, the selected row, or the question. A refused line stays in the prompt, with the reason.
+/// Accepts the typed line, the selected row, or the question. A refused line stays in the prompt,
+/// with the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else {
         return;
@@ -256,7 +258,8 @@ const WITH_FILES: [&str; 4] = [
     "roughness.opposite",
 ];
 
-/// The path being typed: the whole line, or in a value what follows the last quote, relative to the folder of the scene.
+/// The path being typed: the whole line, or in a value what follows the last quote, relative to the
+/// folder of the scene.
 fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();

@@ -50,7 +50,8 @@ pub fn open(app: &mut App, document: Document) {
     app.edit.set_saved();
 }
 
-/// Opens the editor of the selected value; `first` is a first typed character, which replaces the value.
+/// Opens the editor of the selected value; `first` is a first typed character, which replaces the
+/// value.
 pub fn edit_value(app: &mut App, first: Option<char>) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -238,7 +239,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The scene with a typed value of the selected parameter, or the reason why it is refused. A stage may be typed as any kind.
+/// The scene with a typed value of the selected parameter, or the reason why it is refused. A stage
+/// may be typed as any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     if let Setting::Reading(_) = parameter.setting {
@@ -269,7 +271,8 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// Returns the scene unless it presses more than the present one and out of reach; otherwise the reason.
+/// Returns the scene unless it presses more than the present one and out of reach; otherwise the
+/// reason.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
     let is_more = force > pressing_force(&app.edit.document.scene().loading);
@@ -287,7 +290,8 @@ pub fn set_selected(app: &mut App, written: &str) {
     }
 }
 
-/// The scene with another value of the selected parameter, in the notation of the scene; or the reason why it is refused.
+/// The scene with another value of the selected parameter, in the notation of the scene; or the
+/// reason why it is refused.
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
@@ -362,7 +366,8 @@ pub fn reasons(errors: &SceneErrors) -> String {
         .join("; ")
 }
 
-/// Largest number of springs for a preview while a value is typed; the next character stops the computation.
+/// Largest number of springs for a preview while a value is typed; the next character stops the
+/// computation.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
 /// Returns true if a scene is small enough for a preview, which the stepwise solver never is.
@@ -416,8 +421,8 @@ pub fn change(app: &mut App, path: &str, value: &str) {
     apply(app, changed)
 }
 
-/// Draws another random profile with a seed of at most six digits, which can be read out to a colleague. The seeds follow
-/// each other in a sequence that repeats none.
+/// Draws another random profile with a seed of at most six digits, which can be read out to a
+/// colleague. The seeds follow each other in a sequence that repeats none.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {
         Some(seed) => {

@@ -23,7 +23,8 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Shows another map of the study. If the scene belongs to the former map, it is moved to the new one.
+/// Shows another map of the study. If the scene belongs to the former map, it is moved to the new
+/// one.
 pub fn step_slice(app: &mut App, key: &KeyEvent) {
     let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {

@@ -1,4 +1,5 @@
-//! A measured force curve beside the scene: its first touch, the residual of the scene, and fits of parameters.
+//! A measured force curve beside the scene: its first touch, the residual of the scene, and fits of
+//! parameters.
 
 use super::edit;
 use crate::explorer::action::{Reading, Task};
@@ -16,7 +17,8 @@ use std::sync::Arc;
 /// Number of computed curves between two progress reports of a fit.
 const REPORTED: u64 = 64;
 
-/// The study of the measured curve: the requested fit, or else the position of the curve and the residual.
+/// The study of the measured curve: the requested fit, or else the position of the curve and the
+/// residual.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (
         Arc::clone(&app.edit.measured.as_ref()?.curve),
@@ -166,7 +168,8 @@ pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// Shows the curve as read with other options, in one edit with its loading; or states why it was not read.
+/// Shows the curve as read with other options, in one edit with its loading; or states why it was
+/// not read.
 pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String>) {
     let loaded = |measured: Box<Measured>| {
         let document = measured.curve.load(&app.edit.document, measured.offset);
@@ -193,7 +196,8 @@ pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String
     }
 }
 
-/// The fitted parameters with their intervals, in words; first of all whether the scene does not describe the curve.
+/// The fitted parameters with their intervals, in words; first of all whether the scene does not
+/// describe the curve.
 fn sentence(fit: &FitResult) -> String {
     let found = |one: &FittedParameter| {
         let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));

@@ -37,8 +37,8 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Plays or pauses the animation. At rest it starts again from the beginning. Like all movements of the animation this ends manual loading,
-/// since the animation shows the loading of the scene.
+/// Plays or pauses the animation. At rest it starts again from the beginning. Like all movements of
+/// the animation this ends manual loading, since the animation shows the loading of the scene.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
     let is_last = app.play.leg + 1 >= app.legs().len();
@@ -80,7 +80,8 @@ pub fn restart(app: &mut App) {
     app.play = Player::START;
 }
 
-/// Goes to the start of a loading stage, `legs` after the present one; back from inside a stage, first to its own start.
+/// Goes to the start of a loading stage, `legs` after the present one; back from inside a stage,
+/// first to its own start.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // A playing animation is past the start at once.
@@ -93,7 +94,8 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Goes to the state at the pull-off, just before the contact is lost, in which the animation rests.
+/// Goes to the state at the pull-off, just before the contact is lost, in which the animation
+/// rests.
 pub fn go_to_pull_off(app: &mut App) {
     let rest = Player::at_rest(app.legs());
     if rest.at == At::End {

@@ -13,7 +13,8 @@ use asperity_report::LoopQuantities;
 use asperity_study::maps::StudyMap;
 use std::sync::Arc;
 
-/// Creates the state of an explorer in a window of this size, opened with the arguments of the program.
+/// Creates the state of an explorer in a window of this size, opened with the arguments of the
+/// program.
 pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config: Config) -> App {
     let Opening {
         document,
@@ -33,7 +34,8 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     app
 }
 
-/// Explores a scene or a study that was opened by its path, or shows a measured curve beside the present scene.
+/// Explores a scene or a study that was opened by its path, or shows a measured curve beside the
+/// present scene.
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
@@ -57,7 +59,8 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.show(Pane::Map);
 }
 
-/// Shows a measured curve with its options of reading. The scene gets the loading of the curve, in the same edit.
+/// Shows a measured curve with its options of reading. The scene gets the loading of the curve, in
+/// the same edit.
 fn show_measured(app: &mut App, measured: Measured) {
     let is_new = app.edit.measured.as_ref() != Some(&measured);
     let (name, present) = (measured.name.clone(), app.edit.document.clone());

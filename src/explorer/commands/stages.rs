@@ -12,7 +12,8 @@ use asperity_scene::{Document, SceneErrors};
 /// Loading stages; a stage of the present loading has its index in it.
 type Stages = Vec<(Option<usize>, Move)>;
 
-/// Index of the selected stage, or on the row of the whole loading of the last one; states an error if neither is selected.
+/// Index of the selected stage, or on the row of the whole loading of the last one; states an error
+/// if neither is selected.
 fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
@@ -27,7 +28,8 @@ fn selected(app: &mut App) -> Option<usize> {
     stage
 }
 
-/// Changes the stages, given the index of the selected one; `change` returns the index of the stage to select.
+/// Changes the stages, given the index of the selected one; `change` returns the index of the stage
+/// to select.
 fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     let Some(at) = selected(app) else { return };
     let mut stages = app.edit.document.stages();
@@ -52,8 +54,8 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one and opens its editor: after a stage that presses, a stage to zero force, or at the
-/// end to separation; otherwise a stage that presses.
+/// Adds a stage after the selected one and opens its editor: after a stage that presses, a stage to
+/// zero force, or at the end to separation; otherwise a stage that presses.
 pub fn add(app: &mut App) {
     let (force, before) = (pressing_force(app), app.edit.generation);
     change(app, |stages, at| {
@@ -90,8 +92,8 @@ pub fn shift(app: &mut App, way: isize) {
     })
 }
 
-/// Changes the selected stage to the next kind, forwards or backwards, that the loading allows, with the value that it
-/// reaches now.
+/// Changes the selected stage to the next kind, forwards or backwards, that the loading allows,
+/// with the value that it reaches now.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(at) = selected(app) else { return };
     let legs = app.current().map(|solved| &solved.outcome.history.legs);
@@ -124,7 +126,8 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     }
 }
 
-/// Largest force of the loading or of the loading before the last edits, N; otherwise a force that suits the computed scene.
+/// Largest force of the loading or of the loading before the last edits, N; otherwise a force that
+/// suits the computed scene.
 fn pressing_force(app: &App) -> f64 {
     let name = app.edit.document.name();
     let before = app.edit.past.iter().rev().map(|edited| &edited.document);
@@ -150,8 +153,8 @@ fn pressing_force(app: &App) -> f64 {
         .unwrap_or(1e-5)
 }
 
-/// Steps the selected value; for an option of reading the next choice. A stage without a number, such as a separation,
-/// stays, since another kind of stage is another loading.
+/// Steps the selected value; for an option of reading the next choice. A stage without a number,
+/// such as a separation, stays, since another kind of stage is another loading.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;

@@ -1,5 +1,5 @@
-//! The one table of keys with their functions, for dispatch, footer, help, list of commands, configuration, demo and
-//! docs/keys.md.
+//! The one table of keys with their functions, for dispatch, footer, help, list of commands,
+//! configuration, demo and docs/keys.md.
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
@@ -50,7 +50,8 @@ pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-/// Keys and rows for the footer, the most important first; neighbouring rows with the same label are one item.
+/// Keys and rows for the footer, the most important first; neighbouring rows with the same label
+/// are one item.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     let is_hidden = |row: &Row| {
         TABLE
@@ -62,7 +63,8 @@ pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
         .footer(app.keys(), app.manual.is_some(), is_hidden)
 }
 
-/// Contexts in which arrows select a parameter: not the map and the crosshair, where they move these.
+/// Contexts in which arrows select a parameter: not the map and the crosshair, where they move
+/// these.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
 /// Contexts in which ↑ ↓ select a parameter: not the map.
 const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];

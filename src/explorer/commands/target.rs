@@ -23,7 +23,8 @@ pub struct Sought {
     found: Result<Found, String>,
 }
 
-/// Path of the number that is sought on the row of a parameter: its own, or of the loading the preload.
+/// Path of the number that is sought on the row of a parameter: its own, or of the loading the
+/// preload.
 fn sought(parameter: &Parameter) -> Option<&str> {
     match parameter.setting {
         _ if parameter.group == "loading" => Some("preload"),

@@ -31,7 +31,8 @@ pub struct Demo {
 }
 
 impl Demo {
-    /// Creates a demo that begins on a scene and follows a script, at a number of frames per second.
+    /// Creates a demo that begins on a scene and follows a script, at a number of frames per
+    /// second.
     pub fn new(
         document: Document,
         script: &[Cue],

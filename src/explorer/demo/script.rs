@@ -18,8 +18,8 @@ pub enum Cue {
 /// Duration, s, of a loop of two loading stages and a pause at its end.
 const LOOP: f64 = 12.5;
 
-/// The tour of the built-in scenes: the three regimes, pressing harder, manual loading, contact patches, a sphere with and
-/// without its roughness.
+/// The tour of the built-in scenes: the three regimes, pressing harder, manual loading, contact
+/// patches, a sphere with and without its roughness.
 pub const TOUR: &[Cue] = &[
     Open("ideal-adhesion"),
     Wait(LOOP),

@@ -70,7 +70,8 @@ pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";
 
 impl Row {
-    /// Returns true if the configuration may replace the keys of the row. Digits and keys for prompts are fixed.
+    /// Returns true if the configuration may replace the keys of the row. Digits and keys for
+    /// prompts are fixed.
     fn is_rebindable(&self) -> bool {
         !self.takes_key
             && self
@@ -79,7 +80,8 @@ impl Row {
                 .all(|context| EXPLORE.contains(context))
     }
 
-    /// Returns true if the list of commands has the row. Keys for texts and questions only work in a prompt.
+    /// Returns true if the list of commands has the row. Keys for texts and questions only work in
+    /// a prompt.
     fn is_listed(&self) -> bool {
         self.is_listed
             && self
@@ -88,8 +90,8 @@ impl Row {
                 .any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
     }
 
-    /// Group in the footer: help and quit, which even the smallest window shows; keys of this context only; main keys;
-    /// others.
+    /// Group in the footer: help and quit, which even the smallest window shows; keys of this
+    /// context only; main keys; others.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
         if is_special || is_manual && self.section == MANUAL {
@@ -170,8 +172,8 @@ impl Bindings {
         })
     }
 
-    /// Keys and rows for the footer in a context, the most important first; neighbouring rows with the same label are one
-    /// item.
+    /// Keys and rows for the footer in a context, the most important first; neighbouring rows with
+    /// the same label are one item.
     pub fn footer(
         &self,
         context: Context,
@@ -240,7 +242,8 @@ impl Bindings {
         Ok(())
     }
 
-    /// Lists in Markdown, for docs/keys.md: keys by section, with their functions and names for the configuration.
+    /// Lists in Markdown, for docs/keys.md: keys by section, with their functions and names for the
+    /// configuration.
     pub fn markdown(&self) -> String {
         let mut text = String::new();
         let mut section = "";
@@ -259,7 +262,8 @@ impl Bindings {
         text
     }
 
-    /// A key that two functions of one context share, with the names of both; `None` if there is none.
+    /// A key that two functions of one context share, with the names of both; `None` if there is
+    /// none.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         ANY.iter().find_map(|context| {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();

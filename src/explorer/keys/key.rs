@@ -33,7 +33,8 @@ impl Key {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
 
-    /// The key with this name: a character or the word on a keyboard, with modifiers: `Up`, `Ctrl+p`, `Shift+Left`.
+    /// The key with this name: a character or the word on a keyboard, with modifiers: `Up`,
+    /// `Ctrl+p`, `Shift+Left`.
     pub fn named(name: &str) -> Option<Key> {
         fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
             let named = name.split_at_checked(modifier.len());
@@ -73,8 +74,8 @@ impl Key {
     }
 }
 
-/// Step of an arrow key or of its letter: columns to the right and rows upwards. The flag marks a large step. `None` for
-/// another key.
+/// Step of an arrow key or of its letter: columns to the right and rows upwards. The flag marks a
+/// large step. `None` for another key.
 pub fn direction(key: &KeyEvent) -> Option<((i32, i32), bool)> {
     let is_coarse = key.modifiers.contains(KeyModifiers::SHIFT);
     let way = match key.code {

@@ -1,4 +1,5 @@
-//! The force curve: the hysteresis loop with loading and unloading, curves compared with it, and manual loading.
+//! The force curve: the hysteresis loop with loading and unloading, curves compared with it, and
+//! manual loading.
 
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::app::App;
@@ -48,8 +49,8 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     })
 }
 
-/// The curves of the kept scenes and of the present one, by their titles, or by what differs where it is the same scene
-/// or the titles are the same.
+/// The curves of the kept scenes and of the present one, by their titles, or by what differs where
+/// it is the same scene or the titles are the same.
 fn compared(app: &App) -> Option<Figure> {
     let present = &app.edit.document;
     let mut names: Vec<String> = Vec::new();
@@ -167,9 +168,9 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// The shown state in words, the most important first: indentation, force and contact, and under manual loading what the
-/// last move changed. E* l is the stiffness with fixed edges (Popov and Filippov 2012, eq. (1)), p_m the mean pressure on a
-/// circle with the radius of the contact.
+/// The shown state in words, the most important first: indentation, force and contact, and under
+/// manual loading what the last move changed. E* l is the stiffness with fixed edges (Popov and
+/// Filippov 2012, eq. (1)), p_m the mean pressure on a circle with the radius of the contact.
 fn state(app: &App) -> Vec<String> {
     let (Some(snapshot), Some(computed)) = (app.present(), app.solved.as_ref()) else {
         return Vec::new();
@@ -276,8 +277,8 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// The residuals of the measured curve over this horizontal axis, in units of the noise; without points until they are
-/// computed, and `None` without a curve or an axis of the force.
+/// The residuals of the measured curve over this horizontal axis, in units of the noise; without
+/// points until they are computed, and `None` without a curve or an axis of the force.
 fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let units = units(app);
     let measured = app.edit.measured.as_ref().filter(|_| units.shows_force())?;
@@ -308,7 +309,8 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     ))
 }
 
-/// Share of the residuals in the range of their strip; the few others, as at a jump of the contact, are at its edge.
+/// Share of the residuals in the range of their strip; the few others, as at a jump of the contact,
+/// are at its edge.
 const IN_RANGE: f64 = 0.98;
 
 /// The smallest of 5, 10, 20, 50 and so on that is as large as nearly all residuals.
@@ -482,7 +484,8 @@ fn differences(app: &App, ghost: &Ghost) -> String {
 /// Number of points of each loading stage of a kept scene beside which its letter may stand.
 const PLACES: usize = 8;
 
-/// Points beside which the letter of a kept scene may stand: its marks, the pull-off first, and some of its curve.
+/// Points beside which the letter of a kept scene may stand: its marks, the pull-off first, and
+/// some of its curve.
 fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
     let mut marks = Mark::all(legs);
@@ -498,7 +501,8 @@ fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
         .collect()
 }
 
-/// Adhesion force of a kept scene, and how much more or less the present scene has: `F_a 12 µN, now 3 µN more`.
+/// Adhesion force of a kept scene, and how much more or less the present scene has:
+/// `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
     let force = ghost.outcome.figures.adhesion_force?;

@@ -1,4 +1,5 @@
-//! The map: shades in the colours of the regimes, the mark of the scene, and the values at the mark.
+//! The map: shades in the colours of the regimes, the mark of the scene, and the values at the
+//! mark.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -96,7 +97,8 @@ fn panel(app: &App, size: Size) -> Panel {
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
     if let Some(map) = chart.map_mut() {
-        // The shades show the regimes; in a map of another quantity letters would hide the boundary.
+        // The shades show the regimes; in a map of another quantity letters would hide the
+        // boundary.
         map.contour = map.contour.take().filter(|_| !mapped.is_regime());
         map.class_names
             .iter_mut()
@@ -129,8 +131,8 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     curves.filter_map(chart).collect()
 }
 
-/// Figure of the pane: the map, together with the quantities that decide the regimes if these are shown; or curves over the
-/// only axis.
+/// Figure of the pane: the map, together with the quantities that decide the regimes if these are
+/// shown; or curves over the only axis.
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
@@ -218,7 +220,8 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
     }
 }
 
-/// Legend: label of the vertical axis, shades with their meaning, classes, and which map of the study is shown.
+/// Legend: label of the vertical axis, shades with their meaning, classes, and which map of the
+/// study is shown.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else {
         return Vec::new();
@@ -285,8 +288,8 @@ fn on_axes(grid: &Grid, (across, up): GridPlace) -> String {
     parts.join(", ")
 }
 
-/// Lines below the map: the position of the scene with the values of the nearest cell, and why the map is incomplete or not
-/// that of the scene.
+/// Lines below the map: the position of the scene with the values of the nearest cell, and why the
+/// map is incomplete or not that of the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     let study = app.map.shown_study();
     let is_of_scene = study.is_none_or(|study| {
@@ -340,7 +343,8 @@ fn deciding(regime: Quantity) -> [Quantity; 2] {
     ]
 }
 
-/// Quantities that are shown together: with a regime the quantities that decide it, if there are any.
+/// Quantities that are shown together: with a regime the quantities that decide it, if there are
+/// any.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];

@@ -1,4 +1,5 @@
-//! The table of panes, one row each. A pane is one file, with one function that makes its panel from the state.
+//! The table of panes, one row each. A pane is one file, with one function that makes its panel
+//! from the state.
 
 mod close_up;
 pub mod force;

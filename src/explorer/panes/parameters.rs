@@ -56,7 +56,8 @@ fn panel(app: &App, size: Size) -> Panel {
     // Rows that the list does not need are for the explanation.
     let free = usize::from(size.height).saturating_sub(rows.len() + foot.len()) as u16;
     let help_rows = help_rows.max(free.min(MOST_EXPLAINED));
-    // The list makes room for the whole reason of a refusal, and for all that was done to a measured curve.
+    // The list makes room for the whole reason of a refusal, and for all that was done to a
+    // measured curve.
     let is_refused = refusal(app).is_some();
     let is_of_curve = rows
         .get(selected)
@@ -107,7 +108,8 @@ fn shown(app: &App) -> (Vec<usize>, usize) {
     ((0..app.edit.parameters.len()).collect(), app.edit.selected)
 }
 
-/// What fits the search among the fields of the scene file, which has more of them than the list has rows.
+/// What fits the search among the fields of the scene file, which has more of them than the list
+/// has rows.
 fn not_listed(app: &App) -> String {
     let none = "no parameter of this scene fits".to_owned();
     let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
@@ -164,7 +166,8 @@ fn parameter_line(app: &App, index: usize, selected: bool, width: usize) -> Line
     let gap = width.saturating_sub(columns(&lead) + columns(&name) + columns(&value));
     let style = match (refused, selected) {
         (true, _) => theme.style(Meaning::Error),
-        // One pane has the focus: the row that the keys change is marked in the others too, but not as bright.
+        // One pane has the focus: the row that the keys change is marked in the others too, but not
+        // as bright.
         (false, true) if has_focus(app) => theme.style(Meaning::Selected),
         (false, true) => theme.style(Meaning::Title),
         (false, false) => theme.style(Meaning::Text),
@@ -178,7 +181,8 @@ fn has_focus(app: &App) -> bool {
     app.view.pane == Pane::Parameters || app.prompt.as_ref().is_some_and(is_searched)
 }
 
-/// Marks before a name: for the first row of a group, and for an effect that is on or off; other rows are indented.
+/// Marks before a name: for the first row of a group, and for an effect that is on or off; other
+/// rows are indented.
 fn lead(app: &App, parameter: &Parameter) -> String {
     let is_head = parameter.is_head();
     let is_on = |effect: Effect| effect.is_on(app.edit.document.scene());
@@ -187,8 +191,8 @@ fn lead(app: &App, parameter: &Parameter) -> String {
     format!("{}{mark}", if is_head { "─" } else { " " })
 }
 
-/// The row of a value being typed: name, symbol and unit of a number as far as there is room, the typed text, and how it
-/// will be read.
+/// The row of a value being typed: name, symbol and unit of a number as far as there is room, the
+/// typed text, and how it will be read.
 fn editor(
     app: &App,
     parameter: &Parameter,
@@ -236,7 +240,8 @@ fn editor(
     )
 }
 
-/// Name and symbol within a number of columns: the name is shortened, or left out if little of it would remain.
+/// Name and symbol within a number of columns: the name is shortened, or left out if little of it
+/// would remain.
 fn name_within(parameter: &Parameter, room: usize) -> String {
     let (name, symbol) = (parameter.name(), parameter.field.symbol);
     if symbol.is_empty() {
@@ -310,7 +315,8 @@ fn refusal(app: &App) -> Option<&String> {
     }
 }
 
-/// Explanation of the selected parameter: why its value is refused, or its meaning and allowed range.
+/// Explanation of the selected parameter: why its value is refused, or its meaning and allowed
+/// range.
 fn explanation(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
         return Line::styled(

@@ -1,5 +1,5 @@
-//! Adhesion force against preload: the staircase of the scene's profile, the spread over random profiles, adhesion without
-//! load, and the preload of the scene.
+//! Adhesion force against preload: the staircase of the scene's profile, the spread over random
+//! profiles, adhesion without load, and the preload of the scene.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -119,8 +119,8 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// The curves with the preload of the scene, and the distribution over the profiles at the crosshair or at the preload of
-/// the scene.
+/// The curves with the preload of the scene, and the distribution over the profiles at the
+/// crosshair or at the preload of the scene.
 fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
     let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
     let mut chart = preload_chart(

@@ -1,4 +1,5 @@
-//! The profile: the rigid profile, the elastic surface above it, their contact, and the distribution of heights.
+//! The profile: the rigid profile, the elastic surface above it, their contact, and the
+//! distribution of heights.
 
 use super::row::PaneRow;
 use super::section;
@@ -80,7 +81,8 @@ fn title(app: &App) -> String {
     format!("Profile, {share},")
 }
 
-/// Panel of the profile and the distribution of heights of a scene in one state; `z` is the range of heights, m.
+/// Panel of the profile and the distribution of heights of a scene in one state; `z` is the range
+/// of heights, m.
 fn of_scene(
     title: &str,
     snapshot: &ContactSnapshot,
@@ -103,7 +105,8 @@ fn of_scene(
 
 const POINTS: usize = 65;
 
-/// Density of heights in the bins of a histogram, and the normal distribution with the same mean and rms height.
+/// Density of heights in the bins of a histogram, and the normal distribution with the same mean
+/// and rms height.
 fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
         return Chart::new(

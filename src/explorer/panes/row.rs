@@ -19,8 +19,8 @@ pub struct PaneRow {
     pub panel: fn(&App, Size) -> Panel,
     /// Content as a figure for a file, which may have more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// Content as a table or JSON with the command that computes it, if that is more than the curves of the figure; `None`
-    /// while the result is missing.
+    /// Content as a table or JSON with the command that computes it, if that is more than the
+    /// curves of the figure; `None` while the result is missing.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
     /// Studies of a computed scene whose values the pane needs while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
@@ -44,11 +44,12 @@ impl PaneRow {
     };
 }
 
-/// Command for a result that no other command computes: the explorer opens on the scene, whose loading is the path of
-/// manual loading.
+/// Command for a result that no other command computes: the explorer opens on the scene, whose
+/// loading is the path of manual loading.
 pub const OPEN_COMMAND: &str = "asperity";
 
-/// Report of the pane's result: the path of manual loading, or else the outcome of the scene with its force curve.
+/// Report of the pane's result: the path of manual loading, or else the outcome of the scene with
+/// its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
     if let Some(ManualState {

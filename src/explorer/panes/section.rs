@@ -1,4 +1,5 @@
-//! Part of the profile with its axes: rigid profile, elastic surface and contact, for the profile pane and the close-up.
+//! Part of the profile with its axes: rigid profile, elastic surface and contact, for the profile
+//! pane and the close-up.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
@@ -12,8 +13,8 @@ use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Panel of a section over the position; `z` is the range of heights, m. Beside its title are the readings of the
-/// crosshair.
+/// Panel of a section over the position; `z` is the range of heights, m. Beside its title are the
+/// readings of the crosshair.
 pub fn panel(
     title: &str,
     snapshot: &ContactSnapshot,
@@ -44,8 +45,8 @@ pub fn panel(
     panel
 }
 
-/// Chart of the springs of a section for a file, with the range of heights `z` (m); it does not depend on the size of the
-/// pane.
+/// Chart of the springs of a section for a file, with the range of heights `z` (m); it does not
+/// depend on the size of the pane.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,

@@ -1,4 +1,5 @@
-//! Sensitivity of the results to the numbers of the scene: all changes as a table, with bars for the adhesion force.
+//! Sensitivity of the results to the numbers of the scene: all changes as a table, with bars for
+//! the adhesion force.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -13,7 +14,8 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Number of rows besides the rows of the bars: results of the scene, heading, and horizontal axis with its numbers and label.
+/// Number of rows besides the rows of the bars: results of the scene, heading, and horizontal axis
+/// with its numbers and label.
 const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
@@ -116,7 +118,8 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Rows of the table, padded to one width: name, change of the number, and changes of the first `results` results.
+/// Rows of the table, padded to one width: name, change of the number, and changes of the first
+/// `results` results.
 fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
     let length = |text: &String| text.chars().count();
     let line = |row: &[String; 7]| {

@@ -109,7 +109,8 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     words
 }
 
-/// Adhesion force with its spread over random profiles and with the spread due to the fit, as far as computed.
+/// Adhesion force with its spread over random profiles and with the spread due to the fit, as far
+/// as computed.
 fn adhesion(app: &App) -> Option<String> {
     if !is_sampled(&app.solved.as_ref()?.scene) {
         return None;

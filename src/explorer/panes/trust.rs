@@ -1,5 +1,5 @@
-//! How far the adhesion force can be trusted: what accuracy costs, as errors over computing times, the errors by their sources,
-//! and what other theories say of the same surface.
+//! How far the adhesion force can be trusted: what accuracy costs, as errors over computing times,
+//! the errors by their sources, and what other theories say of the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -43,7 +43,8 @@ pub struct Costs {
     pub trying: Option<String>,
 }
 
-/// Measures the cost table of a scene. Its times belong together, so an interrupted measurement begins anew.
+/// Measures the cost table of a scene. Its times belong together, so an interrupted measurement
+/// begins anew.
 fn study(computed: &SolvedScene) -> Study {
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, true, move |_, stop, report| {
@@ -132,7 +133,8 @@ fn panel(app: &App, size: Size) -> Panel {
         size.width.into(),
     );
     let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
-    // In a small window other theories are left out before the chart, and the chart before the errors.
+    // In a small window other theories are left out before the chart, and the chart before the
+    // errors.
     if beside_chart < words.cost.len() + words.errors.len() + 1 && beside_chart < words.count() {
         let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
         return Panel {
@@ -254,7 +256,8 @@ fn nothing_yet(app: &App) -> String {
     }
 }
 
-/// The chart with the target errors and the scene itself, and errors down to the smallest one of interest.
+/// The chart with the target errors and the scene itself, and errors down to the smallest one of
+/// interest.
 fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span {
@@ -281,7 +284,8 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     chart
 }
 
-/// Error and time of the scene, springs and time of the fastest setting for each target, and the setting that is tried now.
+/// Error and time of the scene, springs and time of the fastest setting for each target, and the
+/// setting that is tried now.
 fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
     let theme = app.view.appearance.theme;
     let mut parts = Vec::new();
@@ -346,7 +350,8 @@ fn time_of(seconds: f64) -> String {
     format_rounded(seconds, 2, "s")
 }
 
-/// Springs and time of the fastest setting with an error within a bound; `None` while there is none yet.
+/// Springs and time of the fastest setting with an error within a bound; `None` while there is none
+/// yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     let rows =
         [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));

@@ -21,7 +21,8 @@ use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
-/// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer hold for a changed scene.
+/// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer
+/// hold for a changed scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let (scene, theme) = (app.edit.document.scene(), app.view.appearance.theme);
     let has_title = !scene.title.is_empty() && !app.edit.document.is_changed_built_in();
@@ -53,7 +54,8 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// Status lines: the headline figures, a question, an error, or the typed text, in at most this number of rows.
+/// Status lines: the headline figures, a question, an error, or the typed text, in at most this
+/// number of rows.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let theme = app.view.appearance.theme;
     let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
@@ -172,7 +174,8 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Smallest width, columns, of a status line with the error of F_a, and of one that has random profiles too.
+/// Smallest width, columns, of a status line with the error of F_a, and of one that has random
+/// profiles too.
 const WITH_ERROR: usize = 48;
 const WITH_BOTH: usize = 100;
 
@@ -299,8 +302,8 @@ fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
 /// Smallest width, columns, in which the beginning of a warning can be understood.
 const LEAST_WARNING: usize = 30;
 
-/// Adds the number of warnings and the first of them, as far as there is room; without room, the number alone after the
-/// first fact.
+/// Adds the number of warnings and the first of them, as far as there is room; without room, the
+/// number alone after the first fact.
 fn add_warning(facts: &mut Vec<(String, Meaning)>, warnings: &[String], width: usize) {
     let Some(first) = warnings.first() else {
         return;
@@ -331,7 +334,8 @@ fn add_warning(facts: &mut Vec<(String, Meaning)>, warnings: &[String], width: u
     }
 }
 
-/// What is known of the loops of random squares in three dimensions, and their difference from the line.
+/// What is known of the loops of random squares in three dimensions, and their difference from the
+/// line.
 fn squares(app: &App, width: usize) -> (String, Meaning) {
     match app.studies.failure::<SquareLoops>() {
         // The reason is whole where there is room, and its beginning elsewhere.
@@ -352,7 +356,8 @@ fn squares(app: &App, width: usize) -> (String, Meaning) {
     }
 }
 
-/// Median and quartiles of the adhesion force over the random profiles computed so far, and with room their number.
+/// Median and quartiles of the adhesion force over the random profiles computed so far, and with
+/// room their number.
 fn profiles(app: &App, is_wide: bool) -> Option<(String, Meaning)> {
     let ensemble = app.studies.value::<Ensemble>()?;
     let is_share = app.is_normalised();
@@ -379,7 +384,8 @@ fn profiles(app: &App, is_wide: bool) -> Option<(String, Meaning)> {
     ))
 }
 
-/// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an estimate.
+/// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an
+/// estimate.
 fn error(app: &App) -> Option<String> {
     match app.studies.value::<Estimate>() {
         Some(estimate) => Some(estimate.words()),
@@ -399,7 +405,8 @@ fn error(app: &App) -> Option<String> {
     }
 }
 
-/// Progress of the search of springs for a tolerance, or of parameters for the measured curve; `None` without a search.
+/// Progress of the search of springs for a tolerance, or of parameters for the measured curve;
+/// `None` without a search.
 fn searching(app: &App) -> Option<String> {
     if let Some(Choosing {
         tolerance, tried, ..

@@ -1,4 +1,5 @@
-//! Lists of a prompt in place of the panes: help and commands in sections, or scenes with the selected one on the right.
+//! Lists of a prompt in place of the panes: help and commands in sections, or scenes with the
+//! selected one on the right.
 
 use crate::explorer::layout::inside;
 use crate::explorer::panel;
@@ -11,7 +12,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-/// Width of the names beside their texts, columns, and the width of a window from which on names are beside and not above.
+/// Width of the names beside their texts, columns, and the width of a window from which on names
+/// are beside and not above.
 const NAMES: usize = 20;
 const BESIDE_FROM: u16 = 56;
 /// Indentation of a text below its name, columns.
@@ -42,7 +44,8 @@ fn list(
 /// Lines of a list, and the index of the selected line.
 type Rows = (Vec<Line<'static>>, usize);
 
-/// Draws the help or the list of commands: the topics that match what is typed, in sections while nothing is typed.
+/// Draws the help or the list of commands: the topics that match what is typed, in sections while
+/// nothing is typed.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,

@@ -49,7 +49,8 @@ fn a_rounding_error_is_a_force_of_zero() {
     driver.shows("p_m 0 Pa");
 }
 
-/// A mistake in the configuration file is stated before what the session found, and neither hides the other.
+/// A mistake in the configuration file is stated before what the session found, and neither hides
+/// the other.
 #[test]
 fn notices_at_the_start_stand_beside_each_other() {
     let [warning, offer] =

@@ -84,7 +84,8 @@ fn an_amplitude_is_typed_as_a_height_or_as_a_gradient() {
     assert_eq!(*driver.document().scene(), before);
 }
 
-/// Whatever changes the works of adhesion: γ, a parameter of the roughness from which γ follows, or keys.
+/// Whatever changes the works of adhesion: γ, a parameter of the roughness from which γ follows, or
+/// keys.
 #[test]
 fn the_work_on_closing_never_exceeds_that_on_opening() {
     let works = "(work: 4.0e-3, closing_work: 3.0e-3)";

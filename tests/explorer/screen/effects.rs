@@ -71,7 +71,8 @@ fn an_effect_goes_and_comes_back_as_it_was() {
     }
 }
 
-/// A scene may be given γ or κ, and either may be typed: κ² = h⟨∇z⟩E*/γ (eq. 11), and the typed one is given thereafter.
+/// A scene may be given γ or κ, and either may be typed: κ² = h⟨∇z⟩E*/γ (eq. 11), and the typed one
+/// is given thereafter.
 #[test]
 fn the_work_or_kappa_is_solved_for_from_the_other() {
     let by_work = changed(&rough(), &[("adhesion", "(work: 0.05)")]);

@@ -30,7 +30,8 @@ fn reports_of_another_scene_change_nothing() {
     }
 }
 
-/// Makes the scene one whose contact detaches before it reaches a force, by switching its adhesion off.
+/// Makes the scene one whose contact detaches before it reaches a force, by switching its adhesion
+/// off.
 pub fn detach(driver: &mut Driver) {
     driver.set("loading", "20 µN, -10 nN");
     driver.select("adhesion");

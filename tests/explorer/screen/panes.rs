@@ -1,5 +1,5 @@
-//! Golden screens, for review: the main screen in three windows, and the panes on a whole screen whose text no other test
-//! reads. The curves are those of a smooth sphere.
+//! Golden screens, for review: the main screen in three windows, and the panes on a whole screen
+//! whose text no other test reads. The curves are those of a smooth sphere.
 
 use super::*;
 use asperity_plot::screen_text as text;

@@ -33,8 +33,8 @@ fn values_are_whole_in_narrow_panes() {
             driver.press("g");
             for _ in 0..driver.app.edit.parameters.len() {
                 let parameter = driver.app.edit.parameter().unwrap();
-                // A list of stages is in the rows below, the name of a group of choices in its text, and a pair of lengths
-                // wider than the smallest panes.
+                // A list of stages is in the rows below, the name of a group of choices in its
+                // text, and a pair of lengths wider than the smallest panes.
                 let is_pair = parameter.path == "roughness.wavelengths" && size.0 < 80;
                 if parameter.field.unit.is_empty() || is_pair {
                     driver.press("j");

@@ -47,7 +47,8 @@ fn the_animation_is_paused_stepped_and_begun_again() {
 #[test]
 fn a_key_goes_to_the_pull_off_of_the_loading() {
     let twice = "[ToForce(1.0e-5), ToZeroForce, ToForce(2.0e-5), ToSeparation]";
-    // The pull-off is that of the last unloading, as everywhere, though an earlier one pulls with a larger force.
+    // The pull-off is that of the last unloading, as everywhere, though an earlier one pulls with a
+    // larger force.
     let again = "[ToForce(2.0e-5), ToSeparation, ToTouch, ToSeparation]";
     let [twice, again] = [twice, again].map(|loading| rough().set("loading", loading).unwrap());
     let scenes = [rough(), smooth(), twice, again];

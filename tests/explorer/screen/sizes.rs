@@ -1,5 +1,5 @@
-//! One walk over every mode and pane in windows of five sizes, in all themes and markers; and what has to be visible in each
-//! window.
+//! One walk over every mode and pane in windows of five sizes, in all themes and markers; and what
+//! has to be visible in each window.
 
 use super::common::script::rows;
 use super::*;

@@ -4,7 +4,8 @@ use super::*;
 use asperity::contact::Move;
 use asperity::scene::text::to_ron;
 
-/// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole for 0.
+/// The rough scene with a loading, the row of one of its stages selected, of the loading as a whole
+/// for 0.
 fn loaded(loading: &str, stage: usize) -> Driver {
     let mut driver = Driver::start(changed(&rough(), &[("loading", loading)]));
     select(&mut driver, stage);
@@ -181,7 +182,8 @@ fn what_cannot_be_loaded_is_refused_in_one_line() {
         assert_eq!(driver.app.prompt.as_ref().unwrap().line.text(), typed);
         driver.press("Esc");
     }
-    // A pull beyond adhesion is refused once its preview is computed; the stated force is within reach.
+    // A pull beyond adhesion is refused once its preview is computed; the stated force is within
+    // reach.
     select(&mut driver, 0);
     driver.enter("20 µN, -1 N, separation");
     let refusal = driver.refusal().expect("a refusal").to_owned();

@@ -1,4 +1,5 @@
-//! The tour of README.md, key by key: each key that it names is pressed, and each number that it states is on the screen.
+//! The tour of README.md, key by key: each key that it names is pressed, and each number that it
+//! states is on the screen.
 
 use super::*;
 use asperity::data::format_rounded;

@@ -231,7 +231,8 @@ fn digits_begin_a_value_wherever_the_list_can_be_edited() {
     driver.select("loading");
     driver.sees("j - 2", "F (µN): -2");
     driver.press("Esc");
-    // In the panes whose arrows change the value as well, though `-` and `.` have another meaning there.
+    // In the panes whose arrows change the value as well, though `-` and `.` have another meaning
+    // there.
     let before = driver.document().clone();
     driver.select("roughness.hurst");
     driver.press("Tab . - 0");

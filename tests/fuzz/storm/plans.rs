@@ -91,8 +91,8 @@ fn plans() -> impl Strategy<Value = String> {
     )
 }
 
-/// An accepted plan is written and read back the same, and each of its cells is an allowed scene; refusals begin with
-/// the name of the plan in each line. True if the plan is accepted.
+/// An accepted plan is written and read back the same, and each of its cells is an allowed scene;
+/// refusals begin with the name of the plan in each line. True if the plan is accepted.
 fn assert_plan(text: &str) -> Result<bool, TestCaseError> {
     let plan = match Plan::parse(text, NAME, &Changes::default()) {
         Ok(plan) => plan,

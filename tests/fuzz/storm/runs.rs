@@ -46,8 +46,8 @@ fn compute(document: &Document, folder: &std::path::Path) -> Result<(), TestCase
     }
 }
 
-/// The document with the refused stage at the largest target that the refusal names; `None` where the scene does not allow
-/// it.
+/// The document with the refused stage at the largest target that the refusal names; `None` where
+/// the scene does not allow it.
 fn within_reach(document: &Document, beyond: &BeyondFullContact) -> Option<Document> {
     let is_refused = |stage: &Move| {
         target_field(*stage)
@@ -186,7 +186,8 @@ fn assert_leg(leg: &LegRecord, start: &CurvePoint, outcome: &Outcome) -> Result<
     Ok(())
 }
 
-/// From separation to separation energy is dissipated, never gained; without adhesion none is dissipated.
+/// From separation to separation energy is dissipated, never gained; without adhesion none is
+/// dissipated.
 fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     let legs = &outcome.history.legs;
     let size: f64 = legs.iter().map(|leg| leg.released_energy.abs()).sum();
@@ -203,7 +204,8 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     }
     let deepest = outcome.line.deepest;
     let squares = match edges {
-        // Springs stretched by less than a rounding of the gaps attach and detach at a place decided by rounding.
+        // Springs stretched by less than a rounding of the gaps attach and detach at a place
+        // decided by rounding.
         Edges::Grid => (2.0 * f64::EPSILON * deepest).powi(2),
         // Squares over parts of cells are rounded numbers, of which only differences are released.
         Edges::SubCell => f64::EPSILON * deepest * deepest,
@@ -223,7 +225,8 @@ fn assert_energy(outcome: &Outcome, edges: Edges) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// An error names a leg, a field or the excessive size, and a refused force comes with the allowed ones.
+/// An error names a leg, a field or the excessive size, and a refused force comes with the allowed
+/// ones.
 fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> {
     let message = error.to_string();
     prop_assert_eq!(message.lines().count(), 1);
@@ -233,7 +236,8 @@ fn assert_refused(error: &RunError, scene: &Scene) -> Result<(), TestCaseError> 
             target,
             reason,
         }) => {
-            // Without adhesion every pressing force has its indentation, unless that exceeds all numbers.
+            // Without adhesion every pressing force has its indentation, unless that exceeds all
+            // numbers.
             let stiffness = scene.material.effective_modulus() * scene.length;
             let presses = matches!(target, Move::ToForce(force) if *force > 0.0 && (force / stiffness).is_finite());
             let is_out_of_reach =

@@ -19,9 +19,11 @@ const EXTREME: [u32; 3] = [1, 5, 10];
 /// Options of the draws.
 #[derive(Clone, Default)]
 pub struct Drawn {
-    /// Fields with values of another strategy, by path: a whole range would take too long to compute.
+    /// Fields with values of another strategy, by path: a whole range would take too long to
+    /// compute.
     narrowed: Vec<(&'static str, BoxedStrategy<String>)>,
-    /// True to draw now and then values outside their ranges or of other types, missing and unknown fields.
+    /// True to draw now and then values outside their ranges or of other types, missing and unknown
+    /// fields.
     wrong: bool,
     /// Number of extreme values in ten.
     extreme: u32,
@@ -54,7 +56,8 @@ impl Drawn {
         proptest::strategy::Union::new(EXTREME.map(of)).boxed()
     }
 
-    /// Scenes that can be computed, some of them with wavelengths in place of modes and with a roll-off.
+    /// Scenes that can be computed, some of them with wavelengths in place of modes and with a
+    /// roll-off.
     pub fn documents(&self) -> impl Strategy<Value = Document> + use<> {
         let roll_off = prop::option::weighted(0.3, 0.0..1.0_f64);
         (self.scene_texts(), any::<bool>(), roll_off).prop_filter_map(
@@ -175,8 +178,8 @@ impl Drawn {
         }
     }
 
-    /// The fields below a path, in parentheses. A template names the fields of a complete group; other optional fields
-    /// are mostly left out.
+    /// The fields below a path, in parentheses. A template names the fields of a complete group;
+    /// other optional fields are mostly left out.
     fn group(&self, parent: &str, variant: Option<&str>, template: &str) -> BoxedStrategy<String> {
         let belongs = |field: &&Field| {
             field.parent() == parent
@@ -217,8 +220,8 @@ impl Drawn {
             .boxed()
     }
 
-    /// Numbers around the usual value of the field, and extreme ones: the ends of the range, and all its orders of
-    /// magnitude alike.
+    /// Numbers around the usual value of the field, and extreme ones: the ends of the range, and
+    /// all its orders of magnitude alike.
     fn number(&self, field: &'static Field) -> BoxedStrategy<f64> {
         let (least, most) = field.range.ends().unwrap_or_default();
         let least = if field.range.contains(least) {

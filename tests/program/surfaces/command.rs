@@ -1,4 +1,5 @@
-//! `asperity surface`, and scenes of measured surfaces: what they state follows from the files, and from each other.
+//! `asperity surface`, and scenes of measured surfaces: what they state follows from the files, and
+//! from each other.
 
 use crate::program::{Finished, asperity_in, number, rows, table};
 use serde_json::{Value, json};
@@ -9,9 +10,9 @@ use std::path::Path;
 struct Place(tempfile::TempDir);
 
 impl Place {
-    /// With the profile `line.txt`, `plain.txt` without units, `column.txt` without distances and units, `holes.txt` with
-    /// missing points, `uneven.txt` with points at uneven distances, a map `map.txt`, its seventh row and third column, and a
-    /// container of two surfaces.
+    /// With the profile `line.txt`, `plain.txt` without units, `column.txt` without distances and
+    /// units, `holes.txt` with missing points, `uneven.txt` with points at uneven distances, a map
+    /// `map.txt`, its seventh row and third column, and a container of two surfaces.
     fn new() -> Self {
         let place = Place(tempfile::tempdir().unwrap());
         let all = heights(512);
@@ -203,8 +204,8 @@ fn moments_and_contact_parameters_are_those_of_the_heights() {
     );
 }
 
-/// Numbers after the last of these keys, each searched after the previous one, to the last digit: a general JSON reader
-/// rounds some of them.
+/// Numbers after the last of these keys, each searched after the previous one, to the last digit: a
+/// general JSON reader rounds some of them.
 fn numbers<'a>(text: &'a str, keys: &[&str]) -> impl Iterator<Item = f64> + 'a {
     let quoted = |key: &str| format!("\"{key}\":");
     let (last, before) = keys.split_last().unwrap();

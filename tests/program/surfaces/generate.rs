@@ -5,7 +5,8 @@ use asperity_fourier::{Complex64, ComplexToReal, plan_inverse, plan_real_inverse
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// C2D ∝ 1 below the roll-off and q^(−2−2H) above, up to the last wave; wave numbers in waves per unit length.
+/// C2D ∝ 1 below the roll-off and q^(−2−2H) above, up to the last wave; wave numbers in waves per
+/// unit length.
 pub struct Spectrum {
     pub hurst: f64,
     pub roll_off: f64,
@@ -13,7 +14,8 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Power of a wave of wave number k per area of wave numbers: h² is its integral over the plane.
+    /// Power of a wave of wave number k per area of wave numbers: h² is its integral over the
+    /// plane.
     pub fn power(&self, k: f64) -> f64 {
         if k > self.last {
             0.0
@@ -75,7 +77,8 @@ impl Normal {
     }
 }
 
-/// Map of `points` × `points` on a square of side 1, a quarter of a periodic one, so that it does not repeat.
+/// Map of `points` × `points` on a square of side 1, a quarter of a periodic one, so that it does
+/// not repeat.
 pub fn map(spectrum: &Spectrum, points: usize, seed: u64) -> Topography {
     let (all, length) = (2 * points, 2.0);
     let mut normal = Normal::new(seed);
@@ -119,8 +122,8 @@ pub struct Profiles {
 }
 
 impl Profiles {
-    /// Profiles of this number of points. Waves beyond their Nyquist wave number are sampled at points, as by an
-    /// instrument.
+    /// Profiles of this number of points. Waves beyond their Nyquist wave number are sampled at
+    /// points, as by an instrument.
     pub fn new(spectrum: &Spectrum, points: usize) -> Self {
         Self::on(1.0, spectrum, points)
     }
@@ -180,8 +183,8 @@ pub fn cut(spectrum: &Spectrum, k: f64) -> f64 {
             .sum::<f64>()
 }
 
-/// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m. Those that are not a number are
-/// interpolated.
+/// The heights as read from a NumPy file: a profile (`columns` of 0) or a map on a length of 1 m.
+/// Those that are not a number are interpolated.
 pub fn topography(heights: &[f64], columns: usize) -> Topography {
     read(heights, columns, 1.0, &ReadOptions::default())
 }

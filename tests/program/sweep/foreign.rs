@@ -1,5 +1,5 @@
-//! Foreign content in the folder of a study, or in its name: nothing hangs, panics, or reaches a terminal except as
-//! text.
+//! Foreign content in the folder of a study, or in its name: nothing hangs, panics, or reaches a
+//! terminal except as text.
 
 use super::{SMALL, compute, computed, plan, shard_files, study, tables};
 use asperity::study::folders::Status;

@@ -130,7 +130,8 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
     let whole = tables(&folder);
     let line = place.path().join("line.csv");
     let other = Folder::create(&place.path().join("other"), &plan).unwrap();
-    // Lines of other numbers of points are sampled from the file again: after the first cell the file has changed.
+    // Lines of other numbers of points are sampled from the file again: after the first cell the
+    // file has changed.
     let asked = std::sync::atomic::AtomicU32::new(0);
     let change = || {
         if asked.fetch_add(1, std::sync::atomic::Ordering::SeqCst) == 1 {

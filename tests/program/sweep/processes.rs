@@ -170,7 +170,8 @@ fn two_processes_may_be_given_the_same_shard() {
 #[test]
 fn a_full_disk_is_stated_and_loses_nothing() {
     let place = place();
-    // A file may not grow beyond 16 blocks of 512 bytes; its signal is ignored, so that writes fail as on a full disk.
+    // A file may not grow beyond 16 blocks of 512 bytes; its signal is ignored, so that writes fail
+    // as on a full disk.
     let inner = command(place.path());
     let mut words = vec![inner.get_program().to_owned()];
     words.extend(inner.get_args().map(std::ffi::OsStr::to_owned));

@@ -1,11 +1,13 @@
-//! Spans of neighbouring springs that one patch holds, and their levels. The level of a patch is the gap at which its edges
-//! lie. The length of the patch and its edge cells follow from the level.
+//! Spans of neighbouring springs that one patch holds, and their levels. The level of a patch is
+//! the gap at which its edges lie. The length of the patch and its edge cells follow from the
+//! level.
 
 use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Rule for the edges of a contact patch. An edge lies either in the middle between two springs, or anywhere between them.
+/// Rule for the edges of a contact patch. An edge lies either in the middle between two springs, or
+/// anywhere between them.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -22,11 +24,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
-    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie in the middle between two
-    /// springs. Errors of forces and energies are proportional to the spacing Δx of the springs.
+    /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie
+    /// in the middle between two springs. Errors of forces and energies are proportional to the
+    /// spacing Δx of the springs.
     Grid,
-    /// The profile is straight between neighbouring springs, and an edge may lie at any place between two springs. Errors of
-    /// forces and energies are proportional to the square of the spacing Δx of the springs, or to Δx under a flat punch.
+    /// The profile is straight between neighbouring springs, and an edge may lie at any place
+    /// between two springs. Errors of forces and energies are proportional to the square of the
+    /// spacing Δx of the springs, or to Δx under a flat punch.
     SubCell,
 }
 
@@ -42,9 +46,9 @@ impl Edges {
 
 /// Springs `first..=last` of one patch, and their largest gap in m.
 ///
-/// In equilibrium each patch is a span whose two neighbouring springs have larger gaps than all its own springs. This holds
-/// under any loading history. Such a span is a subtree of the max-Cartesian tree of the gaps, in which the leftmost of equal
-/// gaps is nearest the root.
+/// In equilibrium each patch is a span whose two neighbouring springs have larger gaps than all its
+/// own springs. This holds under any loading history. Such a span is a subtree of the max-Cartesian
+/// tree of the gaps, in which the leftmost of equal gaps is nearest the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     pub gap: f64,
@@ -53,7 +57,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the springs `lowest..=highest`.
+    /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the
+    /// springs `lowest..=highest`.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
         let Span {
@@ -74,8 +79,8 @@ impl Span {
         }
     }
 
-    /// Returns the index of the wall. The wall is the spring with the smaller gap of the two springs beside the span; it
-    /// attaches next. `None` if the span fills the profile.
+    /// Returns the index of the wall. The wall is the spring with the smaller gap of the two
+    /// springs beside the span; it attaches next. `None` if the span fills the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
@@ -138,7 +143,8 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)` cells, for t from `gap` to `top`.
+/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)`
+/// cells, for t from `gap` to `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
     /// Largest gap of the span in m, the lowest level.
@@ -151,7 +157,8 @@ pub struct Levels {
     pub top: f64,
 }
 
-/// Sums over the two cells at the edges of a patch, which are only partly in contact, at one indentation.
+/// Sums over the two cells at the edges of a patch, which are only partly in contact, at one
+/// indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
     /// Length in contact within both cells, in cells.
@@ -192,11 +199,12 @@ impl EdgeSum {
     }
 }
 
-/// Part of an edge cell that lies below the level of the edge. The cell reaches from the last spring of a span to the first
-/// spring outside.
+/// Part of an edge cell that lies below the level of the edge. The cell reaches from the last
+/// spring of a span to the first spring outside.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
-    /// Gap in m of the first spring outside. It is infinite at the end of the foundation, which lies half a cell away.
+    /// Gap in m of the first spring outside. It is infinite at the end of the foundation, which
+    /// lies half a cell away.
     outside: f64,
     /// Share of the cell that lies at or below the level.
     pub share: f64,
@@ -209,8 +217,8 @@ pub struct EdgeCell {
 }
 
 impl EdgeCell {
-    /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The level is between the largest gap
-    /// of the span and the gap of its wall.
+    /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The
+    /// level is between the largest gap of the span and the gap of its wall.
     #[inline]
     pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
         let before = if first > 0 {
@@ -257,14 +265,16 @@ impl EdgeCell {
         }
     }
 
-    /// Computes ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in cells times m².
+    /// Computes ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in
+    /// cells times m².
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Returns the levels of a span on a profile that is straight between springs, and its two edge cells at the lowest level.
+    /// Returns the levels of a span on a profile that is straight between springs, and its two edge
+    /// cells at the lowest level.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of(gaps, span, span.gap);
@@ -288,8 +298,8 @@ impl Levels {
         self.length + self.growth * rise
     }
 
-    /// Returns the height in m of the edges above the largest gap, by the rule of Hess at an indentation in m. `stretch` is the
-    /// largest stretch in m of a patch one cell long.
+    /// Returns the height in m of the edges above the largest gap, by the rule of Hess at an
+    /// indentation in m. `stretch` is the largest stretch in m of a patch one cell long.
     #[inline]
     pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
         if self.growth <= 0.0 {
@@ -299,10 +309,11 @@ impl Levels {
         }
     }
 
-    /// Returns √ℓ of a patch whose edges are free to move. `stretch` is the largest stretch in m of a patch one cell long, and
-    /// `above` the indentation minus the largest gap in m.
+    /// Returns √ℓ of a patch whose edges are free to move. `stretch` is the largest stretch in m of
+    /// a patch one cell long, and `above` the indentation minus the largest gap in m.
     ///
-    /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic in y.
+    /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic
+    /// in y.
     #[inline]
     fn root(&self, stretch: f64, above: f64) -> f64 {
         let half = 0.5 * stretch * self.growth;
@@ -311,7 +322,8 @@ impl Levels {
         half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 
-    /// Returns the height in m of free edges above the largest gap, limited to the levels of the span.
+    /// Returns the height in m of free edges above the largest gap, limited to the levels of the
+    /// span.
     #[inline]
     fn free_rise(&self, stretch: f64, above: f64) -> f64 {
         let rise = above + stretch * self.root(stretch, above);
@@ -320,8 +332,9 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Returns the indentation in m at which edges that are pinned at the height `rise` (m) begin to move. The second value is
-    /// true if the edges then slide, and false if they jump. `stretch` is the largest stretch in m of a patch one cell long.
+    /// Returns the indentation in m at which edges that are pinned at the height `rise` (m) begin
+    /// to move. The second value is true if the edges then slide, and false if they jump. `stretch`
+    /// is the largest stretch in m of a patch one cell long.
     #[inline]
     pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -334,7 +347,8 @@ impl Levels {
     }
 }
 
-/// The two edge cells of a span. Their edges slide with the indentation, or are pinned at one level.
+/// The two edge cells of a span. Their edges slide with the indentation, or are pinned at one
+/// level.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider {
     levels: Levels,
@@ -344,15 +358,16 @@ pub struct Slider {
     cells: f64,
     /// Length of the edge cells in contact at the level of the largest gap, in cells.
     edges: f64,
-    /// Compression in cells times m, and squared compression in cells times m², of the edge cells. Both are taken where the
-    /// level and the indentation equal the largest gap.
+    /// Compression in cells times m, and squared compression in cells times m², of the edge cells.
+    /// Both are taken where the level and the indentation equal the largest gap.
     compression: f64,
     squares: f64,
 }
 
 impl Slider {
-    /// Creates the edge cells of a span. `stretch` is the largest stretch in m of a patch one cell long. `pin` is the height in
-    /// m above the largest gap at which the edges are pinned, or `None` if they slide.
+    /// Creates the edge cells of a span. `stretch` is the largest stretch in m of a patch one cell
+    /// long. `pin` is the height in m above the largest gap at which the edges are pinned, or
+    /// `None` if they slide.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -375,8 +390,8 @@ impl Slider {
         slider
     }
 
-    /// Creates the cell between two springs with these gaps in m, without adhesion. It fills from the smaller gap to the larger
-    /// one.
+    /// Creates the cell between two springs with these gaps in m, without adhesion. It fills from
+    /// the smaller gap to the larger one.
     #[inline]
     pub fn of_cell(one: f64, other: f64) -> Self {
         let (gap, top) = if one < other {
@@ -395,7 +410,8 @@ impl Slider {
         })
     }
 
-    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the last spring, in m, everywhere.
+    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the
+    /// last spring, in m, everywhere.
     pub fn half_cell(gap: f64) -> Self {
         Self::without_adhesion(Levels {
             gap,
@@ -432,18 +448,20 @@ impl Slider {
         }
     }
 
-    /// Returns ½ (stretch ℓ)² in cells times m², at an indentation in m. It is the sum of the squared stretches with which
-    /// springs attached as the edges moved. It equals twice the surface energy of the patch over the stiffness of a spring.
+    /// Returns ½ (stretch ℓ)² in cells times m², at an indentation in m. It is the sum of the
+    /// squared stretches with which springs attached as the edges moved. It equals twice the
+    /// surface energy of the patch over the stiffness of a spring.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.stretch * (self.cells + self.edge_cells(indentation).length);
         0.5 * length * length
     }
 
-    /// Returns the derivative of the compression of the edge cells with respect to the indentation (m), in cells.
+    /// Returns the derivative of the compression of the edge cells with respect to the indentation
+    /// (m), in cells.
     ///
-    /// The edges move with the indentation. The derivative is therefore ℓ (2y − 3k)/(2y − k) minus the number of whole cells,
-    /// with y = √ℓ and k = stretch × growth. The derivative only grows with the indentation, so the force is convex between
-    /// events.
+    /// The edges move with the indentation. The derivative is therefore ℓ (2y − 3k)/(2y − k) minus
+    /// the number of whole cells, with y = √ℓ and k = stretch × growth. The derivative only grows
+    /// with the indentation, so the force is convex between events.
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let (levels, above) = (self.levels, indentation - self.levels.gap);
         let (rise, fall) = (

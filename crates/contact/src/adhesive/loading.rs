@@ -1,4 +1,5 @@
-//! Loading: finds the indentation at which each node of the contact tree closes, and lists the patches between these events.
+//! Loading: finds the indentation at which each node of the contact tree closes, and lists the
+//! patches between these events.
 
 use super::levels::{Levels, Span, larger, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -9,14 +10,15 @@ use std::borrow::Cow;
 
 /// Closing thresholds of the nodes of a contact tree, for a loading from separation.
 ///
-/// A node closes when one of its two branches attaches the spring of the node. All springs of its subtree are then one patch.
-/// The threshold of node v is s_v = min over its branches u of max(s_u, φ on each span from u up to v), with φ of the module
-/// `run`.
+/// A node closes when one of its two branches attaches the spring of the node. All springs of its
+/// subtree are then one patch. The threshold of node v is s_v = min over its branches u of max(s_u,
+/// φ on each span from u up to v), with φ of the module `run`.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes.
     closes: Vec<f64>,
-    /// First and last spring that certainly attach with each node. The range widens while the branches above are walked.
+    /// First and last spring that certainly attach with each node. The range widens while the
+    /// branches above are walked.
     known: Vec<[u32; 2]>,
     pub evaluations: u64,
 }
@@ -108,8 +110,8 @@ impl Closing {
         Ok(closing)
     }
 
-    /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the patches in contact at its
-    /// beginning.
+    /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the
+    /// patches in contact at its beginning.
     pub fn list<const SLIDES: bool>(
         &self,
         ground: &Ground<'_, SLIDES>,
@@ -145,14 +147,16 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         [[begin, middle], [middle, end]]
     }
 
-    /// Returns the held patch of the range `begin..end` that lies on this very branch, not on a branch below it.
+    /// Returns the held patch of the range `begin..end` that lies on this very branch, not on a
+    /// branch below it.
     fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
         self.held
             .get(begin)
             .filter(|held| end - begin == 1 && held.branch == branch)
     }
 
-    /// Finds when the nodes around held patches close. All other nodes close as on a loading from separation.
+    /// Finds when the nodes around held patches close. All other nodes close as on a loading from
+    /// separation.
     fn close_around(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let mut waiting = vec![(tree.root(), [0, self.held.len()])];
@@ -189,7 +193,8 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Returns the beginning of a branch: the patch held on the branch, or else the span at which the branch closes.
+    /// Returns the beginning of a branch: the patch held on the branch, or else the span at which
+    /// the branch closes.
     fn start(&self, branch: Branch, held: Option<&Held>) -> Start {
         let Ground { tree, gaps, .. } = *self.ground;
         if let Some(held) = held {
@@ -264,8 +269,8 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         Ok(())
     }
 
-    /// Lists the runs of one branch, the largest first. `pin` is the height in m of the pinned edges of a held patch above its
-    /// largest gap.
+    /// Lists the runs of one branch, the largest first. `pin` is the height in m of the pinned
+    /// edges of a held patch above its largest gap.
     fn climb(
         &mut self,
         climb: &Climb,
@@ -339,10 +344,12 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Returns the largest φ (m) of a branch from its beginning up to the spring `parent`, but at least the threshold of the
-    /// branch. Also returns the first and the last spring that the branch certainly holds at its smallest span.
+    /// Returns the largest φ (m) of a branch from its beginning up to the spring `parent`, but at
+    /// least the threshold of the branch. Also returns the first and the last spring that the
+    /// branch certainly holds at its smallest span.
     ///
-    /// On a span with n cells known inside, φ at a gap b is at most b − s√n. Most spans therefore need no evaluation.
+    /// On a span with n cells known inside, φ at a gap b is at most b − s√n. Most spans therefore
+    /// need no evaluation.
     #[inline(never)]
     fn climb(&self, start: Start, parent: usize, evaluations: &mut u64) -> (f64, [u32; 2]) {
         let gaps = self.gaps;

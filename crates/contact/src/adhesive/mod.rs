@@ -1,8 +1,9 @@
 //! Adhesive contact: the exact force curve of a loading history with turning points.
 //!
-//! The local maxima of the gap form a `ContactTree`. A pass over the tree for a loading closes its nodes from below, and a pass
-//! for an unloading opens them from above. Both passes list *runs*: patches over ranges of indentation in which their edges move
-//! without a jump. Curves, extremes and energies are sums over the runs. Only the edge model defines the length of a patch.
+//! The local maxima of the gap form a `ContactTree`. A pass over the tree for a loading closes its
+//! nodes from below, and a pass for an unloading opens them from above. Both passes list *runs*:
+//! patches over ranges of indentation in which their edges move without a jump. Curves, extremes
+//! and energies are sums over the runs. Only the edge model defines the length of a patch.
 
 pub(crate) mod levels;
 pub(crate) mod loading;
@@ -25,8 +26,8 @@ pub struct Runs<'a, const SLIDES: bool> {
 }
 
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
-    /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each has the height of its edges,
-    /// which stay in place at the beginning of the next motion.
+    /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each
+    /// has the height of its edges, which stay in place at the beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
         let ground = &self.ground;
         self.runs
@@ -54,8 +55,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         [leftmost, rightmost].map(|run| run.map(|run| self.ground.span_at(run, indentation)))
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which it is in contact: −∞ for always, +∞ for
-    /// never.
+    /// Returns for each spring of the profile the smallest indentation in m at which it is in
+    /// contact: −∞ for always, +∞ for never.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
         // Larger patches come first; those inside have smaller thresholds.
@@ -100,7 +101,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         tally.finish(&ground.tree.scale)
     }
 
-    /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or a crossing is searched.
+    /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or
+    /// a crossing is searched.
     pub fn search(&self, intervals: &mut Intervals) {
         let (ground, (low, high)) = (&self.ground, intervals.ends());
         for run in self.runs {
@@ -124,8 +126,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     }
 }
 
-/// Sum of squared stretches ∫ (c − θ)² dx in cells times m². Whole springs or cells are summed as exact integers, edge cells as
-/// floating-point numbers.
+/// Sum of squared stretches ∫ (c − θ)² dx in cells times m². Whole springs or cells are summed as
+/// exact integers, edge cells as floating-point numbers.
 struct SquaredStretch {
     scale: SquareScale,
     whole: i128,
@@ -143,8 +145,8 @@ impl SquaredStretch {
         }
     }
 
-    /// Adds (`sign` 1) or subtracts (−1) the squared stretches over a span at the indentation `at` in m. The edges of the span
-    /// lie at `level` in m.
+    /// Adds (`sign` 1) or subtracts (−1) the squared stretches over a span at the indentation `at`
+    /// in m. The edges of the span lie at `level` in m.
     fn add<const SLIDES: bool>(
         &mut self,
         ground: &Ground<'_, SLIDES>,
@@ -155,7 +157,8 @@ impl SquaredStretch {
         let totals = ground.totals(span);
         let (squares, remainder) = self.scale.at(&totals, totals.whole(SLIDES), at);
         self.edges.add(f64::from(sign) * remainder);
-        // Sums of all runs cancel down to the energy: those in between may pass the range of integers.
+        // Sums of all runs cancel down to the energy: those in between may pass the range of
+        // integers.
         self.whole = self.whole.wrapping_add(if sign < 0 {
             squares.wrapping_neg()
         } else {
@@ -178,7 +181,8 @@ impl SquaredStretch {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Returns the level in m of the edges of a span, at an indentation that is not above the end of its run.
+    /// Returns the level in m of the edges of a span, at an indentation that is not above the end
+    /// of its run.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
@@ -193,13 +197,14 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
-    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach at an indentation θ above
-    /// `low` and up to `high` (m). It measures the energy that springs release as they detach, and take as they attach under a
-    /// stretch.
+    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach
+    /// at an indentation θ above `low` and up to `high` (m). It measures the energy that springs
+    /// release as they detach, and take as they attach under a stretch.
     ///
-    /// A patch that forms at an indentation θ attaches all springs between its edges, except the springs of the patches inside,
-    /// which end at θ. When a patch splits, the same springs detach. So most terms cancel in a sum over runs. What remains are
-    /// the squared stretches at the beginning of each run, minus those at its end, and the squares along its sliding edges.
+    /// A patch that forms at an indentation θ attaches all springs between its edges, except the
+    /// springs of the patches inside, which end at θ. When a patch splits, the same springs detach.
+    /// So most terms cancel in a sum over runs. What remains are the squared stretches at the
+    /// beginning of each run, minus those at its end, and the squares along its sliding edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
         if ground.stretch == 0.0 {
@@ -230,8 +235,8 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         sum.total()
     }
 
-    /// Returns the smallest and the largest span of a run in the range `low..high` of indentations in m, each with the level in
-    /// m of its edges there.
+    /// Returns the smallest and the largest span of a run in the range `low..high` of indentations
+    /// in m, each with the level in m of its edges there.
     fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
         let ground = &self.ground;
         let top = if run.to > high {

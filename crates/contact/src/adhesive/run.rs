@@ -1,16 +1,18 @@
-//! Runs: patches over ranges of indentation in which their edges move without a jump. The two edge models give the length of a
-//! patch, its next attachment and its next detachment.
+//! Runs: patches over ranges of indentation in which their edges move without a jump. The two edge
+//! models give the length of a patch, its next attachment and its next detachment.
 //!
-//! A patch grows from span to span. On each span its level lies between the largest gap of the span and the gap of the wall,
-//! the spring that attaches next. The level gives the length ℓ, the only input of the rule of Hess. The largest stretch is
-//! Δl_max = s √ℓ, eq. (10), with the stretch s of a patch of unit length.
+//! A patch grows from span to span. On each span its level lies between the largest gap of the span
+//! and the gap of the wall, the spring that attaches next. The level gives the length ℓ, the only
+//! input of the rule of Hess. The largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s of
+//! a patch of unit length.
 //!
-//! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n Δx at all levels of its
-//!   span.
-//! * Edges that slide between springs: the profile is straight between neighbouring springs, and a patch ends where the profile
-//!   crosses the level of the patch. A patch at the level t is in equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It
-//!   grows while φ(t) ≤ d and recedes while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest
-//!   value and then rises. A patch rests only where φ rises.
+//! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n
+//!   Δx at all levels of its span.
+//! * Edges that slide between springs: the profile is straight between neighbouring springs, and a
+//!   patch ends where the profile crosses the level of the patch. A patch at the level t is in
+//!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It grows while φ(t) ≤ d and recedes
+//!   while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest value and
+//!   then rises. A patch rests only where φ rises.
 
 use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
@@ -19,15 +21,19 @@ use crate::totals::ContactTotals;
 /// Relative margin for rounding in bounds.
 const ROUNDING: f64 = 1e-12;
 
-/// One patch over a range of indentations in which it grows from span to span, until it jumps, merges or splits.
+/// One patch over a range of indentations in which it grows from span to span, until it jumps,
+/// merges or splits.
 ///
-/// The runs of a motion are in the order of a walk through the contact tree from its root, right parts first. On each branch
-/// the larger patch comes first. So a run comes before the runs inside it, and of two separate runs the right one comes first.
+/// The runs of a motion are in the order of a walk through the contact tree from its root, right
+/// parts first. On each branch the larger patch comes first. So a run comes before the runs inside
+/// it, and of two separate runs the right one comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound of the indentations of the run in m, inclusive; −∞ for a patch in contact when a loading begins.
+    /// Lower bound of the indentations of the run in m, inclusive; −∞ for a patch in contact when a
+    /// loading begins.
     pub from: f64,
-    /// Upper bound of the indentations of the run in m, exclusive; +∞ for a patch in contact when an unloading begins.
+    /// Upper bound of the indentations of the run in m, exclusive; +∞ for a patch in contact when
+    /// an unloading begins.
     pub to: f64,
     /// Height in m of pinned edges above the largest gap; NaN for edges that are free to move.
     pub pin: f64,
@@ -44,22 +50,25 @@ pub struct Held {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
-    /// Height in m of the pinned edges above the largest gap of the patch; `None` if the edges are free.
+    /// Height in m of the pinned edges above the largest gap of the patch; `None` if the edges are
+    /// free.
     pub pin: Option<f64>,
 }
 
 #[derive(Debug)]
 pub struct Listed {
     pub runs: Vec<Run>,
-    /// On loading the smallest indentation of full contact, on unloading the smallest indentation with contact, both in m.
+    /// On loading the smallest indentation of full contact, on unloading the smallest indentation
+    /// with contact, both in m.
     pub end: f64,
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and rule of Hess for one direction of motion, the input of all passes over the tree.
+/// Gaps, contact tree and rule of Hess for one direction of motion, the input of all passes over
+/// the tree.
 ///
-/// With `SLIDES`, edges move between springs, and the force is curved between two events. Without `SLIDES` a patch of whole
-/// springs has one length at all levels of a span, and no edge cells.
+/// With `SLIDES`, edges move between springs, and the force is curved between two events. Without
+/// `SLIDES` a patch of whole springs has one length at all levels of a span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool> {
     pub gaps: &'a [f64],
@@ -98,7 +107,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
         let (first, last) = (first as usize, last as usize);
         let ends = larger(self.gaps[first], self.gaps[last]);
-        // Above the lowest span of a branch the largest gap is that of the outermost spring that attached last.
+        // Above the lowest span of a branch the largest gap is that of the outermost spring that
+        // attached last.
         let gap = branch
             .origin()
             .map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
@@ -115,26 +125,29 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Slider::new(self.gaps, span, self.stretch, run.pin())
     }
 
-    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring, whose gap is `wall` in m.
+    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring,
+    /// whose gap is `wall` in m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Returns the level in m of the edges of a span at an indentation in m. `pin` is the height in m of pinned edges above the
-    /// largest gap.
+    /// Returns the level in m of the edges of a span at an indentation in m. `pin` is the height in
+    /// m of pinned edges above the largest gap.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Returns the height in m of the edges above the largest gap, at an indentation in m. `pin` is the height of pinned edges.
+    /// Returns the height in m of the edges above the largest gap, at an indentation in m. `pin` is
+    /// the height of pinned edges.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
     }
 
-    /// Returns the totals of the whole springs of a span, or with `SLIDES` of its whole cells. The span counts as one patch.
+    /// Returns the totals of the whole springs of a span, or with `SLIDES` of its whole cells. The
+    /// span counts as one patch.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -149,7 +162,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it the run fills the span `above`.
+    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it
+    /// the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
         // Unloading, the span above parts where this one would go on.
@@ -169,8 +183,9 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns the level in m below which every spring beside a span certainly belongs to its patch, at an indentation in m. It
-    /// holds for loading and unloading, and saves evaluations of the rule of Hess.
+    /// Returns the level in m below which every spring beside a span certainly belongs to its
+    /// patch, at an indentation in m. It holds for loading and unloading, and saves evaluations of
+    /// the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
@@ -183,8 +198,9 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         self.stretch * self.stretch * (1.0 - ROUNDING)
     }
 
-    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations in m over which the run fills
-    /// it. It stops when `see` returns true. Ranges below `low` (m) are left out, and a range around `low` begins there.
+    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations in
+    /// m over which the run fills it. It stops when `see` returns true. Ranges below `low` (m) are
+    /// left out, and a range around `low` begins there.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -199,7 +215,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         }
     }
 
-    /// Returns the span of a run at an indentation in m; `from` is a span that the run fills at a smaller indentation.
+    /// Returns the span of a run at an indentation in m; `from` is a span that the run fills at a
+    /// smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let (mut span, top) = (from, run.top);
         while span.ends() != top {
@@ -246,7 +263,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels attaches its wall, whose gap is `wall` in m.
+    /// Returns the smallest indentation in m at which a span with these levels attaches its wall,
+    /// whose gap is `wall` in m.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES {
@@ -257,14 +275,15 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         wall - self.stretch * length.sqrt()
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels still holds its most stretched spring. It is at
-    /// most the largest gap of the span.
+    /// Returns the smallest indentation in m at which a span with these levels still holds its most
+    /// stretched spring. It is at most the largest gap of the span.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let (gap, stretch) = (levels.gap, self.stretch);
         if !SLIDES {
-            // At this indentation the spring is stretched by just Δl_max and detaches, so the smallest that still holds it
-            // is the next number above; but a spring whose gap is closed stays under any rule.
+            // At this indentation the spring is stretched by just Δl_max and detaches, so the
+            // smallest that still holds it is the next number above; but a spring whose gap is
+            // closed stays under any rule.
             return (gap - stretch * levels.length.sqrt()).next_up().min(gap);
         }
         // At the smallest φ √ℓ is half of stretch × growth.
@@ -291,12 +310,14 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         root * root < upper.length && upper.length - reached < 0.25
     }
 
-    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass between two spans and levels. Here θ is the
-    /// indentation at which an edge passes the point. The unit is cells times ½ s².
+    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass between two spans
+    /// and levels. Here θ is the indentation at which an edge passes the point. The unit is cells
+    /// times ½ s².
     pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
         if !SLIDES {
             let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);
-            // Springs attach one by one to patches of `fewer` springs and more, and detach from those of `more` and fewer.
+            // Springs attach one by one to patches of `fewer` springs and more, and detach from
+            // those of `more` and fewer.
             let sign = if self.unloading { 1.0 } else { -1.0 };
             return (more - fewer) * (more + fewer + sign);
         }

@@ -12,17 +12,21 @@ const BLOCK: usize = 4;
 /// Number of springs whose gaps are compared together.
 const LANES: usize = 64;
 
-/// Tree of the places where patches of a profile can merge: one node for each local maximum of the gap inside the profile. For
-/// random profiles of N springs whose waves end at a shortest wavelength, the tree has 0.11 N to 0.26 N nodes.
-// Think of a level that rises from the smallest gap to the largest. The springs with gaps below the level form patches. A
-// patch appears where the level passes a local minimum of the gap, and two patches merge where it passes a local maximum.
-// Nodes are in post-order: the subtree of node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
+/// Tree of the places where patches of a profile can merge: one node for each local maximum of the
+/// gap inside the profile. For random profiles of N springs whose waves end at a shortest
+/// wavelength, the tree has 0.11 N to 0.26 N nodes.
+// Think of a level that rises from the smallest gap to the largest. The springs with gaps below the
+// level form patches. A patch appears where the level passes a local minimum of the gap, and two
+// patches merge where it passes a local maximum. Nodes are in post-order: the subtree of node j,
+// which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
-    /// Local minima and maxima of the gap in turn along the profile; the first and the last are minima.
+    /// Local minima and maxima of the gap in turn along the profile; the first and the last are
+    /// minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
-    /// Sums before each `BLOCK`-th spring: of the gaps (or of the mean gaps of cells) in quanta, and of their squares.
+    /// Sums before each `BLOCK`-th spring: of the gaps (or of the mean gaps of cells) in quanta,
+    /// and of their squares.
     sums: Vec<[i128; 2]>,
     /// True if the sums are over the cells between springs rather than over springs.
     of_cells: bool,
@@ -43,7 +47,8 @@ pub struct Node {
     pub right: u32,
 }
 
-/// A patch below the rising level, from the local minimum or the merger at which it appears up to its next merger.
+/// A patch below the rising level, from the local minimum or the merger at which it appears up to
+/// its next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
@@ -59,7 +64,8 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the node at which the branch begins, or as the error the number of its local minimum.
+    /// Returns the node at which the branch begins, or as the error the number of its local
+    /// minimum.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -82,8 +88,8 @@ struct Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero) with the sums of an edge model, in the memory of the
-    /// former tree. `deepest` is the largest gap.
+    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero) with the sums of an edge
+    /// model, in the memory of the former tree. `deepest` is the largest gap.
     pub(crate) fn rebuild(
         mut self,
         gaps: &[f64],
@@ -149,8 +155,8 @@ impl ContactTree {
         ]
     }
 
-    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this spring. They have the units of
-    /// [`ContactTotals`](crate::totals::ContactTotals).
+    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this
+    /// spring. They have the units of [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;
@@ -164,12 +170,14 @@ impl ContactTree {
         [sums[0] + rest[0], sums[1] + rest[1]]
     }
 
-    /// Finds the local minima and maxima. Of neighbours with equal gaps the right one counts as lower.
+    /// Finds the local minima and maxima. Of neighbours with equal gaps the right one counts as
+    /// lower.
     fn find_turns(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
         self.turns = emptied(std::mem::take(&mut self.turns), count / 4)?;
-        // One bit for each spring: 1 if the gap rises behind it. The gap falls before the line and rises behind it.
+        // One bit for each spring: 1 if the gap rises behind it. The gap falls before the line and
+        // rises behind it.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
             let springs = LANES.min(count - base);

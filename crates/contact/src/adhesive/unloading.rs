@@ -1,4 +1,5 @@
-//! Unloading: finds the indentation at which each node of the contact tree opens, and lists the patches between these events.
+//! Unloading: finds the indentation at which each node of the contact tree opens, and lists the
+//! patches between these events.
 
 use super::levels::{Levels, Span, smaller};
 use super::run::{Ground, Held, Listed, Run};
@@ -22,11 +23,12 @@ struct Part {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in contact there, from left to
-    /// right.
+    /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in
+    /// contact there, from left to right.
     ///
-    /// A patch splits when its most stretched spring detaches. This happens as soon as the larger patch around it has split and
-    /// the rule of Hess no longer holds the spring: t_v = min(t of the patch around v, smallest φ of v).
+    /// A patch splits when its most stretched spring detaches. This happens as soon as the larger
+    /// patch around it has split and the rule of Hess no longer holds the spring: t_v = min(t of
+    /// the patch around v, smallest φ of v).
     pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
         let mut listed = Listed {
             runs: Vec::new(),
@@ -57,16 +59,17 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         Ok(listed)
     }
 
-    /// Returns false if no patch within `springs` springs can hold the spring of this `gap` (m) below the indentation `opens`
-    /// (m). `gap` is the smallest or the largest gap of the patch. The length of the patch is at most the length of these
-    /// springs and two edge cells.
+    /// Returns false if no patch within `springs` springs can hold the spring of this `gap` (m)
+    /// below the indentation `opens` (m). `gap` is the smallest or the largest gap of the patch.
+    /// The length of the patch is at most the length of these springs and two edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
         need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// Returns the two parts of the smallest span of a branch after `spring` detaches at an indentation in m.
+    /// Returns the two parts of the smallest span of a branch after `spring` detaches at an
+    /// indentation in m.
     fn parts_of(
         &self,
         branch: Branch,
@@ -91,8 +94,9 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         [part(left, first, spring - 1), part(right, spring + 1, last)]
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the two parts that remain below
-    /// its node. `pin` is the height in m of the pinned edges of a held patch above its largest gap.
+    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the
+    /// two parts that remain below its node. `pin` is the height in m of the pinned edges of a held
+    /// patch above its largest gap.
     fn descend(
         &self,
         part: Part,

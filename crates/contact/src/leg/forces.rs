@@ -1,9 +1,10 @@
-//! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force is reached.
+//! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force
+//! is reached.
 //!
-//! At an event springs attach or detach in a jump. There the force falls or remains the same as d grows; between two events it
-//! is convex. The contact at two indentations bounds the force between them. Springs that attach there are stretched, or they
-//! just touch and are then compressed by at most the width of the interval. Only intervals whose bounds allow the sought force
-//! are searched.
+//! At an event springs attach or detach in a jump. There the force falls or remains the same as d
+//! grows; between two events it is convex. The contact at two indentations bounds the force between
+//! them. Springs that attach there are stretched, or they just touch and are then compressed by at
+//! most the width of the interval. Only intervals whose bounds allow the sought force are searched.
 
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
@@ -15,7 +16,8 @@ use crate::interval::{Interval, Intervals};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
 
-/// Number of intervals of the grid on which extremes are searched. Each patch is evaluated at each grid point.
+/// Number of intervals of the grid on which extremes are searched. Each patch is evaluated at each
+/// grid point.
 pub(crate) const SEARCH_INTERVALS: usize = 256;
 /// Number of intervals whose events are listed together.
 const AT_ONCE: usize = 16;
@@ -40,13 +42,16 @@ impl Leg {
             .collect())
     }
 
-    /// Returns the energy in J that springs release on the part of this leg with indentations above `low` and up to `high` in
-    /// m. [`LegRecord::released_energy`](crate::history::LegRecord::released_energy) defines this energy.
+    /// Returns the energy in J that springs release on the part of this leg with indentations above
+    /// `low` and up to `high` in m.
+    /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy) defines this
+    /// energy.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
-    /// Returns the energy in J that this leg releases, for a sum of the squared stretches of springs in m².
+    /// Returns the energy in J that this leg releases, for a sum of the squared stretches of
+    /// springs in m².
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
         // Not −0 where nothing attaches with a stretch.
@@ -61,8 +66,8 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// Returns the leg with the instrument as springs parallel to the contact. The force of both is k D where D = d + F/k. A
-    /// rigid instrument, whose displacement is the indentation, adds none.
+    /// Returns the leg with the instrument as springs parallel to the contact. The force of both is
+    /// k D where D = d + F/k. A rigid instrument, whose displacement is the indentation, adds none.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
         Leg {
@@ -71,8 +76,8 @@ impl Leg {
         }
     }
 
-    /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its goal. The returned goal is the
-    /// separation if the contact is lost on the way.
+    /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its
+    /// goal. The returned goal is the separation if the contact is lost on the way.
     pub(crate) fn reach(
         &self,
         goal: Goal,
@@ -97,7 +102,8 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// Returns the contact of a sampled unloading at which the displacement of the instrument is smallest.
+    /// Returns the contact of a sampled unloading at which the displacement of the instrument is
+    /// smallest.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -111,9 +117,10 @@ impl Leg {
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
-    /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of a sampled motion: ∫ (k (D −
-    /// d) − F) dd over the jumps. `extreme` is the extreme compression of contact and instrument so far, `None` at the
-    /// beginning of a motion. `from_separation` and `to_separation` are true if the motion begins or ends separated.
+    /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of
+    /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps. `extreme` is the extreme compression
+    /// of contact and instrument so far, `None` at the beginning of a motion. `from_separation` and
+    /// `to_separation` are true if the motion begins or ends separated.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
@@ -158,8 +165,8 @@ impl Leg {
         self.contact.foundation.spring_stiffness() * area.total()
     }
 
-    /// Finds the indentation in m at which the force is `force` in N: the first one of a loading from `from` on, or the last
-    /// one of an unloading up to `from`.
+    /// Finds the indentation in m at which the force is `force` in N: the first one of a loading
+    /// from `from` on, or the last one of an unloading up to `from`.
     fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
@@ -178,7 +185,8 @@ impl Leg {
         {
             return Ok(found);
         }
-        // Beyond full contact the force rises with all springs; a second step removes the rounding of the first.
+        // Beyond full contact the force rises with all springs; a second step removes the rounding
+        // of the first.
         let mut found = complete;
         for _ in 0..2 {
             let full = self.state(found)?;
@@ -204,8 +212,8 @@ impl Leg {
         Ok(sampled)
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach at an indentation θ above
-    /// `low` and up to `high` (m).
+    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach
+    /// at an indentation θ above `low` and up to `high` (m).
     pub(crate) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
             // No spring is stretched.
@@ -239,7 +247,8 @@ impl Leg {
         intervals.finish(&mut work.events_sorted)
     }
 
-    /// Finds the contact of the extreme force between the first and the last point of a sampled leg.
+    /// Finds the contact of the extreme force between the first and the last point of a sampled
+    /// leg.
     pub(crate) fn extreme(
         &self,
         extreme: Extreme,
@@ -257,8 +266,9 @@ impl Leg {
         best
     }
 
-    /// Finds the contact of the smallest force of an unloading between the ends of a grid. Points of the grid are evaluated
-    /// only between neighbours of a coarser grid whose bounds allow a smaller force.
+    /// Finds the contact of the smallest force of an unloading between the ends of a grid. Points
+    /// of the grid are evaluated only between neighbours of a coarser grid whose bounds allow a
+    /// smaller force.
     pub(crate) fn smallest(
         &self,
         grid: &Grid,
@@ -272,7 +282,8 @@ impl Leg {
         Ok(self.extreme(Extreme::Smallest, &leg, work))
     }
 
-    /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is at least `wanted` in m.
+    /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is
+    /// at least `wanted` in m.
     fn first_at_least(
         &self,
         grid: &Grid,
@@ -303,8 +314,8 @@ impl Leg {
             .or(end))
     }
 
-    /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of `grid` between two neighbours
-    /// for which `may_lie` is true.
+    /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of
+    /// `grid` between two neighbours for which `may_lie` is true.
     fn refined(
         &self,
         grid: &Grid,
@@ -324,7 +335,8 @@ impl Leg {
         Ok(coarse)
     }
 
-    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the compression is at most `wanted` in m.
+    /// Finds the largest indentation in m, between the ends of a sampled leg, at which the
+    /// compression is at most `wanted` in m.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
         let reached = leg.iter().rfind(|state| state.compression <= wanted);
         let start = reached.map(|state| state.indentation);

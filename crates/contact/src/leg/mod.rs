@@ -13,7 +13,8 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// A motion of a contact in one direction: the springs in contact, the force and the energy at each indentation.
+/// A motion of a contact in one direction: the springs in contact, the force and the energy at each
+/// indentation.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
@@ -21,8 +22,11 @@ use std::sync::Arc;
 ///
 /// # let gaps: Vec<f64> = (-512..=512).map(|i| (f64::from(i) * 1.0e-7).powi(2) / 1.0e-4).collect();
 /// # let sphere = Profile::from_gaps(gaps, 1.0e-7)?;
-/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?).work_of_adhesion(0.05).build()?;
-/// // Approach, and turn at an indentation of 100 nm: in one piece the contact returns along the same curve.
+/// # let contact = Contact::builder(&sphere, Modulus::effective(1.0e6)?)
+/// #     .work_of_adhesion(0.05)
+/// #     .build()?;
+/// // Approach, and turn at an indentation of 100 nm: in one piece the contact returns along the
+/// // same curve.
 /// let loading = Leg::approach(&contact)?;
 /// let unloading = loading.turn(1.0e-7)?;
 /// let [up, down] = [loading.point(0.5e-7)?, unloading.point(0.5e-7)?];
@@ -35,7 +39,8 @@ pub struct Leg {
     direction: Direction,
     patches: Patches,
     end: f64,
-    /// The instrument as a number of springs parallel to the contact, in searches; see [`ContactState::beside`].
+    /// The instrument as a number of springs parallel to the contact, in searches; see
+    /// [`ContactState::beside`].
     instrument: f64,
     /// Number of evaluations of the rule of Hess in the search of the patches.
     pub(super) evaluations: u64,
@@ -43,9 +48,11 @@ pub struct Leg {
 
 #[derive(Clone, Debug)]
 enum Patches {
-    /// Indentation in m from which each spring is in contact: without adhesion its gap. Empty where nothing touches.
+    /// Indentation in m from which each spring is in contact: without adhesion its gap. Empty where
+    /// nothing touches.
     Springs(Arc<Vec<f64>>),
-    /// Patches of an adhesive contact as runs: each patch over the indentations in which its edges do not jump.
+    /// Patches of an adhesive contact as runs: each patch over the indentations in which its edges
+    /// do not jump.
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
 
@@ -75,10 +82,11 @@ pub struct PatchState {
     pub length: f64,
     /// Force in N of the springs of the patch; compression is positive.
     pub force: f64,
-    /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and Filippov (2012).
+    /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and
+    /// Filippov (2012).
     pub largest_stretch: f64,
-    /// Largest stretch in the patch in m. With [`Edges::SubCell`] this is the stretch at its edges, and with [`Edges::Grid`]
-    /// the stretch of its most stretched spring.
+    /// Largest stretch in the patch in m. With [`Edges::SubCell`] this is the stretch at its edges,
+    /// and with [`Edges::Grid`] the stretch of its most stretched spring.
     pub most_stretched: f64,
 }
 
@@ -101,7 +109,8 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Adds to the work counts the pass over the tree for this leg, and its evaluations of the rule of Hess.
+    /// Adds to the work counts the pass over the tree for this leg, and its evaluations of the rule
+    /// of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -128,8 +137,8 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring touches at its threshold in m (−∞ always, +∞ never). The leg is known up to the
-    /// indentation `end` in m.
+    /// Creates a leg on which each spring touches at its threshold in m (−∞ always, +∞ never). The
+    /// leg is known up to the indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
@@ -167,10 +176,12 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the leg in the opposite direction that begins at the indentation `at` in m of this leg.
+    /// Computes the leg in the opposite direction that begins at the indentation `at` in m of this
+    /// leg.
     ///
     /// # Errors
-    /// Returns [`ContactError::Stepwise`] for a leg of the [stepwise solver](crate::motion::Stepwise).
+    /// Returns [`ContactError::Stepwise`] for a leg of the
+    /// [stepwise solver](crate::motion::Stepwise).
     pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
@@ -186,7 +197,8 @@ impl Leg {
         }
     }
 
-    /// Lists the runs of this leg. `held` are the patches in contact at the indentation `from` in m, where the leg begins.
+    /// Lists the runs of this leg. `held` are the patches in contact at the indentation `from` in
+    /// m, where the leg begins.
     fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
         let mut evaluations = 0;
         let listed = along_runs!(self, tree, &[], along => match self.direction {
@@ -233,14 +245,15 @@ impl Leg {
         self.direction
     }
 
-    /// Returns the indentation in m at which the leg ends. On loading it is the smallest indentation with all springs in
-    /// contact. On unloading it is the smallest indentation with any spring in contact. A leg of the stepwise solver ends at
-    /// the indentation reached so far.
+    /// Returns the indentation in m at which the leg ends. On loading it is the smallest
+    /// indentation with all springs in contact. On unloading it is the smallest indentation with
+    /// any spring in contact. A leg of the stepwise solver ends at the indentation reached so far.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Returns the number of bytes of memory that this leg takes, without the memory of its contact.
+    /// Returns the number of bytes of memory that this leg takes, without the memory of its
+    /// contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => {
@@ -287,8 +300,8 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about `least` (N) or more, in
-    /// ascending order.
+    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about
+    /// `least` (N) or more, in ascending order.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else {
             return Vec::new();
@@ -317,8 +330,8 @@ impl Leg {
             .collect()
     }
 
-    /// Returns for each spring of the profile the smallest indentation in m at which the spring is in contact. It is −∞ for a
-    /// spring that is always in contact, and +∞ for one that never is.
+    /// Returns for each spring of the profile the smallest indentation in m at which the spring is
+    /// in contact. It is −∞ for a spring that is always in contact, and +∞ for one that never is.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -329,8 +342,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the left, from 0.
-    /// Returns `None` if the number is not below the number of patches.
+    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the
+    /// left, from 0. Returns `None` if the number is not below the number of patches.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation)
             .get(number)
@@ -346,8 +359,8 @@ impl Leg {
             .collect()
     }
 
-    /// Returns the patches in contact at an indentation in m. If the edges of a patch are pinned, it has their height in m
-    /// above its largest gap.
+    /// Returns the patches in contact at an indentation in m. If the edges of a patch are pinned,
+    /// it has their height in m above its largest gap.
     fn pinned_patches(&self, indentation: f64) -> Vec<(Patch, Option<f64>)> {
         let Patches::Runs(tree, runs) = &self.patches else {
             return self
@@ -418,8 +431,8 @@ impl Leg {
         }
     }
 
-    /// Returns true if the edges of patches keep their places at first when the direction changes. They do where the rules of
-    /// loading and unloading differ and edges lie between springs.
+    /// Returns true if the edges of patches keep their places at first when the direction changes.
+    /// They do where the rules of loading and unloading differ and edges lie between springs.
     fn pins(&self) -> bool {
         self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
     }

@@ -1,4 +1,5 @@
-//! The force along a leg straight from its thresholds: all of them sorted, nothing bounded or skipped.
+//! The force along a leg straight from its thresholds: all of them sorted, nothing bounded or
+//! skipped.
 
 use crate::body::Body;
 
@@ -123,7 +124,8 @@ impl Segments {
             })
     }
 
-    /// Largest indentation up to `high` at which springs are in contact and the force is at most `force`.
+    /// Largest indentation up to `high` at which springs are in contact and the force is at most
+    /// `force`.
     pub fn last_at_most(&self, force: f64, high: f64) -> Option<f64> {
         let wanted = force / self.stiffness;
         self.pieces(f64::NEG_INFINITY, high)

@@ -33,12 +33,14 @@ impl Foundation {
         self.effective_modulus * self.spacing
     }
 
-    /// Largest stretch √(π n Δx γ/E*), m, of a patch of n = `springs` springs under a work of adhesion γ, J/m²; eq. (10).
+    /// Largest stretch √(π n Δx γ/E*), m, of a patch of n = `springs` springs under a work of
+    /// adhesion γ, J/m²; eq. (10).
     pub fn largest_stretch(&self, work: f64, springs: usize) -> f64 {
         (PI * self.spacing * (work / self.effective_modulus)).sqrt() * (springs as f64).sqrt()
     }
 
-    /// The contact of a line with these gaps (m) for works of adhesion on closing and on opening, J/m².
+    /// The contact of a line with these gaps (m) for works of adhesion on closing and on opening,
+    /// J/m².
     pub fn contact(&self, gaps: &[f64], edges: Edges, works: [f64; 2]) -> Contact {
         self.builder(gaps, edges, works).build().unwrap()
     }
@@ -138,7 +140,8 @@ impl Body {
         self.stiffness() * (self.deepest() + self.largest_stretch()).max(1e-3)
     }
 
-    /// Largest force at indentations up to 1.3 m, N, and its product with the largest stretch there.
+    /// Largest force at indentations up to 1.3 m, N, and its product with the largest stretch
+    /// there.
     pub fn scales(&self) -> [f64; 2] {
         let stretch = 1.3 + self.deepest() + self.largest_stretch();
         [
@@ -157,8 +160,8 @@ impl Body {
         )
     }
 
-    /// Turning points that cover all states of a body: a first contact, minor loops, below first touch, full contact
-    /// and back.
+    /// Turning points that cover all states of a body: a first contact, minor loops, below first
+    /// touch, full contact and back.
     pub fn tour(&self) -> Vec<Move> {
         let depth = self.deepest() + self.largest_stretch();
         let shares = [
@@ -177,7 +180,8 @@ pub fn from_lowest(heights: &[f64]) -> Vec<f64> {
     heights.iter().map(|height| height - lowest).collect()
 }
 
-/// Gaps of a random self-affine line about 1 m deep: polygons of ever more pieces with ever smaller heights.
+/// Gaps of a random self-affine line about 1 m deep: polygons of ever more pieces with ever smaller
+/// heights.
 pub fn self_affine(hurst: f64, mut seed: u64, points: usize) -> Vec<f64> {
     let mut random = || {
         seed = seed
@@ -202,8 +206,8 @@ pub fn self_affine(hurst: f64, mut seed: u64, points: usize) -> Vec<f64> {
     from_lowest(&heights)
 }
 
-/// Gaps about 1 m deep of a line of one of many kinds, of fewer than `most` springs. This strategy and the next ones are
-/// boxed, so that the compiler expands them once.
+/// Gaps about 1 m deep of a line of one of many kinds, of fewer than `most` springs. This strategy
+/// and the next ones are boxed, so that the compiler expands them once.
 pub fn lines(most: usize) -> BoxedStrategy<Vec<f64>> {
     let walk = prop::collection::vec(-1.0..1.0_f64, 1..most).prop_map(|steps| {
         let rise = |height: &mut f64, step: f64| {
@@ -253,8 +257,8 @@ pub fn lines(most: usize) -> BoxedStrategy<Vec<f64>> {
         .boxed()
 }
 
-/// Bodies about 1 m deep with either kind of edges, from no adhesion to far more than full adhesion needs, with one work
-/// of adhesion or with a smaller one on closing.
+/// Bodies about 1 m deep with either kind of edges, from no adhesion to far more than full adhesion
+/// needs, with one work of adhesion or with a smaller one on closing.
 pub fn bodies(most: usize) -> BoxedStrategy<Body> {
     let power = |powers: std::ops::Range<f64>| powers.prop_map(|power| 10.0_f64.powf(power));
     let range = prop_oneof![8 => power(-5.0..2.0), 1 => power(-32.0..-5.0), 1 => Just(0.0)];
@@ -313,7 +317,8 @@ pub fn indentations(most: usize) -> BoxedStrategy<Vec<f64>> {
         .boxed()
 }
 
-/// A target as drawn: a force is a share of those of a body, from the present one on where the flag is set.
+/// A target as drawn: a force is a share of those of a body, from the present one on where the flag
+/// is set.
 pub type Drawn = (Move, bool);
 
 /// Any target, some on a level.

@@ -1,4 +1,5 @@
-//! Whole springs against blind relaxation of the rules, independent of the library, after any history.
+//! Whole springs against blind relaxation of the rules, independent of the library, after any
+//! history.
 
 use super::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -135,7 +136,8 @@ fn count(index: usize, number: usize) {
     COMPARED[index].fetch_add(number as u64, Ordering::Relaxed);
 }
 
-/// Moves a body and its blind relaxation to targets and compares them at probes on the way, which are shares of it.
+/// Moves a body and its blind relaxation to targets and compares them at probes on the way, which
+/// are shares of it.
 fn compare(
     body: &Body,
     order: Order,
@@ -167,8 +169,8 @@ fn compare(
         // A separated body that stays may be at d = 0, just before first touch.
         let stays = record.curve.len() == 1;
         let separates = target == Move::ToSeparation;
-        // Separation ends just where the last springs still hold: to rounding, the blind relaxation may be on either
-        // side of it. Elsewhere both are at the same number.
+        // Separation ends just where the last springs still hold: to rounding, the blind relaxation
+        // may be on either side of it. Elsewhere both are at the same number.
         let to = if separates {
             (end.indentation + ROUNDING).min(present)
         } else {
@@ -227,7 +229,8 @@ fn contact_states_agree_with_blind_relaxation() {
     assert!(states >= 12 * histories && springs >= 330 * histories && refused >= histories / 24);
 }
 
-/// At its threshold a spring beside a fragment attaches, and a spring held by no more than Δl_max detaches.
+/// At its threshold a spring beside a fragment attaches, and a spring held by no more than Δl_max
+/// detaches.
 #[test]
 fn springs_change_at_the_threshold_itself() {
     for (wall, work) in [(0.5, 0.3), (0.7, 1e-3), (0.9, 2.0)] {

@@ -1,5 +1,5 @@
-//! Complete small worlds: every order of few gaps, ties included, against the definitions of the thresholds, and every
-//! history of a few springs against the bare rules.
+//! Complete small worlds: every order of few gaps, ties included, against the definitions of the
+//! thresholds, and every history of a few springs against the bare rules.
 
 use super::body::Foundation;
 use asperity_contact::motion::{Body, MovingBody};
@@ -22,9 +22,10 @@ const MOVES: usize = 3;
 /// Agreement of two thresholds, m.
 const AGREE: f64 = 1e-12;
 
-/// Compares the thresholds of a loading to full contact with both edge models, and of the way back with whole springs, on
-/// every line of this number of springs with gaps in any order, ties included. Springs out of reach on the left, `before`
-/// of them, move the others across the ends of blocks. Returns the number of lines.
+/// Compares the thresholds of a loading to full contact with both edge models, and of the way back
+/// with whole springs, on every line of this number of springs with gaps in any order, ties
+/// included. Springs out of reach on the left, `before` of them, move the others across the ends of
+/// blocks. Returns the number of lines.
 fn every_order(springs: usize, before: usize) -> Result<u64, String> {
     let mut gaps: Vec<f64> = (0..before)
         .map(|place| 3.0 + (before - place) as f64)
@@ -125,7 +126,8 @@ impl Definition<'_> {
         (root, parts.into_iter().flatten())
     }
 
-    /// Length of a patch over these springs, in cells, with its edges at the level of a spring next to it.
+    /// Length of a patch over these springs, in cells, with its edges at the level of a spring next
+    /// to it.
     fn length(&self, patch: Patch, level: f64) -> f64 {
         let Patch { first, last } = patch;
         if self.edges == Edges::Grid {
@@ -141,7 +143,8 @@ impl Definition<'_> {
         (last - first) as f64 + share(first, first.checked_sub(1)) + share(last, Some(last + 1))
     }
 
-    /// Indentation at which all of a subtree is one patch on loading, and the thresholds of its springs so far.
+    /// Indentation at which all of a subtree is one patch on loading, and the thresholds of its
+    /// springs so far.
     fn close(&self, patch: Patch, thresholds: &mut [f64]) -> f64 {
         let (root, parts) = self.split(patch);
         let gap = self.gaps[root];
@@ -156,7 +159,8 @@ impl Definition<'_> {
         closes
     }
 
-    /// Thresholds of springs on the way back from full contact, under a subtree that opens at `opens`, m.
+    /// Thresholds of springs on the way back from full contact, under a subtree that opens at
+    /// `opens`, m.
     fn open(&self, patch: Patch, opens: f64, thresholds: &mut [f64]) {
         let (root, parts) = self.split(patch);
         let gap = self.gaps[root];
@@ -168,8 +172,9 @@ impl Definition<'_> {
     }
 }
 
-/// Compares the patches after each move with those of the bare rules, for every history of three moves on every `step`-th
-/// line of five springs, under one and two works of adhesion. Returns the number of contacts compared.
+/// Compares the patches after each move with those of the bare rules, for every history of three
+/// moves on every `step`-th line of five springs, under one and two works of adhesion. Returns the
+/// number of contacts compared.
 fn every_history(step: usize) -> Result<u64, String> {
     let mut compared = 0;
     for heights in sequences(HEIGHTS.len(), 5).step_by(step) {

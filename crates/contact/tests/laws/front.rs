@@ -1,5 +1,6 @@
-//! The interface of programs: what is refused and why, that nothing else than finite numbers leaves, and that columns,
-//! points at given indentations, reversals and patches agree with the legs they are taken from.
+//! The interface of programs: what is refused and why, that nothing else than finite numbers
+//! leaves, and that columns, points at given indentations, reversals and patches agree with the
+//! legs they are taken from.
 
 use super::*;
 use asperity_contact::{Cycle, LoadOptions, Modulus, Profile};
@@ -222,8 +223,8 @@ proptest! {
 proptest! {
     #![proptest_config(cases(400))]
 
-    /// Columns are the points of the stages, points at given indentations are those of a leg, and a reversal equals a
-    /// loading and an unloading.
+    /// Columns are the points of the stages, points at given indentations are those of a leg, and a
+    /// reversal equals a loading and an unloading.
     #[test]
     fn columns_points_and_reversals_agree_with_the_stages(
         body in bodies(120), turns in indentations(5), mut at in prop::collection::vec(-0.9..1.3_f64, 0..6),
@@ -265,7 +266,8 @@ proptest! {
         }
     }
 
-    /// The edges of patches are as far apart as the patches are long, in order, and on the foundation.
+    /// The edges of patches are as far apart as the patches are long, in order, and on the
+    /// foundation.
     #[test]
     fn edges_of_patches_enclose_their_length(body in bodies(120), turns in indentations(5)) {
         let contact = body.contact();

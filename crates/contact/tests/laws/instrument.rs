@@ -1,4 +1,5 @@
-//! A compliant instrument: stages to a displacement, and the energy of jumps, against running extrema by brute force.
+//! A compliant instrument: stages to a displacement, and the energy of jumps, against running
+//! extrema by brute force.
 
 use super::*;
 
@@ -6,7 +7,8 @@ fn on(body: &Body, stiffness: f64) -> contact::motion::Body {
     contact::motion::Body::new(&body.under(stiffness), 33)
 }
 
-/// ∫ |D − running extremum of D| dd along a polygon of indentations and displacements D that `sign` makes grow, m².
+/// ∫ |D − running extremum of D| dd along a polygon of indentations and displacements D that `sign`
+/// makes grow, m².
 fn behind(curve: &[(f64, f64)], sign: f64) -> f64 {
     let (mut reached, mut area) = (f64::NEG_INFINITY, 0.0);
     for pair in curve.windows(2) {
@@ -25,7 +27,8 @@ fn behind(curve: &[(f64, f64)], sign: f64) -> f64 {
 proptest! {
     #![proptest_config(cases(750))]
 
-    /// Each stage ends at the first indentation at which the running extremum of d + F/k reaches its target.
+    /// Each stage ends at the first indentation at which the running extremum of d + F/k reaches
+    /// its target.
     #[test]
     fn stages_end_where_the_running_extremum_reaches_the_displacement(
         body in bodies(120),
@@ -64,7 +67,8 @@ proptest! {
         }
     }
 
-    /// The energy of the jumps is that between the curve and its running extremum, for any number of samples and of stages.
+    /// The energy of the jumps is that between the curve and its running extremum, for any number
+    /// of samples and of stages.
     #[test]
     fn the_energy_of_jumps_is_exact(
         body in bodies(120),

@@ -1,11 +1,12 @@
-//! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments alike. All results are
-//! known.
+//! A million springs in the hardest shapes for a tree: a chain, all gaps equal, or all fragments
+//! alike. All results are known.
 
 use super::*;
 
 const SPRINGS: usize = 1 << 20;
 
-/// The legs of a line on springs of which a million are 1 m long, with E* = 1 Pa, and its fragments after the first leg.
+/// The legs of a line on springs of which a million are 1 m long, with E* = 1 Pa, and its fragments
+/// after the first leg.
 fn legs(gaps: &[f64], work: f64, deepest: f64) -> ([LegRecord; 2], usize) {
     let foundation = Foundation::new(1.0 / SPRINGS as f64, 1.0);
     let mut solver = Body::new(gaps.to_vec(), Edges::Grid, foundation, work).on(64);

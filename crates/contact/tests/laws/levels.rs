@@ -12,8 +12,8 @@ proptest! {
     fn any_history_agrees_with_relaxation_level_by_level(body in bodies(61), turns in indentations(9)) {
         let body = Body { edges: Edges::SubCell, ..body };
         let mut solver = body.on(6);
-        // One body with hardly more and one with hardly less adhesion: where their fragments differ, an event lies at
-        // the turning point to rounding and either is right.
+        // One body with hardly more and one with hardly less adhesion: where their fragments
+        // differ, an event lies at the turning point to rounding and either is right.
         let slight = [1.0, 1.0 + 1e-11, 1.0 - 1e-11].map(|factor| body.with_more_adhesion(factor));
         let mut relaxed = slight.each_ref().map(Relaxed::new);
         // Effect of the rounding of the indentation alone on the force.
@@ -25,7 +25,8 @@ proptest! {
             for (index, point) in record.curve.iter().enumerate() {
                 // At a jump, the point before and the point after.
                 let moved_on = record.curve.get(index + 1).is_some_and(|p| p.indentation == point.indentation);
-                // Relaxation does not distinguish levels that are 0 except for the rounding of any gap.
+                // Relaxation does not distinguish levels that are 0 except for the rounding of any
+                // gap.
                 if moved_on || !touches || point.indentation.abs() < 1e-16 {
                     continue;
                 }

@@ -1,5 +1,6 @@
-//! Laws for every line, both edge models, and any works of adhesion: symmetries, memory, order, energy, exact extremes
-//! and crossings of the force, refusals, exact sums, and the contact against brute force on small and on large lines.
+//! Laws for every line, both edge models, and any works of adhesion: symmetries, memory, order,
+//! energy, exact extremes and crossings of the force, refusals, exact sums, and the contact against
+//! brute force on small and on large lines.
 
 mod all_segments;
 mod body;

@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Turning points that are still remembered at the end of a history from separation: a move as far as an earlier
-/// turning point erases the loop that began there.
+/// Turning points that are still remembered at the end of a history from separation: a move as far
+/// as an earlier turning point erases the loop that began there.
 fn remembered(indentations: &[f64]) -> Vec<f64> {
     let mut turns = vec![f64::NEG_INFINITY];
     for &to in indentations {
@@ -34,8 +34,8 @@ proptest! {
         let [whole, reduced] = [&turns, &short].map(|turns| body.history(&to_indentations(turns), 2));
         let [one, other] = [&whole, &reduced].map(|history| end(history.legs.last().unwrap()));
         if body.edges == Edges::SubCell && body.closing_work < body.work {
-            // An edge that keeps its place may do so up to the indentation at which it slid before: the level there is
-            // the same but for its rounding.
+            // An edge that keeps its place may do so up to the indentation at which it slid before:
+            // the level there is the same but for its rounding.
             let slack = 1e-15 * body.force_scale();
             prop_assert!((one.force - other.force).abs() <= slack, "{:?} {:?}", one, other);
             prop_assert_eq!((one.springs, one.fragments), (other.springs, other.fragments));

@@ -1,4 +1,5 @@
-//! Patches by themselves add up to the point of the curve, and a body moves between targets as along a recorded leg.
+//! Patches by themselves add up to the point of the curve, and a body moves between targets as
+//! along a recorded leg.
 
 use super::*;
 
@@ -8,7 +9,8 @@ fn try_move(body: &contact::motion::Body, target: Move) -> Result<(), ContactErr
     copy.move_to(target).map(drop)
 }
 
-/// Moves a body to targets twice: along recorded legs, and without a curve by moves of several parts.
+/// Moves a body to targets twice: along recorded legs, and without a curve by moves of several
+/// parts.
 fn moves_alike(
     body: &Body,
     [mut recorded, mut moved]: [contact::motion::Body; 2],

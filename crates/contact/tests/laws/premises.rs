@@ -1,4 +1,5 @@
-//! Premises of the model: a body that is pulled off, a contact that ends inside the profile, heights of a curved body.
+//! Premises of the model: a body that is pulled off, a contact that ends inside the profile,
+//! heights of a curved body.
 
 use super::*;
 use asperity_contact::{Branch, Figures, History, Modulus, NominalForm, Profile};
@@ -25,8 +26,8 @@ fn warning_of(history: &History, body: &Body) -> Option<Warning> {
 proptest! {
     #![proptest_config(cases(4000))]
 
-    /// An adhesion force is that of the unloading to separation, wherever the loading ends on the way. Where it would not be,
-    /// there is none, and the warning states the pull of the rest.
+    /// An adhesion force is that of the unloading to separation, wherever the loading ends on the
+    /// way. Where it would not be, there is none, and the warning states the pull of the rest.
     #[test]
     fn an_adhesion_force_does_not_depend_on_where_the_unloading_ends(
         body in bodies(200),
@@ -46,7 +47,8 @@ proptest! {
                 prop_assert!(further > 0.0 && (further - whole).abs() <= slack, "{further} {whole}");
                 prop_assert!(history.legs.last().unwrap().end_in_contact().is_some());
             }
-            // The body is not pulled, the end is the pull-off itself, or nothing is known of a further unloading.
+            // The body is not pulled, the end is the pull-off itself, or nothing is known of a
+            // further unloading.
             (None, None) => {
                 let least = Branch::last_unloading(&history.legs).and_then(|last| last.smallest(&history.legs));
                 let force = least.map_or(0.0, |(_, point)| point.force);
@@ -56,7 +58,8 @@ proptest! {
         }
     }
 
-    /// A stage reaches the ends of the profile exactly if one of its states holds an outermost spring.
+    /// A stage reaches the ends of the profile exactly if one of its states holds an outermost
+    /// spring.
     #[test]
     fn outermost_springs_are_found(body in bodies(200), depths in indentations(6)) {
         let last = body.gaps.len() - 1;
@@ -126,7 +129,8 @@ fn heights_show_whether_a_body_is_curved() {
     assert!(taken_for_curved <= 20, "{taken_for_curved} of 2000");
 }
 
-/// Smooth curved heights are doubted to be a cut, with the radius of the sphere; rough ones and stated forms are not.
+/// Smooth curved heights are doubted to be a cut, with the radius of the sphere; rough ones and
+/// stated forms are not.
 #[test]
 fn a_cut_through_a_sphere_is_doubted() {
     for (radius, spacing) in [(2e-4, 5e-8), (1.0, 1e-3), (3e-9, 1e-12)] {

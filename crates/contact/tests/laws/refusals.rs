@@ -1,4 +1,5 @@
-//! Impossible legs are errors with their reason, and leave the body in place; empty legs are done at once.
+//! Impossible legs are errors with their reason, and leave the body in place; empty legs are done
+//! at once.
 
 use super::*;
 

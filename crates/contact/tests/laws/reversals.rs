@@ -29,7 +29,8 @@ fn all(
     Ok(found.into_iter().map(Option::unwrap).collect())
 }
 
-/// Compares all reversals with separate histories, each on a new body; forces are those at `points`, m.
+/// Compares all reversals with separate histories, each on a new body; forces are those at
+/// `points`, m.
 fn compare(
     new: impl Fn() -> contact::motion::Body,
     turns: &[Move],

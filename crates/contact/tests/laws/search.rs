@@ -1,5 +1,5 @@
-//! Extremes and crossings of the force: against all segments of the leg, against the points of a fine curve, independent
-//! of the number of samples, and where the contact jumps.
+//! Extremes and crossings of the force: against all segments of the leg, against the points of a
+//! fine curve, independent of the number of samples, and where the contact jumps.
 
 use super::all_segments::Segments;
 use super::*;
@@ -140,9 +140,9 @@ fn within_ulps(a: f64, b: f64, most: u32) -> bool {
 proptest! {
     #![proptest_config(cases(300))]
 
-    /// One spring carries just the wanted force where a second one attaches, stretched by s, and reduces the force
-    /// accordingly: both carry it half of s deeper than the second one touches by itself, less half of the first one's
-    /// depth.
+    /// One spring carries just the wanted force where a second one attaches, stretched by s, and
+    /// reduces the force accordingly: both carry it half of s deeper than the second one touches by
+    /// itself, less half of the first one's depth.
     #[test]
     fn a_force_lost_in_a_jump_is_reached_further_on(
         wall in 0.25..1.0_f64, share in 0.05..0.9_f64, first: bool,

@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// All numbers of a leg, bit for bit, but for the sign of energies of zero and for the number next to an indentation of zero.
+/// All numbers of a leg, bit for bit, but for the sign of energies of zero and for the number next
+/// to an indentation of zero.
 fn leg_bits(record: &LegRecord) -> Vec<u64> {
     let of_point = |point: &CurvePoint| {
         let indentation = if point.indentation.abs() < 1e-300 {
@@ -26,8 +27,8 @@ fn leg_bits(record: &LegRecord) -> Vec<u64> {
         .collect()
 }
 
-/// A history possible for every body. Between springs a force without adhesion vanishes by and by, so that the place of
-/// zero force is a matter of rounding.
+/// A history possible for every body. Between springs a force without adhesion vanishes by and by,
+/// so that the place of zero force is a matter of rounding.
 fn targets(body: &Body, turns: &[f64], force: f64) -> Vec<Move> {
     let first = Move::ToForce(force * body.force_scale());
     let last = [Move::ToZeroForce, Move::ToSeparation];
@@ -49,8 +50,8 @@ fn springs(body: &Body, turns: &[f64]) -> Vec<usize> {
 proptest! {
     #![proptest_config(cases(600))]
 
-    /// A contact without adhesion, which has no tree, agrees with a work of adhesion of zero: bit for bit where patches are
-    /// whole springs.
+    /// A contact without adhesion, which has no tree, agrees with a work of adhesion of zero: bit
+    /// for bit where patches are whole springs.
     #[test]
     fn without_adhesion_the_past_leaves_no_trace(
         body in bodies(200), turns in indentations(8), force in 0.0..1.0_f64,

@@ -25,8 +25,8 @@ proptest! {
         }
     }
 
-    /// F_a(d=0) takes one pass for each protocol, wherever the body is, and evaluates the rule of Hess for the springs that
-    /// touch and those that these attach.
+    /// F_a(d=0) takes one pass for each protocol, wherever the body is, and evaluates the rule of
+    /// Hess for the springs that touch and those that these attach.
     #[test]
     fn adhesion_without_preload_takes_one_pass_for_each_turn(body in bodies(200), deep in 0.1..1.2_f64) {
         prop_assume!(body.work > 0.0);
@@ -44,7 +44,8 @@ proptest! {
         }
     }
 
-    /// A node for each place inside the line after which the gap no longer rises, in the memory of another tree too.
+    /// A node for each place inside the line after which the gap no longer rises, in the memory of
+    /// another tree too.
     #[test]
     fn a_tree_has_a_node_for_each_summit_of_the_gap(gaps in lines(200)) {
         let rises = |k: usize| gaps[k + 1] > gaps[k];

@@ -8,11 +8,13 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Smallest number of points of a branch, and of its part without contact.
 const FEWEST: usize = 20;
 const FEWEST_FREE: usize = 5;
-/// Mean force at the end of the retraction, in standard deviations of its noise, above which the body is still in contact.
+/// Mean force at the end of the retraction, in standard deviations of its noise, above which the
+/// body is still in contact.
 const LOST: f64 = 5.0;
 /// Smallest noise divided by the largest force. Computed curves are not more accurate.
 const LEAST_NOISE: f64 = 1e-4;
-/// Share of the largest force by which a force without contact may differ from zero because of drift.
+/// Share of the largest force by which a force without contact may differ from zero because of
+/// drift.
 const NEAR_ZERO: f64 = 0.03;
 
 /// Displacement relative to the turning point in m, at most about 0, and the force in N.
@@ -24,7 +26,8 @@ pub(crate) struct Branches {
     pub retraction: Vec<Point>,
     /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Number of points at the beginning of the approach that give the zero and the noise of the force.
+    /// Number of points at the beginning of the approach that give the zero and the noise of the
+    /// force.
     pub free: usize,
 }
 
@@ -51,7 +54,8 @@ impl Branches {
                 allowed,
             );
         }
-        // The first contacts of a rough body are weak, and may lie in the part that seems to be free.
+        // The first contacts of a rough body are weak, and may lie in the part that seems to be
+        // free.
         let free = curve.free / 2;
         let before: Vec<f64> = approach[..free.min(approach.len())]
             .iter()

@@ -11,8 +11,8 @@ use super::table::Table;
 use crate::curve::MeasuredCurve;
 use asperity_data::mean;
 
-/// Squared distance of a curve from the others that one curve of a thousand exceeds: quantiles of χ² for one and for two
-/// values.
+/// Squared distance of a curve from the others that one curve of a thousand exceeds: quantiles of
+/// χ² for one and for two values.
 const FOREIGN: [f64; 2] = [10.8, 13.8];
 /// Smallest pull-off force that is reported, in standard deviations of the noise.
 const LEAST_PULL_OFF: f64 = 5.0;
@@ -105,7 +105,8 @@ impl Compared {
             .posterior([of(0), of(1)], measured.summaries.len() as f64)
     }
 
-    /// Returns the standard deviation of the measured curves divided by the standard deviation of the random profiles.
+    /// Returns the standard deviation of the measured curves divided by the standard deviation of
+    /// the random profiles.
     pub fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
         let inverse = self.scatter.at(best).inverse().0;

@@ -15,11 +15,13 @@ use rand_chacha::ChaCha8Rng;
 const SAMPLES: usize = 128;
 /// Smallest jump of the force that gets points at both of its ends, in units of the noise.
 const NOTABLE: f64 = 1.0;
-/// Largest number of points that extend a retraction until contact is lost, divided by the number of its own points.
+/// Largest number of points that extend a retraction until contact is lost, divided by the number
+/// of its own points.
 const LONGEST: usize = 8;
 /// First seed of profiles and of noise, far from the seeds that people write in scenes.
 const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
-/// Difference of the first seeds of two scenes whose seeds differ by 1. No table has as many profiles.
+/// Difference of the first seeds of two scenes whose seeds differ by 1. No table has as many
+/// profiles.
 const SEEDS_OF_SCENE: u64 = 1 << 32;
 /// Smallest force at a turning point, divided by the preload.
 const LEAST_TURN: f64 = 0.5;
@@ -77,11 +79,11 @@ pub(crate) struct Specimen<'a> {
 }
 
 impl Specimen<'_> {
-    /// Returns the summaries of the curves of one random profile: for each ln(γ/E*) in `ranges`, for each ln E* in
-    /// `moduli`, which ascend.
+    /// Returns the summaries of the curves of one random profile: for each ln(γ/E*) in `ranges`,
+    /// for each ln E* in `moduli`, which ascend.
     ///
-    /// The force divided by E* and the indentation depend on γ/E* only, except for the turning point and the instrument.
-    /// All moduli therefore share one approach.
+    /// The force divided by E* and the indentation depend on γ/E* only, except for the turning
+    /// point and the instrument. All moduli therefore share one approach.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -124,7 +126,8 @@ impl Specimen<'_> {
     }
 }
 
-/// Returns the seed of a random profile of the table. Another seed of the scene gives other profiles.
+/// Returns the seed of a random profile of the table. Another seed of the scene gives other
+/// profiles.
 pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
     let of_scene = scene
         .seed()
@@ -141,8 +144,8 @@ struct Loop<'a> {
 }
 
 impl Loop<'_> {
-    /// Presses the body, which is on its approach, to the preload, where it stays. The measured preload has an error by the
-    /// noise, and so the force at which the body turns differs from it.
+    /// Presses the body, which is on its approach, to the preload, where it stays. The measured
+    /// preload has an error by the noise, and so the force at which the body turns differs from it.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
         let turning_force =
@@ -216,8 +219,8 @@ impl Loop<'_> {
     }
 }
 
-/// Normally distributed noise of a curve, the same for all places of the table. Its mean before contact is subtracted, as
-/// the zero of the force is.
+/// Normally distributed noise of a curve, the same for all places of the table. Its mean before
+/// contact is subtracted, as the zero of the force is.
 struct Noise {
     generator: ChaCha8Rng,
     deviation: f64,

@@ -9,11 +9,12 @@ use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Standard errors that are drawn and stated: of the rms height as a share of it, and of the Hurst exponent.
+/// Standard errors that are drawn and stated: of the rms height as a share of it, and of the Hurst
+/// exponent.
 const ROUGHNESS_ERRORS: [f64; 2] = [0.05, 0.03];
 
-/// Comparisons of one kind. Each has whether the interval holds the true work of adhesion, the half-width and the error of
-/// ln γ, and whether the interval holds the true E*.
+/// Comparisons of one kind. Each has whether the interval holds the true work of adhesion, the
+/// half-width and the error of ln γ, and whether the interval holds the true E*.
 #[derive(Default)]
 struct ParameterRow {
     work: Vec<(bool, f64, f64)>,
@@ -57,7 +58,8 @@ impl ParameterRow {
     }
 }
 
-/// Draws the true values of a specimen: the work of adhesion within a factor of 4, the modulus within a factor of 2.
+/// Draws the true values of a specimen: the work of adhesion within a factor of 4, the modulus
+/// within a factor of 2.
 fn truth(base: &Scene, generator: &mut ChaCha8Rng) -> Scene {
     let mut between = |factor: f64| factor.powf(generator.random::<f64>() - 0.5);
     let work = base.adhesion.and_then(|adhesion| adhesion.work()).unwrap() * between(4.0);
@@ -88,8 +90,9 @@ fn rougher(scene: &Scene, generator: &mut ChaCha8Rng) -> Scene {
     scene
 }
 
-/// Compares the curves of 2 specimens, or of `TEST_EFFORT` specimens, with random profiles, and asserts what the intervals
-/// hold. Half-widths and errors refer to ln γ. With 60 specimens the table is the one in docs/experiment.md.
+/// Compares the curves of 2 specimens, or of `TEST_EFFORT` specimens, with random profiles, and
+/// asserts what the intervals hold. Half-widths and errors refer to ln γ. With 60 specimens the
+/// table is the one in docs/experiment.md.
 fn compare(name: &str, with_errors: bool) {
     let effort = std::env::var("TEST_EFFORT")
         .ok()

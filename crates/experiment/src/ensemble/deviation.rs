@@ -1,4 +1,5 @@
-//! Whether random profiles describe the curves: the mean of each summary is compared with the mean in the table.
+//! Whether random profiles describe the curves: the mean of each summary is compared with the mean
+//! in the table.
 
 use super::computed::Place;
 use super::result::SummaryDeviation;
@@ -9,7 +10,8 @@ use asperity_data::quantile;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of ensembles drawn from the random profiles of the table, and share of them that counts as described.
+/// Number of ensembles drawn from the random profiles of the table, and share of them that counts
+/// as described.
 const DRAWS: usize = 1000;
 const DESCRIBED: f64 = 0.99;
 /// Step of a logarithm for the derivatives of the means.
@@ -74,9 +76,9 @@ pub(crate) struct Mean {
     pub curves: usize,
 }
 
-/// Compares the means of all summaries with the means of the table at the most probable place. `learned` returns the
-/// predicted values of each random profile at each node. Ensembles drawn from the table show how large a deviation must be
-/// to count.
+/// Compares the means of all summaries with the means of the table at the most probable place.
+/// `learned` returns the predicted values of each random profile at each node. Ensembles drawn from
+/// the table show how large a deviation must be to count.
 pub(crate) fn deviations(
     table: &Table,
     learned: &dyn Fn(usize, usize) -> [f64; 2],

@@ -28,7 +28,8 @@ const FEWEST_LINES: u64 = 16;
 /// Steps of the table in ln(γ/E*) and ln E*, and numbers of nodes.
 const STEPS: [f64; 2] = [0.2, 0.462];
 const NODES: [usize; 2] = [16, 4];
-/// Numbers of nodes by which a table that is too short grows in ln(γ/E*) and ln E*, and largest number of times.
+/// Numbers of nodes by which a table that is too short grows in ln(γ/E*) and ln E*, and largest
+/// number of times.
 const MORE_NODES: [usize; 2] = [4, 1];
 const MOST_GROWTH: usize = 6;
 /// Relative difference up to which two stiffnesses count as equal.
@@ -41,16 +42,17 @@ const EXAMINED: u64 = 5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Finds the work of adhesion of a rough body from curves measured at different places of it. `curves` has pairs of a
-/// name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the effective modulus is found too.
+/// Finds the work of adhesion of a rough body from curves measured at different places of it.
+/// `curves` has pairs of a name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the
+/// effective modulus is found too.
 ///
-/// The curves are compared with curves computed for random profiles that have the roughness of the scene. `control`
-/// reports the number of curves computed so far, and can stop the search.
+/// The curves are compared with curves computed for random profiles that have the roughness of the
+/// scene. `control` reports the number of curves computed so far, and can stop the search.
 ///
 /// # Errors
-/// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an approach, or if its
-/// retraction ends before the contact is lost. It also returns an error if an option is out of range, or if a computation
-/// fails or is stopped.
+/// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an
+/// approach, or if its retraction ends before the contact is lost. It also returns an error if an
+/// option is out of range, or if a computation fails or is stopped.
 pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -144,7 +146,8 @@ fn compare(
         measured: &measured,
         response: &response,
     };
-    // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the roughness.
+    // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the
+    // roughness.
     let beyond = posterior.beyond();
     let work_at_most = beyond
         .contains(&End::LowRange)
@@ -213,7 +216,8 @@ fn compare(
     })
 }
 
-/// Returns why most of a few random profiles are not suitable for a contact with the parameters of a place.
+/// Returns why most of a few random profiles are not suitable for a contact with the parameters of
+/// a place.
 fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Option<Reason> {
     let Specimen { scene, closing, .. } = workers.specimen;
     let [work, modulus] = place.parameters().map(f64::exp);
@@ -242,7 +246,8 @@ fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Opti
     found.first().copied()
 }
 
-/// Returns the scene with the stiffness of the instrument that the files state, and this change in words.
+/// Returns the scene with the stiffness of the instrument that the files state, and this change in
+/// words.
 fn of_instrument(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -349,7 +354,8 @@ mod tests {
         )
     }
 
-    /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a fifth.
+    /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a
+    /// fifth.
     fn curves(count: u64, foreign: Option<u64>) -> (Scene, Vec<(String, MeasuredCurve)>) {
         let mut scene = scene("rough-sphere");
         scene.numerics.points = 2048;
@@ -370,7 +376,8 @@ mod tests {
         (scene, curves)
     }
 
-    /// The start of the scene does not matter, nor the number of threads; a place with another work of adhesion is named.
+    /// The start of the scene does not matter, nor the number of threads; a place with another work
+    /// of adhesion is named.
     #[test]
     fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
         let (scene, all) = curves(12, Some(5));

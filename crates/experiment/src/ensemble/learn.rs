@@ -3,7 +3,8 @@
 use super::summary::{SUMMARIES, Summaries};
 use asperity_data::{Cholesky, mean, standard_deviation};
 
-/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut off.
+/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut
+/// off.
 const LARGEST: f64 = 4.0;
 /// Penalty of the size of the coefficients, divided by the mean weight of the curves.
 const RIDGE: f64 = 1e-5;
@@ -21,8 +22,8 @@ impl Described {
     }
 }
 
-/// Two polynomials of second degree in the summaries. Each is learned from one half of the random profiles, and predicts
-/// the parameters of the other half.
+/// Two polynomials of second degree in the summaries. Each is learned from one half of the random
+/// profiles, and predicts the parameters of the other half.
 pub(crate) struct Learned {
     /// Mean and standard deviation of each summary.
     standard: Vec<(f64, f64)>,
@@ -118,7 +119,8 @@ impl Learned {
         [self.centre[0] + sum(0), self.centre[1] + sum(1)]
     }
 
-    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the other half.
+    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the
+    /// other half.
     pub fn of_line(&self, line: u64, described: &Described) -> [f64; 2] {
         self.by_half(&self.terms(described), 1 - (line % 2) as usize)
     }

@@ -19,7 +19,8 @@ pub(crate) struct Measured {
     pub protocols: Vec<Protocol>,
     /// Largest force of each curve, N.
     pub preloads: Vec<f64>,
-    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise only.
+    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise
+    /// only.
     pub preload_scatter: Option<f64>,
     pub summaries: Vec<Summaries>,
 }

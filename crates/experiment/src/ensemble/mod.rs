@@ -1,11 +1,12 @@
-//! One work of adhesion from many curves of a rough body whose profile is unknown. The curves are compared with curves
-//! computed for random profiles of the spectrum of the scene.
+//! One work of adhesion from many curves of a rough body whose profile is unknown. The curves are
+//! compared with curves computed for random profiles of the spectrum of the scene.
 //!
-//! Each measured curve becomes a few numbers, its summaries ([`summary`], [`measured`]). Curves of random profiles
-//! ([`computed`]) have summaries at all nodes of a table ([`place`], [`table`]). From the table polynomials are learned
-//! that predict the parameters ([`learn`]), and their mean and scatter over all profiles ([`scatter`]). The mean over the
-//! measured curves is compared with them ([`posterior`]). The result ([`find`]) also has the effect of errors of the
-//! roughness ([`shifts`]) and whether the profiles describe the curves ([`deviation`]).
+//! Each measured curve becomes a few numbers, its summaries ([`summary`], [`measured`]). Curves of
+//! random profiles ([`computed`]) have summaries at all nodes of a table ([`place`], [`table`]).
+//! From the table polynomials are learned that predict the parameters ([`learn`]), and their mean
+//! and scatter over all profiles ([`scatter`]). The mean over the measured curves is compared with
+//! them ([`posterior`]). The result ([`find`]) also has the effect of errors of the roughness
+//! ([`shifts`]) and whether the profiles describe the curves ([`deviation`]).
 
 pub(crate) mod branches;
 pub(crate) mod compared;

@@ -1,4 +1,5 @@
-//! Test: the intervals of γ and E* hold the known values of bodies, seeds and noise that are not those of the fit.
+//! Test: the intervals of γ and E* hold the known values of bodies, seeds and noise that are not
+//! those of the fit.
 
 use super::computed::seed_of;
 use super::find::fit_ensemble;
@@ -17,7 +18,8 @@ use asperity_surface::Form;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of points of each branch of a curve, and of the computed branch between whose points they are interpolated.
+/// Number of points of each branch of a curve, and of the computed branch between whose points they
+/// are interpolated.
 const POINTS: usize = 260;
 const SAMPLES: u64 = 2000;
 /// Numbers of curves of the specimens.
@@ -71,7 +73,8 @@ impl Body {
     }
 }
 
-/// A specimen: the scene of the fit, the true scene and the noise of its curves as a share of the preload.
+/// A specimen: the scene of the fit, the true scene and the noise of its curves as a share of the
+/// preload.
 struct Specimen {
     given: Scene,
     truth: Scene,
@@ -80,12 +83,14 @@ struct Specimen {
 }
 
 impl Specimen {
-    /// Draws a specimen: γ within a factor of 4, E* within a factor of 2, the noise from 0.5 to 2 % of the preload.
+    /// Draws a specimen: γ within a factor of 4, E* within a factor of 2, the noise from 0.5 to 2 %
+    /// of the preload.
     fn new(body: Body, number: u64) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(FIRST_SEED + number);
         let mut random = || generator.random::<f64>();
         let mut given = body.scene(0.6 + 0.3 * random());
-        // The error of the table is common to all fits with the same profiles: each fit has its own.
+        // The error of the table is common to all fits with the same profiles: each fit has its
+        // own.
         given.set_seed(number);
         let work = given.adhesion.unwrap().work().unwrap();
         let truth = Scene {
@@ -177,8 +182,8 @@ impl Specimen {
     }
 }
 
-/// The points at which the displacement is larger than at all points before: those that an instrument passes which moves
-/// in one direction.
+/// The points at which the displacement is larger than at all points before: those that an
+/// instrument passes which moves in one direction.
 fn ascending(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let mut passed: Vec<(f64, f64)> = Vec::with_capacity(points.len());
     for point in points {
@@ -229,7 +234,8 @@ impl Tally {
     }
 }
 
-/// Fits specimens of a body, each with its number of curves, and asserts that nearly all intervals hold the truth.
+/// Fits specimens of a body, each with its number of curves, and asserts that nearly all intervals
+/// hold the truth.
 fn check(body: Body) {
     let effort = std::env::var("TEST_EFFORT")
         .ok()
@@ -309,8 +315,8 @@ fn both_intervals_hold_the_truth_of_three_bodies() {
     }
 }
 
-/// Measured curves and computed curves of the same profiles have the same summaries, up to their noise and a small part of
-/// the scatter over profiles.
+/// Measured curves and computed curves of the same profiles have the same summaries, up to their
+/// noise and a small part of the scatter over profiles.
 #[test]
 fn computed_curves_have_the_summaries_of_measured_ones() {
     const LINES: u64 = 32;

@@ -8,7 +8,8 @@ use super::table::{Table, Workers, nodes};
 use crate::error::ExperimentError;
 use asperity_scene::Governing;
 
-/// Number of random profiles of the coarse table, its steps in ln(γ/E*) and ln E*, and numbers of nodes.
+/// Number of random profiles of the coarse table, its steps in ln(γ/E*) and ln E*, and numbers of
+/// nodes.
 const LINES: u64 = 8;
 const STEPS: [f64; 2] = [0.8, 0.7];
 const NODES: [usize; 2] = [13, 7];
@@ -20,7 +21,8 @@ const HIGHEST_KAPPA: f64 = 80.0;
 /// Smallest standard deviation of a summary.
 const LEAST_SCATTER: f64 = 0.1;
 
-/// Finds the place, to about a step of the table, where the computed curves have the mean summaries of the measured curves.
+/// Finds the place, to about a step of the table, where the computed curves have the mean summaries
+/// of the measured curves.
 pub(crate) fn placed(
     workers: &Workers<'_>,
     measured: &Measured,

@@ -6,18 +6,20 @@ use super::table::{End, Table};
 
 /// Number of cells of a grid along each axis.
 const CELLS: usize = 96;
-/// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth of its standard deviation.
+/// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth
+/// of its standard deviation.
 const MOST_AT_VALUE: f64 = 0.08;
 /// Probability at one value of an axis below which this value is beyond the distribution.
 const NEGLIGIBLE: f64 = 1e-7;
-/// Number of values that a finer grid keeps beyond the values with a probability. On a coarse grid the largest probability of
-/// a narrow ridge may be some values away from its summit.
+/// Number of values that a finer grid keeps beyond the values with a probability. On a coarse grid
+/// the largest probability of a narrow ridge may be some values away from its summit.
 const MARGIN: usize = 8;
 /// Largest number of grids, each of which is finer or wider than the one before.
 const MOST_GRIDS: usize = 60;
 /// Smallest step of a grid, which rounding allows.
 const LEAST_STEP: f64 = 1e-12;
-/// Share of the probability within `EDGE` of an end of the table, above which the table is too short.
+/// Share of the probability within `EDGE` of an end of the table, above which the table is too
+/// short.
 const MOST_AT_END: f64 = 2e-3;
 const EDGE: f64 = 0.1;
 /// Density divided by the largest density above which a value is not excluded: exp(−1.96²/2).
@@ -25,7 +27,8 @@ const NOT_EXCLUDED: f64 = 0.146_5;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 % interval.
+/// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 %
+/// interval.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct IntervalEstimate {
     /// Estimated value: the median of the probability distribution of the parameter.
@@ -37,7 +40,8 @@ pub struct IntervalEstimate {
 }
 
 impl IntervalEstimate {
-    /// Returns half the width of the interval on the scale of the natural logarithm, ½ ln(high/low).
+    /// Returns half the width of the interval on the scale of the natural logarithm, ½
+    /// ln(high/low).
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high / self.low).ln()
     }
@@ -59,7 +63,8 @@ impl IntervalEstimate {
         }
     }
 
-    /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural logarithm.
+    /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural
+    /// logarithm.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
         IntervalEstimate {
@@ -83,7 +88,8 @@ pub(crate) struct Likelihood {
 /// Mean prediction over measured curves.
 struct Observed {
     prediction: [f64; 2],
-    /// Variance of the difference between this mean and the mean of the table, in units of the variance of one profile.
+    /// Variance of the difference between this mean and the mean of the table, in units of the
+    /// variance of one profile.
     variance: f64,
 }
 
@@ -116,11 +122,13 @@ impl Likelihood {
         }
     }
 
-    /// Returns the probability of the parameters if the mean prediction over `curves` curves is `prediction`. The prior is
-    /// flat over ln γ and ln E*. The error of the mean comes from the number of curves and from the number of random profiles.
+    /// Returns the probability of the parameters if the mean prediction over `curves` curves is
+    /// `prediction`. The prior is flat over ln γ and ln E*. The error of the mean comes from the
+    /// number of curves and from the number of random profiles.
     ///
-    /// The grid begins with the whole table. It is cut to the values that have a probability, and widened where the
-    /// probability does not end, until no value of a parameter has much of the probability.
+    /// The grid begins with the whole table. It is cut to the values that have a probability, and
+    /// widened where the probability does not end, until no value of a parameter has much of the
+    /// probability.
     pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
         let observed = Observed {
             prediction,
@@ -181,8 +189,8 @@ impl Likelihood {
         }
     }
 
-    /// Returns the logarithm of the probability density, up to a constant. A power in place of an exponential allows for the
-    /// uncertain covariance of few profiles (Student's t-distribution).
+    /// Returns the logarithm of the probability density, up to a constant. A power in place of an
+    /// exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
     fn logarithm(&self, observed: &Observed, place: Place) -> f64 {
         let [low, high] = self.ranges;
         let rounding = 1e-9;
@@ -228,8 +236,8 @@ impl Posterior {
         sums
     }
 
-    /// Returns the values of an axis that the next grid should have, within `whole`: the same values if this grid is fine and
-    /// wide enough.
+    /// Returns the values of an axis that the next grid should have, within `whole`: the same
+    /// values if this grid is fine and wide enough.
     fn extent(&self, axis: usize, whole: Extent) -> Extent {
         let values = &self.axes[axis];
         let last = values.len() - 1;
@@ -295,8 +303,8 @@ impl Posterior {
         IntervalEstimate { value, low, high }
     }
 
-    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability density is at least exp(−1.96²/2)
-    /// times the largest one.
+    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability
+    /// density is at least exp(−1.96²/2) times the largest one.
     pub fn most_work(&self) -> f64 {
         let densities = self.along(0);
         let largest = densities.iter().copied().fold(0.0, f64::max);
@@ -363,8 +371,8 @@ impl Posterior {
     }
 }
 
-/// Returns the value below which a parameter lies with the probability `share`. The density is linear between the values of
-/// the axis, at which it is in proportion to `probabilities`.
+/// Returns the value below which a parameter lies with the probability `share`. The density is
+/// linear between the values of the axis, at which it is in proportion to `probabilities`.
 fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
     let cells = || {
         probabilities
@@ -394,8 +402,8 @@ mod tests {
     use super::*;
     use crate::ensemble::summary::SUMMARIES;
 
-    /// Learned values that are the parameters themselves, whose deviations over the profiles have this standard deviation and
-    /// this correlation of ln γ and ln E*.
+    /// Learned values that are the parameters themselves, whose deviations over the profiles have
+    /// this standard deviation and this correlation of ln γ and ln E*.
     fn likelihood(
         deviation: f64,
         correlation: f64,
@@ -447,8 +455,8 @@ mod tests {
         }
     }
 
-    /// For scatters from a ten-thousandth of a step of the table to a whole step, alone and with strong correlation, the
-    /// intervals are those of normal distributions.
+    /// For scatters from a ten-thousandth of a step of the table to a whole step, alone and with
+    /// strong correlation, the intervals are those of normal distributions.
     #[test]
     fn intervals_have_the_errors_of_curves_and_profiles() {
         for deviation in [1e-5, 1e-4, 1e-3, 5e-3, 0.02, 0.1, 0.2] {
@@ -481,7 +489,8 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_a_density_that_is_linear_between_values() {
-        // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its mirror image.
+        // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its
+        // mirror image.
         for share in [0.0_f64, 0.01, 0.25, 0.3, 0.9, 1.0] {
             let rising = quantile(&[0.0, 1.0, 2.0], &[0.0, 1.0, 2.0], share);
             assert!(
@@ -497,7 +506,8 @@ mod tests {
         assert_eq!(quantile(&[5.0], &[1.0], 0.5), 5.0);
     }
 
-    /// A probability that the table cuts off, or that fills the whole table, has an interval within the table.
+    /// A probability that the table cuts off, or that fills the whole table, has an interval within
+    /// the table.
     #[test]
     fn intervals_end_with_the_table() {
         for (deviation, work, modulus) in [

@@ -27,8 +27,8 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance, in the order of the field `covariance`, and the logarithm of its determinant.
-    /// A second value that does not vary is ignored.
+    /// Returns the inverse of the covariance, in the order of the field `covariance`, and the
+    /// logarithm of its determinant. A second value that does not vary is ignored.
     pub fn inverse(&self) -> ([f64; 3], f64) {
         let [one, both, other] = self.covariance;
         if other == 0.0 {
@@ -63,8 +63,8 @@ struct Weights<const COUNT: usize> {
     of: [f64; COUNT],
 }
 
-/// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or through all nodes of a shorter
-/// axis.
+/// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or through
+/// all nodes of a shorter axis.
 fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
     let count = COUNT.min(axis.len());
     let next = axis.partition_point(|node| *node < at);
@@ -83,7 +83,8 @@ fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Computes the moments of two values, which `value` returns for the number of a random profile and of a node.
+    /// Computes the moments of two values, which `value` returns for the number of a random profile
+    /// and of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let node = |node: usize| {
             Moments::of(
@@ -102,7 +103,8 @@ impl Scatter {
         }
     }
 
-    /// Returns the moments at a place: the mean by cubic interpolation, the covariance by linear interpolation.
+    /// Returns the moments at a place: the mean by cubic interpolation, the covariance by linear
+    /// interpolation.
     pub fn at(&self, place: Place) -> Moments {
         let of = |one: usize, other: usize| &self.nodes[one * self.moduli.len() + other];
         let mut moments = Moments {

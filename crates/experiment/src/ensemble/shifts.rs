@@ -23,7 +23,8 @@ pub(crate) struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    /// Returns the derivatives at a place, from `lines` random profiles; `None` for a measured roughness.
+    /// Returns the derivatives at a place, from `lines` random profiles; `None` for a measured
+    /// roughness.
     pub fn at(&self, place: Place, lines: u64) -> Result<Option<RoughnessShifts>, ExperimentError> {
         let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
         else {

@@ -34,8 +34,8 @@ pub(super) fn document(scene: &Scene) -> Document {
     Document::from_scene(scene, "specimen").unwrap()
 }
 
-/// Makes the curve of one place of a specimen: with a profile of its own, noise as a share of the preload, an offset and a
-/// zero.
+/// Makes the curve of one place of a specimen: with a profile of its own, noise as a share of the
+/// preload, an offset and a zero.
 pub(super) fn curve(
     simulation: &mut Simulation,
     scene: &Scene,

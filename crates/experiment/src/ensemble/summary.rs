@@ -23,8 +23,8 @@ pub(crate) const PULL_OFF: usize = 0;
 pub(crate) const LOOP_AREA: usize = 1;
 pub(crate) const WAY_TO_HALF: usize = 3;
 
-/// Smallest pull-off force, smallest tension that does work, and largest force after loss of contact, in units of the
-/// noise.
+/// Smallest pull-off force, smallest tension that does work, and largest force after loss of
+/// contact, in units of the noise.
 const FLOOR: f64 = 3.0;
 const TENSION: f64 = 2.0;
 const LOST: f64 = 5.0;
@@ -32,9 +32,9 @@ const LOST: f64 = 5.0;
 /// Natural logarithms of forces in N, distances in m and energies in J.
 pub(crate) type Summaries = [f64; SUMMARIES];
 
-/// Computes the summaries of a curve whose preload in N is known. Distances are counted from the turning point, so that the
-/// displacement at first touch has no effect. Places between points are interpolated, because summaries that count points
-/// would change in steps with the parameters.
+/// Computes the summaries of a curve whose preload in N is known. Distances are counted from the
+/// turning point, so that the displacement at first touch has no effect. Places between points are
+/// interpolated, because summaries that count points would change in steps with the parameters.
 pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     let Branches {
         approach,
@@ -76,7 +76,8 @@ fn work(branch: &[Point], of: impl Fn(f64) -> f64) -> f64 {
         .sum()
 }
 
-/// Returns the displacement in m at which the force first falls below a level; the last displacement if it never does.
+/// Returns the displacement in m at which the force first falls below a level; the last
+/// displacement if it never does.
 fn below(branch: &[Point], level: f64) -> f64 {
     let next = branch
         .iter()
@@ -85,7 +86,8 @@ fn below(branch: &[Point], level: f64) -> f64 {
     crossing(branch[next.saturating_sub(1)], branch[next], level)
 }
 
-/// Returns the displacement in m at which the magnitude of the force is above a level for the last time.
+/// Returns the displacement in m at which the magnitude of the force is above a level for the last
+/// time.
 fn loss(branch: &[Point], level: f64) -> f64 {
     let last = branch
         .iter()
@@ -107,7 +109,8 @@ fn crossing(from: Point, to: Point, level: f64) -> f64 {
     from.0 + share * (to.0 - from.0)
 }
 
-/// Returns the largest tension in N and its displacement in m, from the parabola through neighbouring points.
+/// Returns the largest tension in N and its displacement in m, from the parabola through
+/// neighbouring points.
 fn largest_tension(branch: &[Point]) -> (f64, f64) {
     let smallest = branch
         .iter()
@@ -157,7 +160,8 @@ mod tests {
     #[test]
     fn summaries_are_those_of_a_sawtooth() {
         let found = summaries(&sawtooth(), 100.0).map(f64::exp);
-        // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies between two points.
+        // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies
+        // between two points.
         let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
         let expected = [
             40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work,
@@ -170,7 +174,8 @@ mod tests {
         }
     }
 
-    /// A place that lies between two points moves with the curve, and not by steps from point to point.
+    /// A place that lies between two points moves with the curve, and not by steps from point to
+    /// point.
     #[test]
     fn distances_are_interpolated() {
         let of = |preload: f64| summaries(&sawtooth(), preload)[WAY_TO_HALF].exp();

@@ -1,4 +1,5 @@
-//! Summaries of computed curves of the same random profiles, at all nodes of a grid over ln(γ/E*) and ln E*.
+//! Summaries of computed curves of the same random profiles, at all nodes of a grid over ln(γ/E*)
+//! and ln E*.
 
 use super::computed::{Place, Specimen};
 use super::summary::Summaries;
@@ -21,7 +22,8 @@ pub(crate) struct Workers<'a> {
 }
 
 impl Workers<'_> {
-    /// Returns the summaries of the curves of each random profile at all nodes, with all moduli of one range together.
+    /// Returns the summaries of the curves of each random profile at all nodes, with all moduli of
+    /// one range together.
     pub fn curves(
         &self,
         lines: u64,

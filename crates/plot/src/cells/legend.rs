@@ -29,8 +29,8 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the entries of the legend of these charts for a terminal. An entry is a list of coloured texts: samples of the lines,
-/// areas or markers of this name, and at the end the name.
+/// Returns the entries of the legend of these charts for a terminal. An entry is a list of coloured
+/// texts: samples of the lines, areas or markers of this name, and at the end the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     // Cells of a map hold letters of their classes.
     let classes = || {

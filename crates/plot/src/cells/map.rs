@@ -10,12 +10,14 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use std::ops::Range;
 
-/// Characters for the values of a heat map in a terminal without colours, from the lowest to the highest values.
+/// Characters for the values of a heat map in a terminal without colours, from the lowest to the
+/// highest values.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
 /// Smallest number of columns with which a cell shows the letter of its class.
 const WITH_LETTER: usize = 3;
 
-/// Returns the index of the value that each screen cell along an axis shows, from the lower end of the axis.
+/// Returns the index of the value that each screen cell along an axis shows, from the lower end of
+/// the axis.
 pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let value = |cell: u16| {
@@ -111,9 +113,10 @@ fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
         .is_some_and(|(here, there)| here != there)
 }
 
-/// Returns the colour scale of a heat map as texts with styles, to be written one after the other. The scale has six numbers and,
-/// between each two neighbours, one coloured piece. In a terminal without colours the pieces are made of [`SHADES`]. A scale that
-/// would need more than `columns` columns shows only the first and the last number.
+/// Returns the colour scale of a heat map as texts with styles, to be written one after the other.
+/// The scale has six numbers and, between each two neighbours, one coloured piece. In a terminal
+/// without colours the pieces are made of [`SHADES`]. A scale that would need more than `columns`
+/// columns shows only the first and the last number.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

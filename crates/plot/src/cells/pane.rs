@@ -1,4 +1,5 @@
-//! A chart in a pane of the screen. The names of the curves are beside the curves, and further charts can be at the sides.
+//! A chart in a pane of the screen. The names of the curves are beside the curves, and further
+//! charts can be at the sides.
 
 use super::legend::legend;
 use super::plot::{CellPlot, Name};
@@ -14,18 +15,22 @@ use std::ops::RangeInclusive;
 /// Entry of the legend: samples and a name.
 type Entry = Vec<Text<'static>>;
 
-/// Width in columns of a chart beside another chart, including the line between them, and the smallest width of both.
+/// Width in columns of a chart beside another chart, including the line between them, and the
+/// smallest width of both.
 const BESIDE: u16 = 14;
 const WITH_BESIDE: u16 = 54;
-/// Largest number of rows for which the scales beside a chart are laid out. The plot has the rows of the chart.
+/// Largest number of rows for which the scales beside a chart are laid out. The plot has the rows
+/// of the chart.
 const MOST_BESIDE: u16 = 15;
-/// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the chart below.
+/// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the
+/// chart below.
 const WITH_BELOW: u16 = 11;
 const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
-/// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are written beside the curves.
+/// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are
+/// written beside the curves.
 pub struct PaneChart {
     /// Main chart, which has the largest part of the pane.
     pub chart: Chart,
@@ -33,24 +38,27 @@ pub struct PaneChart {
     pub names: Vec<Name>,
     /// Chart on the right of the main chart, with the same vertical axis.
     pub beside: Option<Chart>,
-    /// Chart of a few rows below the main chart, with the same horizontal axis. A pane with fewer than 11 rows does not show it.
+    /// Chart of a few rows below the main chart, with the same horizontal axis. A pane with fewer
+    /// than 11 rows does not show it.
     pub below: Option<Chart>,
     /// Row of characters directly below the main chart that shows which springs are in contact.
     pub contact: ContactRow,
 }
 
-/// Row of characters below a chart that shows where springs along the horizontal axis are in contact. `■` means that all springs
-/// at this place are in contact, `▪` that some are, and `·` that none is.
+/// Row of characters below a chart that shows where springs along the horizontal axis are in
+/// contact. `■` means that all springs at this place are in contact, `▪` that some are, and `·`
+/// that none is.
 #[derive(Default)]
 pub struct ContactRow {
     /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
     pub springs: Vec<bool>,
-    /// Part of the horizontal axis between two brackets, given by its ends from 0 (left) to 1 (right); `None` for no brackets.
+    /// Part of the horizontal axis between two brackets, given by its ends from 0 (left) to 1
+    /// (right); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area of the screen into a left part for a chart and a right part for a second chart. The right part is `None` if
-/// the area is too narrow for two charts.
+/// Divides an area of the screen into a left part for a chart and a right part for a second chart.
+/// The right part is `None` if the area is too narrow for two charts.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -76,7 +84,8 @@ fn shares() -> impl Iterator<Item = f64> {
         .map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
 }
 
-/// Returns the name of each entry of the legend with the points where it may be written, and the entry.
+/// Returns the name of each entry of the legend with the points where it may be written, and the
+/// entry.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
     let named = legend(std::slice::from_ref(chart), style)
         .into_iter()
@@ -114,8 +123,9 @@ impl PaneChart {
         }
     }
 
-    /// Divides an area of the screen among the charts of the pane. Returns the place of the main chart [`Self::chart`], and the area
-    /// of the chart [`Self::beside`] on its right; `None` if this chart is missing or has no room.
+    /// Divides an area of the screen among the charts of the pane. Returns the place of the main
+    /// chart [`Self::chart`], and the area of the chart [`Self::beside`] on its right; `None` if
+    /// this chart is missing or has no room.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() {
             split(area)
@@ -129,7 +139,8 @@ impl PaneChart {
         (self.scaled(left, &self.chart), right)
     }
 
-    /// Divides an area between a plot and its scales, with a row for the signs of contact if there are any.
+    /// Divides an area between a plot and its scales, with a row for the signs of contact if there
+    /// are any.
     fn scaled(&self, area: Rect, chart: &Chart) -> CellPlot {
         if self.has_signs(area) {
             CellPlot::above(area, chart, 1)
@@ -152,8 +163,8 @@ impl PaneChart {
         }
     }
 
-    /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on the left, and its name is
-    /// shown if there is room.
+    /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on
+    /// the left, and its name is shown if there is room.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
         let Some(below) = self.below.as_ref().filter(|_| height > 0) else {
@@ -203,7 +214,8 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts into `area`. Returns the legend entries of curves whose names found no room in the chart.
+    /// Draws all charts and texts into `area`. Returns the legend entries of curves whose names
+    /// found no room in the chart.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;
@@ -257,8 +269,8 @@ impl PaneChart {
         left_out
     }
 
-    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of the mark. The mark is then
-    /// visible without colours.
+    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of
+    /// the mark. The mark is then visible without colours.
     fn point_at_mark(
         &self,
         place: &CellPlot,
@@ -310,7 +322,8 @@ impl PaneChart {
 }
 
 impl ContactRow {
-    /// Returns a sign for each cell of a row: `■` if all springs are in contact, `▪` if some are, `·` if none is.
+    /// Returns a sign for each cell of a row: `■` if all springs are in contact, `▪` if some are,
+    /// `·` if none is.
     fn signs(&self, cells: usize) -> String {
         let springs = &self.springs;
         let sign = |cell: usize| {

@@ -16,10 +16,12 @@ use std::ops::RangeInclusive;
 
 /// Smallest area in columns and rows whose plot has a scale on the left.
 pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
-/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a line between both.
+/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a
+/// line between both.
 const WITH_SCALE_BELOW: u16 = 5;
 const WITH_LINE_BELOW: u16 = 12;
-/// Smallest number of rows of an area whose label of the horizontal axis gets its own row if it would cover a number.
+/// Smallest number of rows of an area whose label of the horizontal axis gets its own row if it
+/// would cover a number.
 const WITH_LABEL_BELOW: u16 = 16;
 /// Columns and rows of Braille dots in a cell.
 const DOTS: (u16, u16) = (2, 4);
@@ -27,7 +29,8 @@ const DOTS: (u16, u16) = (2, 4);
 /// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points (x, y) on the axes of the chart beside which the text may be written. The first point with enough room is used.
+    /// Points (x, y) on the axes of the chart beside which the text may be written. The first point
+    /// with enough room is used.
     pub at: Vec<(f64, f64)>,
     /// Alternative texts, from the longest to the shortest. The first one that fits is written.
     pub texts: Vec<String>,
@@ -37,7 +40,8 @@ pub struct Name {
 
 /// Area of the screen for one chart, divided into the plot and the numbers on the left and below.
 pub struct CellPlot {
-    /// Area of the screen in which the data of the chart are drawn, without the numbers along the axes.
+    /// Area of the screen in which the data of the chart are drawn, without the numbers along the
+    /// axes.
     pub plot: Rect,
     left: u16,
     /// Number of rows between the plot and the numbers below it.
@@ -49,7 +53,8 @@ pub struct CellPlot {
 }
 
 impl CellPlot {
-    /// Divides an area of the screen between the plot of a chart and the numbers along its axes. A small area has no numbers.
+    /// Divides an area of the screen between the plot of a chart and the numbers along its axes. A
+    /// small area has no numbers.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
         let line = area.height >= WITH_LINE_BELOW;
         CellPlot {
@@ -58,7 +63,8 @@ impl CellPlot {
         }
     }
 
-    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free directly below the plot.
+    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free directly
+    /// below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let below = area.height >= WITH_SCALE_BELOW;
         let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
@@ -98,8 +104,9 @@ impl CellPlot {
         }
     }
 
-    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by column and row. For a heat
-    /// map it is the pair of axis values of the map cell that is drawn there, or `None` outside the map.
+    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by
+    /// column and row. For a heat map it is the pair of axis values of the map cell that is drawn
+    /// there, or `None` outside the map.
     pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
         let plot = self.plot;
         if let Some(map) = chart.map() {
@@ -123,8 +130,9 @@ impl CellPlot {
         Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
     }
 
-    /// Returns column and row of the cell of the screen that contains the point (x, y) on the axes of the chart. Returns `None`
-    /// for a point outside the chart; in a heat map such a point has the nearest cell at the edge.
+    /// Returns column and row of the cell of the screen that contains the point (x, y) on the axes
+    /// of the chart. Returns `None` for a point outside the chart; in a heat map such a point has
+    /// the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
         let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
         let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
@@ -177,8 +185,8 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes the longest text of a name that fits on blank cells beside one of the points [`Name::at`]. Returns false if no text
-    /// fits.
+    /// Writes the longest text of a name that fits on blank cells beside one of the points
+    /// [`Name::at`]. Returns false if no text fits.
     pub fn draw_name(
         &self,
         buffer: &mut Buffer,
@@ -310,14 +318,15 @@ impl CellPlot {
     }
 }
 
-/// Returns the cell at a share of `cells` cells. The share is rounded to one of the `dots` dots of a cell, as the canvas
-/// does, so that signs and ticks fit their curves.
+/// Returns the cell at a share of `cells` cells. The share is rounded to one of the `dots` dots of
+/// a cell, as the canvas does, so that signs and ticks fit their curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots
 }
 
-/// Returns the rows of a plot of this height that have a number of the vertical axis, with these numbers.
+/// Returns the rows of a plot of this height that have a number of the vertical axis, with these
+/// numbers.
 fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
     let place = |at: f64| {
         cell_at(
@@ -332,8 +341,8 @@ fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
     })
 }
 
-/// Returns the numbers of an axis with their places. The fewest ticks of which two are visible are used, or the fewest
-/// possible.
+/// Returns the numbers of an axis with their places. The fewest ticks of which two are visible are
+/// used, or the fewest possible.
 fn numbers_at(
     axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
@@ -363,9 +372,9 @@ fn numbers_at(
         .unwrap_or_else(|| numbers(fewest))
 }
 
-/// Returns the columns of a plot of this width that have a number of the horizontal axis, with these numbers, and the label
-/// of the axis. The label is complete if it has its own row. Otherwise it is only the symbol, if the name would take more
-/// than half of the columns.
+/// Returns the columns of a plot of this width that have a number of the horizontal axis, with
+/// these numbers, and the label of the axis. The label is complete if it has its own row. Otherwise
+/// it is only the symbol, if the name would take more than half of the columns.
 fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if own_row { width } else { width / 2 };

@@ -55,8 +55,8 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Returns the dots of the area inside a closed line: every other dot, or one of eight in the quiet ink. A dot is
-    /// inside if the line crosses the column below it an odd number of times.
+    /// Returns the dots of the area inside a closed line: every other dot, or one of eight in the
+    /// quiet ink. A dot is inside if the line crosses the column below it an odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let is_shaded = |column: usize, row: usize| match self.ink {
             Ink::Quiet => column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4),
@@ -161,7 +161,8 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// Returns the dots on the straight line from one dot to another without the first, unless both are the same.
+/// Returns the dots on the straight line from one dot to another without the first, unless both are
+/// the same.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;

@@ -4,7 +4,8 @@ use crate::chart::Sign;
 use crate::colour::{Ink, Rgb};
 use ratatui::style::{Color, Style};
 
-/// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the terminal has.
+/// Appearance of a chart in a terminal: the style of each [`Ink`], and the colours that the
+/// terminal has.
 pub struct CellStyle<'a> {
     /// Function that returns the style of an ink, such as its colour.
     pub ink: &'a dyn Fn(Ink) -> Style,
@@ -24,8 +25,8 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// Converts red, green and blue to the same or a similar colour that this terminal can show. A terminal without colours uses
-    /// its default colour.
+    /// Converts red, green and blue to the same or a similar colour that this terminal can show. A
+    /// terminal without colours uses its default colour.
     pub fn colour(self, [red, green, blue]: Rgb) -> Color {
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;

@@ -23,8 +23,9 @@ const WIDEST_CELL: usize = 5;
 const FEWEST_ROWS: usize = 10;
 const MOST_ROWS: usize = 48;
 
-/// Returns a figure as text for a terminal or a file, with its charts one below the other. A line has at most `columns`
-/// characters; values of `columns` below 40 count as 40, and values above 160 as 160.
+/// Returns a figure as text for a terminal or a file, with its charts one below the other. A line
+/// has at most `columns` characters; values of `columns` below 40 count as 40, and values above 160
+/// as 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
     let ink = |ink: Ink| match (ink, colours) {
@@ -132,7 +133,8 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
     }
 }
 
-/// Appends a line of styled texts, without trailing blanks and with the escape sequences of the styles.
+/// Appends a line of styled texts, without trailing blanks and with the escape sequences of the
+/// styles.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     let is_blank = |(text, style): &&(S, Style)| {
         text.as_ref().trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()

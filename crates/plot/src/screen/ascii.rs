@@ -4,9 +4,10 @@ use super::{Glyph, dots, glyphs};
 use ratatui::buffer::Buffer;
 use std::sync::LazyLock;
 
-/// ASCII characters and their patterns of dots, with one letter for each of four rows from above: `L` left, `R` right, `B`
-/// both, `0` none. Of two equally near characters the first is taken. Characters that draw lines precede characters that
-/// fill. The signs on curves, `^`, `v`, `*`, `o` and `@`, are left out.
+/// ASCII characters and their patterns of dots, with one letter for each of four rows from above:
+/// `L` left, `R` right, `B` both, `0` none. Of two equally near characters the first is taken.
+/// Characters that draw lines precede characters that fill. The signs on curves, `^`, `v`, `*`, `o`
+/// and `@`, are left out.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -51,14 +52,16 @@ fn bits(shape: &str) -> u8 {
     rows.rev().fold(0, |bits, row| bits << 2 | row)
 }
 
-/// Replacements of characters: each word is an ASCII character, followed by the characters that it replaces. Greek letters
-/// become letters that look or sound similar. A letter with an accent loses the accent.
+/// Replacements of characters: each word is an ASCII character, followed by the characters that it
+/// replaces. Greek letters become letters that look or sound similar. A letter with an accent loses
+/// the accent.
 const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ @●◉◎ #■█▉▊ &▓ +▪▫□±┌┐└┘├┤┬┴┼ _▁▄ .·⋅∙ :░¦ %▒ \
     -─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
     8⁸₈∞ 9⁹₉ V∇√ DΔ dδ∂ GΓ gγ SΣ∑∫ sσς PΠΨ pπψ OΩΘ wω LΛ lλℓ FΦ fφϕ aα bβ eεϵ hηℎ iι Kκϰ nⁿₙ rρ tτ uµμ zζ XΞ \
     AÀÁÂÃÄÅ CÇ EÈÉÊË IÌÍÎÏ NÑ OÒÓÔÕÖØ UÙÚÛÜ YÝ aàáâãäå cç eèéêë iìíîï nñ oòóôõöø uùúûü yýÿ";
 
-/// Replaces each symbol on a screen by a similar printable ASCII character in the same cell, or by `?` if there is none.
+/// Replaces each symbol on a screen by a similar printable ASCII character in the same cell, or by
+/// `?` if there is none.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {

@@ -57,8 +57,8 @@ fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
     })
 }
 
-/// Returns the dots of a Braille character, two across and four down, as bits row by row from the upper left; `None` for
-/// another character.
+/// Returns the dots of a Braille character, two across and four down, as bits row by row from the
+/// upper left; `None` for another character.
 fn dots(character: char) -> Option<u8> {
     /// Braille numbers three dots down each side; the lowest row came later.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
@@ -72,7 +72,8 @@ fn dots(character: char) -> Option<u8> {
     Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
 }
 
-/// Returns a screen as plain text, with a line for each row. The lines have no blanks at their ends.
+/// Returns a screen as plain text, with a line for each row. The lines have no blanks at their
+/// ends.
 pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

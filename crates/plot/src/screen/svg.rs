@@ -1,7 +1,7 @@
 //! The screen as an SVG document, for slides and for pages on the web.
 //!
-//! Each word begins in its first cell and is as long as its cells. Dots, blocks and the lines of frames are drawn as
-//! shapes, so that they meet from cell to cell with any font.
+//! Each word begins in its first cell and is as long as its cells. Dots, blocks and the lines of
+//! frames are drawn as shapes, so that they meet from cell to cell with any font.
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Palette, Rgb, hex};
@@ -10,12 +10,14 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
 
-/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, in px.
+/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, in
+/// px.
 const WIDTH: u32 = 8;
 const HEIGHT: u32 = 16;
 const BASE: u32 = 12;
 const MARGIN: u32 = 8;
-/// Monospaced fonts of the common systems, whose letters are about 0.6 times as wide as the font size.
+/// Monospaced fonts of the common systems, whose letters are about 0.6 times as wide as the font
+/// size.
 const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 const FONT_SIZE: f64 = 13.3;
@@ -158,8 +160,8 @@ fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
     (ink, ground)
 }
 
-/// Returns the RGB of a terminal colour in a palette, and `reset` for the default colour. The explorer uses the sixteen
-/// ANSI colours.
+/// Returns the RGB of a terminal colour in a palette, and `reset` for the default colour. The
+/// explorer uses the sixteen ANSI colours.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
                         LightBlue LightMagenta LightCyan White";
@@ -179,7 +181,8 @@ fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
 
 /// Returns kind and path of a character that is drawn as a shape; `None` for a letter.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
-    /// Lines from the middle of the cell to the left, right, upper and lower edge, with the characters that have each line.
+    /// Lines from the middle of the cell to the left, right, upper and lower edge, with the
+    /// characters that have each line.
     const ENDS: [(&str, &str); 4] = [
         ("─┐┘┤┬┴", "h-4"),
         ("─┌└├┬┴", "h4"),

@@ -150,8 +150,8 @@ impl Svg {
         ));
     }
 
-    /// Fills boxes, each given by its upper left and lower right corner; each is at least half a pixel wide and high. Boxes
-    /// with a common edge meet without a seam.
+    /// Fills boxes, each given by its upper left and lower right corner; each is at least half a
+    /// pixel wide and high. Boxes with a common edge meet without a seam.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -176,7 +176,8 @@ impl Svg {
         ));
     }
 
-    /// Writes labels below each other, the first at this position. Returns the height at which the next one would be.
+    /// Writes labels below each other, the first at this position. Returns the height at which the
+    /// next one would be.
     pub(super) fn lines(
         &mut self,
         lines: &[Label],
@@ -225,7 +226,8 @@ fn with_minus(text: &str) -> String {
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
-    // Some viewers drop blanks at the ends of an element: they are between elements, as no-break spaces.
+    // Some viewers drop blanks at the ends of an element: they are between elements, as no-break
+    // spaces.
     let blanks = |count: usize| "\u{a0}".repeat(count);
     for (face, text) in label.runs() {
         let text = with_minus(text);

@@ -126,7 +126,8 @@ impl Frame<'_> {
     }
 }
 
-/// Returns the distance in px from a vertical axis to the middle of its label, beyond its widest number.
+/// Returns the distance in px from a vertical axis to the middle of its label, beyond its widest
+/// number.
 fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks
         .iter()

@@ -90,7 +90,8 @@ pub(super) fn guide(ink: Ink) -> Pen {
     }
 }
 
-/// Returns half the size in px of the signs of a curve. Many points have smaller signs, so that neighbours do not touch.
+/// Returns half the size in px of the signs of a curve. Many points have smaller signs, so that
+/// neighbours do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
     SIGN.min(0.3 * frame.width() / points.max(1) as f64)
         .max(0.9)
@@ -213,7 +214,8 @@ pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, (x, y): Place, r: f64, colour
 fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let columns = HeatMap::borders(frame.axes.x.scale, &map.columns);
     let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
-    // One path for each shade: a figure has few lines, and changes of a few cells change few of them.
+    // One path for each shade: a figure has few lines, and changes of a few cells change few of
+    // them.
     let mut boxes: BTreeMap<Option<usize>, Vec<(Place, Place)>> = BTreeMap::new();
     let shades: Vec<Option<usize>> = map
         .values

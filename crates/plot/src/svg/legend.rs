@@ -15,7 +15,8 @@ const ROW: f64 = 20.0;
 /// Entry with its width in px and the lines of its name.
 type Named<'a> = (f64, &'a Entry, Vec<Label>);
 
-/// Draws the entries in rows centred on `middle` and no wider than `most` px. Returns the height of their lower end.
+/// Draws the entries in rows centred on `middle` and no wider than `most` px. Returns the height of
+/// their lower end.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most: f64) -> f64 {
     let mut rows: Vec<(f64, Vec<Named<'_>>)> = Vec::new();
     for entry in entries {

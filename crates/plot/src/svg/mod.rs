@@ -26,15 +26,16 @@ const MARGIN: f64 = 6.0;
 /// Font sizes of the title and of the text below title and legend, px.
 const TITLE: f64 = 14.5;
 const TEXT_SIZE: f64 = LABEL - 1.0;
-/// Smallest width in px of frames side by side in a figure with a given width, and largest width of any other figure with
-/// several charts.
+/// Smallest width in px of frames side by side in a figure with a given width, and largest width of
+/// any other figure with several charts.
 const LEAST: f64 = 110.0;
 const WIDEST: f64 = 1400.0;
 /// Width in px up to which a frame is at least as high as it is wide.
 const SQUARE: f64 = 150.0;
 /// Largest ratio of height to width for frames below each other.
 const LOW: f64 = 0.62;
-/// Largest height in px of a figure with a given width, which is 240 mm, and smallest height of a frame.
+/// Largest height in px of a figure with a given width, which is 240 mm, and smallest height of a
+/// frame.
 const PAGE: f64 = 907.0;
 const LOWEST: f64 = 60.0;
 /// Height of a name on an axis, px.
@@ -172,8 +173,8 @@ impl Figure {
         layouts.find(fits).unwrap_or_else(|| within(1))
     }
 
-    /// Draws charts side by side from the height `y` down. The first chart has the index `first`. Returns the height below
-    /// the charts.
+    /// Draws charts side by side from the height `y` down. The first chart has the index `first`.
+    /// Returns the height below the charts.
     fn draw_row(
         &self,
         svg: &mut Svg,

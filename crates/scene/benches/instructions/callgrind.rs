@@ -28,8 +28,9 @@ impl Profile {
             .map(|(file, lines)| (file.as_str(), lines))
     }
 
-    /// Reads the uncompressed output of callgrind. Inlined code is listed under the file of its source (`fi`, `fe`);
-    /// after `calls` follows the cost of the called function, which is counted there.
+    /// Reads the uncompressed output of callgrind. Inlined code is listed under the file of its
+    /// source (`fi`, `fe`); after `calls` follows the cost of the called function, which is counted
+    /// there.
     fn parse(text: &str) -> Profile {
         let mut lines: HashMap<String, BTreeMap<u64, u64>> = HashMap::new();
         let mut file = "";
@@ -73,7 +74,8 @@ pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
     let file = folder.path().join("profile");
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no", "--dump-line=yes"])
-        // Where glibc copies and clears memory by one repeated instruction, each byte would count as an instruction.
+        // Where glibc copies and clears memory by one repeated instruction, each byte would count
+        // as an instruction.
         .env(
             "GLIBC_TUNABLES",
             "glibc.cpu.x86_rep_movsb_threshold=1073741824:glibc.cpu.x86_rep_stosb_threshold=1073741824",

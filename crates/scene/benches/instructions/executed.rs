@@ -1,8 +1,8 @@
 //! Effects of scenes, and the lines of source that only they execute.
 //!
-//! Callgrind attributes instructions to lines, also of inlined functions, so the check does not depend on how the
-//! compiler cut the program into functions. Each effect is also searched in the scenes that have it: a check that finds
-//! nothing there fails.
+//! Callgrind attributes instructions to lines, also of inlined functions, so the check does not
+//! depend on how the compiler cut the program into functions. Each effect is also searched in the
+//! scenes that have it: a check that finds nothing there fails.
 
 use super::callgrind::Profile;
 use super::cases::Case;

@@ -1,5 +1,5 @@
-//! The least computation for each case: only the necessary building blocks, one after the other, without a plan,
-//! switches or memory of an earlier run.
+//! The least computation for each case: only the necessary building blocks, one after the other,
+//! without a plan, switches or memory of an earlier run.
 
 use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT,

@@ -43,7 +43,8 @@ pub fn program(document: &Document) -> Outcome {
     outcome.expect("a scene that can be computed")
 }
 
-/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
+/// Performs the task that the environment sets for a process under callgrind; `false` without a
+/// task.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else {
         return false;
@@ -103,7 +104,8 @@ pub struct Report {
     work: Work,
 }
 
-/// Counts all cases, as many at a time as the machine has cores. `arguments` start the process as a child.
+/// Counts all cases, as many at a time as the machine has cores. `arguments` start the process as a
+/// child.
 pub fn count(cases: &[Case], arguments: &[&str]) -> Vec<Report> {
     let next = AtomicUsize::new(0);
     let reports = Mutex::new(Vec::new());

@@ -1,5 +1,5 @@
-//! Instructions of 64 unloadings divided by the instructions of one loop to the deepest turning point, on the same profile,
-//! with the trees.
+//! Instructions of 64 unloadings divided by the instructions of one loop to the deepest turning
+//! point, on the same profile, with the trees.
 
 use crate::instructions::callgrind;
 use asperity_contact::motion::{Body, MovingBody};
@@ -35,7 +35,8 @@ const BODIES: [(f64, Edges); 6] = [
     (20.0, Edges::SubCell),
 ];
 
-/// Part of the computation of a body: the profile alone, which all parts need; the loop; the unloadings.
+/// Part of the computation of a body: the profile alone, which all parts need; the loop; the
+/// unloadings.
 #[derive(Clone, Copy)]
 enum Part {
     Line,
@@ -45,7 +46,8 @@ enum Part {
 
 const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
 
-/// Performs the task that the environment sets for a process under callgrind; `false` without a task.
+/// Performs the task that the environment sets for a process under callgrind; `false` without a
+/// task.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else {
         return false;
@@ -94,8 +96,8 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// Counts all bodies. Returns a table, and a line for each body with too many loops. `arguments` start the process as a
-/// child.
+/// Counts all bodies. Returns a table, and a line for each body with too many loops. `arguments`
+/// start the process as a child.
 pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
     let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
     let mut failures = Vec::new();

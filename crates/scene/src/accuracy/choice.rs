@@ -15,11 +15,12 @@ use thiserror::Error;
 
 /// Edge models. At the same number of springs the first one is preferred.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
-/// Largest number of springs that is tried, or four times the number that the modes of the scene need, if that is larger.
+/// Largest number of springs that is tried, or four times the number that the modes of the scene
+/// need, if that is larger.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1 %`. Returns an error
-/// message unless the tolerance is above 0 and below 1.
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or
+/// `0.1 %`. Returns an error message unless the tolerance is above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;
@@ -38,8 +39,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Number of springs and edge model ([`Edges`]) with which the error of a scene stays within a tolerance, as found by
-/// [`choose`].
+/// Number of springs and edge model ([`Edges`]) with which the error of a scene stays within a
+/// tolerance, as found by [`choose`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
@@ -48,18 +49,22 @@ pub struct Choice {
     pub target: Target,
     /// Chosen number of springs N.
     pub points: u64,
-    /// Chosen edge model: the edge of a patch may lie between two springs, or a patch consists of whole springs.
+    /// Chosen edge model: the edge of a patch may lie between two springs, or a patch consists of
+    /// whole springs.
     pub edges: Edges,
-    /// Relative error of `target` with the chosen settings: the true error if a closed form exists, otherwise an estimate.
+    /// Relative error of `target` with the chosen settings: the true error if a closed form exists,
+    /// otherwise an estimate.
     pub error: f64,
-    /// True if `error` is the difference from a closed form, which is an exact formula for the adhesion force.
+    /// True if `error` is the difference from a closed form, which is an exact formula for the
+    /// adhesion force.
     pub closed_form: bool,
     /// Largest number of springs that [`choose`] tried.
     pub finest: u64,
 }
 
 impl Choice {
-    /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact solver.
+    /// Returns `scene` with the chosen number of springs, the chosen edge model and the exact
+    /// solver.
     ///
     /// # Errors
     /// Returns an error for each value of `scene` that is invalid with the chosen settings.
@@ -164,14 +169,15 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
     )
 }
 
-/// Finds the smallest power of two as the number of springs, and the edge model ([`Edges`]), with which the relative error of
-/// a scene is at most `tolerance`. This is the error of the adhesion force or, for a scene without a tensile force, of the
-/// force curve ([`Target::Curve`]). Names of measured files are relative to `folder`. `trying` receives each number of
-/// springs before it is tried. The search ends when `stop` returns true.
+/// Finds the smallest power of two as the number of springs, and the edge model ([`Edges`]), with
+/// which the relative error of a scene is at most `tolerance`. This is the error of the adhesion
+/// force or, for a scene without a tensile force, of the force curve ([`Target::Curve`]). Names of
+/// measured files are relative to `folder`. `trying` receives each number of springs before it is
+/// tried. The search ends when `stop` returns true.
 ///
 /// # Errors
-/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene has the stepwise solver,
-/// if `stop` returned true, or if the scene cannot be computed.
+/// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene
+/// has the stepwise solver, if `stop` returned true, or if the scene cannot be computed.
 ///
 /// ```
 /// use asperity_scene::discretisation::choose;
@@ -196,9 +202,9 @@ pub fn choose(
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }
-    // The number of springs is doubled until the error stays within the tolerance over at least two further doublings. Without
-    // a closed form adhesion forces are also compared under half and twice the loads, and the estimated error of the finest
-    // solution is added.
+    // The number of springs is doubled until the error stays within the tolerance over at least two
+    // further doublings. Without a closed form adhesion forces are also compared under half and
+    // twice the loads, and the estimated error of the finest solution is added.
     let most = allowed_points(scene)
         .next()
         .map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
@@ -242,8 +248,9 @@ pub fn choose(
     Err(ChoiceError::Unreached { tolerance, best })
 }
 
-/// Estimates the relative error of the finest solution with edges between springs, under the loads of the scene and around
-/// them. The error is 0 if the scene has a closed form, and `None` if it is unknown.
+/// Estimates the relative error of the finest solution with edges between springs, under the loads
+/// of the scene and around them. The error is 0 if the scene has a closed form, and `None` if it is
+/// unknown.
 fn error_of_finest(
     scene: &CheckedScene,
     runs: &mut Runs<'_>,
@@ -256,8 +263,9 @@ fn error_of_finest(
     own_errors(scene, finest, runs)?[Target::of(finest) as usize]
 }
 
-/// Returns the choice among solutions with both edge models, given the error of the finest one. If none reaches the
-/// tolerance, it is the best whose error is confirmed. Returns `None` for too few solutions.
+/// Returns the choice among solutions with both edge models, given the error of the finest one. If
+/// none reaches the tolerance, it is the best whose error is confirmed. Returns `None` for too few
+/// solutions.
 fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
     let [finest, _] = tried.last()?;
     let (target, reference, closed_form) = (
@@ -299,7 +307,8 @@ fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choi
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 N: first error, and order of convergence, for each edge model.
+    /// Solutions whose adhesion force converges to 1 N: first error, and order of convergence, for
+    /// each edge model.
     fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
         let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,

@@ -13,15 +13,16 @@ use std::path::Path;
 const MOST_SPRINGS: u64 = 1 << 23;
 /// Number of springs above which the Fourier transform takes most of the time of a solution.
 const MANY_SPRINGS: u64 = 1 << 16;
-/// Numbers of springs of the two further solutions, as fractions of the number of springs of the scene. The second pair is
-/// for scenes whose waves need more springs than the first pair gives.
+/// Numbers of springs of the two further solutions, as fractions of the number of springs of the
+/// scene. The second pair is for scenes whose waves need more springs than the first pair gives.
 const OTHERS: [[(u64, u64); 2]; 2] = [[(7, 8), (2, 3)], [(3, 2), (2, 1)]];
 /// Ratio of the estimated error to the larger of the two differences from the further solutions.
 ///
-/// The further solutions have edges between springs. A solution with whole springs differs from them by its whole error,
-/// which is of first order in the spacing. Solutions with whole springs on several grids may agree by chance. An error that
-/// falls with the square of the spacing is smaller than its difference from the solution with 2/3 of the springs. On rough
-/// profiles errors change sign by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the
+/// The further solutions have edges between springs. A solution with whole springs differs from
+/// them by its whole error, which is of first order in the spacing. Solutions with whole springs on
+/// several grids may agree by chance. An error that falls with the square of the spacing is smaller
+/// than its difference from the solution with 2/3 of the springs. On rough profiles errors change
+/// sign by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the
 /// median of estimate over true error is at most ten (`tests/program/estimates.rs`).
 const FACTOR: f64 = 4.0;
 /// Relative difference of adhesion forces above which F_a(F_n) may have a step.
@@ -29,25 +30,26 @@ const STEP: f64 = 0.05;
 /// Factors between the loads of a scene and loads near them.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
-/// Estimated relative error that the finite number of springs causes in the adhesion force or the force curve of an
-/// [`Outcome`].
+/// Estimated relative error that the finite number of springs causes in the adhesion force or the
+/// force curve of an [`Outcome`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// Quantity whose error is estimated: adhesion force or force curve.
     pub target: Target,
     /// Estimated relative error of `target`.
     pub error: f64,
-    /// True if the adhesion force F_a as a function of the preload has a step near the preload of the scene. F_a of one
-    /// of the two further solutions then differs from F_a of the outcome by more than 5 %. This difference is at least
-    /// three times smaller if the loads of the further solution are 5 % smaller or larger.
+    /// True if the adhesion force F_a as a function of the preload has a step near the preload of
+    /// the scene. F_a of one of the two further solutions then differs from F_a of the outcome by
+    /// more than 5 %. This difference is at least three times smaller if the loads of the further
+    /// solution are 5 % smaller or larger.
     pub near_step: bool,
     /// How the error was found: by an exact formula, or by solutions with other numbers of springs.
     pub evidence: Evidence,
 }
 
 impl Estimate {
-    /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the estimate is for the force
-    /// curve ([`Target::Curve`]).
+    /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the
+    /// estimate is for the force curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
         let force = outcome
             .figures
@@ -56,14 +58,14 @@ impl Estimate {
         Some(self.error * force.abs()).filter(|error| error.is_finite())
     }
 
-    /// Returns the estimated relative error of the force curve, as [`Target::Curve`] defines it; `None` if the estimate is
-    /// for the adhesion force.
+    /// Returns the estimated relative error of the force curve, as [`Target::Curve`] defines it;
+    /// `None` if the estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
         Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
     }
 
-    /// Returns the text that summaries print after the adhesion force: `grid ± 0.1 %`, or `near a step of F_a(F_n)` if
-    /// [`near_step`](Self::near_step) is true.
+    /// Returns the text that summaries print after the adhesion force: `grid ± 0.1 %`, or
+    /// `near a step of F_a(F_n)` if [`near_step`](Self::near_step) is true.
     pub fn words(&self) -> String {
         match self.target {
             Target::AdhesionForce if self.near_step => "near a step of F_a(F_n)".to_owned(),
@@ -79,20 +81,22 @@ impl Estimate {
 pub enum Evidence {
     /// By an exact formula of the adhesion force. The estimate is the true error.
     ClosedForm,
-    /// By comparison with solutions of the same scene that have these numbers of springs and [`Edges::SubCell`].
+    /// By comparison with solutions of the same scene that have these numbers of springs and
+    /// [`Edges::SubCell`].
     Solutions(Vec<u64>),
 }
 
-/// Estimates the relative error that the finite number of springs causes in the adhesion force of `outcome`, the result of
-/// `scene`. If the loading has no tensile force, the function estimates the error of the force curve. Names of measured files
-/// are relative to `folder`.
+/// Estimates the relative error that the finite number of springs causes in the adhesion force of
+/// `outcome`, the result of `scene`. If the loading has no tensile force, the function estimates
+/// the error of the force curve. Names of measured files are relative to `folder`.
 ///
-/// If a closed form exists, the estimate is the true error. Otherwise it follows from two further solutions with other
-/// numbers of springs, and the true error exceeds it in about 5 of 100 cases.
+/// If a closed form exists, the estimate is the true error. Otherwise it follows from two further
+/// solutions with other numbers of springs, and the true error exceeds it in about 5 of 100 cases.
 ///
-/// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true, or if one of the two
-/// further solutions fails. Also returns `None` if the contact reaches the ends of the profile of a curved body: more springs
-/// would not come nearer to the forces of this body.
+/// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true,
+/// or if one of the two further solutions fails. Also returns `None` if the contact reaches the
+/// ends of the profile of a curved body: more springs would not come nearer to the forces of this
+/// body.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};
@@ -127,8 +131,8 @@ pub fn estimate(
             evidence: Evidence::ClosedForm,
         });
     }
-    // If one of the first two numbers of springs is too small for the shortest wave, the scene is solved with about 3/2 and
-    // about 2 times as many springs as it has.
+    // If one of the first two numbers of springs is too small for the shortest wave, the scene is
+    // solved with about 3/2 and about 2 times as many springs as it has.
     let mut runs = Runs::new(folder, stop);
     let mut solved = |scene: &CheckedScene| runs.solve(scene).ok();
     let others = others(&target.only(scene).ok()?, &mut solved)?;
@@ -160,7 +164,8 @@ pub fn estimate(
     })
 }
 
-/// Estimates the errors of a solution with edges between springs, under the loads of the scene and around them.
+/// Estimates the errors of a solution with edges between springs, under the loads of the scene and
+/// around them.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,
@@ -174,8 +179,8 @@ pub(super) fn own_errors(
     }))
 }
 
-/// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if they are not allowed or have
-/// no solution.
+/// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if
+/// they are not allowed or have no solution.
 fn others(
     scene: &CheckedScene,
     solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
@@ -196,12 +201,13 @@ fn others(
     Some([(one, of_one), (other, of_other)])
 }
 
-/// Returns the smallest number of springs, at least `least`, that suits a Fourier transform: it has no prime factor above 13.
-/// The number is odd. Where the transform takes most of the time, it is twice an odd number, because an odd one would double
-/// that time.
+/// Returns the smallest number of springs, at least `least`, that suits a Fourier transform: it has
+/// no prime factor above 13. The number is odd. Where the transform takes most of the time, it is
+/// twice an odd number, because an odd one would double that time.
 ///
-/// The springs of an even and of an odd number never have the same positions, wherever the axis of a form is. A power of two
-/// and twice an odd number have two positions in common. So equal heights never result from the positions alone.
+/// The springs of an even and of an odd number never have the same positions, wherever the axis of
+/// a form is. A power of two and twice an odd number have two positions in common. So equal heights
+/// never result from the positions alone.
 fn apart_from(least: u64) -> u64 {
     let without = |mut number: u64, prime: &u64| {
         while number.is_multiple_of(*prime) {

@@ -1,5 +1,6 @@
-//! Cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each step of this ladder has twice
-//! the springs of the step before, with both edge models, and half the step of the stepwise solver.
+//! Cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each step
+//! of this ladder has twice the springs of the step before, with both edge models, and half the
+//! step of the stepwise solver.
 
 use super::estimate::own_errors;
 use super::solution::{
@@ -16,10 +17,12 @@ use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Least ratio of the time that is left to the time of the last rung before another rung begins. The next rung takes about
-/// twice as long, the error of the finest solution as long as the last rung. A busy machine takes longer.
+/// Least ratio of the time that is left to the time of the last rung before another rung begins.
+/// The next rung takes about twice as long, the error of the finest solution as long as the last
+/// rung. A busy machine takes longer.
 const LATER: f64 = 4.0;
-/// Number of points of a compared curve, over all loading stages. With so many points sampling hides no error of the springs.
+/// Number of points of a compared curve, over all loading stages. With so many points sampling
+/// hides no error of the springs.
 const COMPARED_POINTS: u64 = 1 << 16;
 /// Largest number of points of a compared loading stage.
 const MOST_COMPARED: u64 = 4096;
@@ -29,17 +32,20 @@ const ROUNDING: f64 = 1e-14;
 const STEPWISE_SPRINGS: u64 = 256;
 /// Number of steps of the coarsest run over its range of indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Largest number of runs that time one setting, and the time in s after which no further run begins.
+/// Largest number of runs that time one setting, and the time in s after which no further run
+/// begins.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform whose time is the unit of time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of [`measure`], which measures errors and computing times of a scene and passes this to its argument `watch`.
+/// Progress of [`measure`], which measures errors and computing times of a scene and passes this to
+/// its argument `watch`.
 pub enum Progress<'a> {
     /// Setting that is varied next, with its next value as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// Table of the solutions so far. The errors in the table are relative to the finest of these solutions.
+    /// Table of the solutions so far. The errors in the table are relative to the finest of these
+    /// solutions.
     Rows(&'a CostTable),
 }
 
@@ -53,13 +59,14 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Measures the errors of a scene and the times of its computation, with more and more springs and, for the stepwise
-/// [`Solver`], with smaller and smaller steps. The measurement ends when the time `budget` is spent. Names of measured files
-/// are relative to `folder`. `watch` receives each setting before it is tried, and the table so far.
+/// Measures the errors of a scene and the times of its computation, with more and more springs and,
+/// for the stepwise [`Solver`], with smaller and smaller steps. The measurement ends when the time
+/// `budget` is spent. Names of measured files are relative to `folder`. `watch` receives each
+/// setting before it is tried, and the table so far.
 ///
 /// # Errors
-/// Returns a message if the scene cannot be computed, if the budget is too small for two solutions, or if `stop` returned
-/// true.
+/// Returns a message if the scene cannot be computed, if the budget is too small for two solutions,
+/// or if `stop` returned true.
 pub fn measure(
     scene: &CheckedScene,
     folder: &Path,
@@ -124,7 +131,8 @@ fn compared_samples(scene: &Scene) -> u64 {
 }
 
 impl Ladder<'_> {
-    /// Adds rungs while there is time. Returns the error with which too few springs were refused, if there was one.
+    /// Adds rungs while there is time. Returns the error with which too few springs were refused,
+    /// if there was one.
     fn climb(
         &mut self,
         left: &dyn Fn() -> f64,
@@ -170,8 +178,8 @@ impl Ladder<'_> {
         Ok(refused)
     }
 
-    /// Returns the settings with this number of springs. The step of the stepwise solver is halved from rung to rung, once
-    /// the exact reference solution is known.
+    /// Returns the settings with this number of springs. The step of the stepwise solver is halved
+    /// from rung to rung, once the exact reference solution is known.
     fn settings(&self, points: u64) -> Vec<(Knob, f64, CheckedScene)> {
         let of = |(knob, edges)| {
             Some((
@@ -231,8 +239,8 @@ impl Ladder<'_> {
         ))
     }
 
-    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused. Returns `None` if no time
-    /// is left.
+    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused.
+    /// Returns `None` if no time is left.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let (began, mut seconds) = (Instant::now(), Vec::new());
         while seconds.is_empty()
@@ -251,7 +259,8 @@ impl Ladder<'_> {
         self.rungs.iter().filter(move |(row, _)| row.knob == knob)
     }
 
-    /// Returns the reference for steps: the exact solution with as many springs as the stepwise solver has.
+    /// Returns the reference for steps: the exact solution with as many springs as the stepwise
+    /// solver has.
     fn exact(&self) -> Option<&Solution> {
         let mut exact = self
             .rungs_of(Knob::GridSprings)
@@ -268,9 +277,9 @@ impl Ladder<'_> {
         Some([finer.next()?, finer.next()?])
     }
 
-    /// Computes the errors of all rows, relative to the finest solution or the closed form. Errors of steps are relative to
-    /// the exact solution. The error of the reference itself is `own`, or twice the last differences. Returns false for fewer
-    /// than two solutions.
+    /// Computes the errors of all rows, relative to the finest solution or the closed form. Errors
+    /// of steps are relative to the exact solution. The error of the reference itself is `own`, or
+    /// twice the last differences. Returns false for fewer than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
         let Some([finest, last]) = self.finest() else {
             return false;
@@ -316,8 +325,8 @@ impl Ladder<'_> {
     }
 }
 
-/// Returns the errors of a setting where they exceed the errors of the reference, with orders of convergence relative to
-/// the row before.
+/// Returns the errors of a setting where they exceed the errors of the reference, with orders of
+/// convergence relative to the row before.
 fn resolved(
     errors: Errors,
     floors: Errors,
@@ -341,14 +350,15 @@ fn resolved(
     })
 }
 
-/// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) between two errors; the second solution is `ratio`
-/// times as fine. Returns `None` if the order has no meaning.
+/// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) between two errors; the
+/// second solution is `ratio` times as fine. Returns `None` if the order has no meaning.
 fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
     let order = (coarse / fine).ln() / ratio.ln();
     (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
-/// Measures the shortest time in s of one real Fourier transform of 2^20 points, which is planned before.
+/// Measures the shortest time in s of one real Fourier transform of 2^20 points, which is planned
+/// before.
 fn time_of_transform() -> Option<f64> {
     let transform = plan_real_forward(TRANSFORM_POINTS);
     let mut points = transform.make_input_vec();

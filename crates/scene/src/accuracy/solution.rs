@@ -17,10 +17,12 @@ pub(super) const FEWEST: u64 = 16;
 /// Factors between the loads of a scene and the loads around them.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of [`crate::accuracy::table::CostTable::QUANTITIES`], in that order; `None` for a missing quantity.
+/// Relative errors or differences of [`crate::accuracy::table::CostTable::QUANTITIES`], in that
+/// order; `None` for a missing quantity.
 pub(super) type Errors = [Option<f64>; 4];
 
-/// Forces, energy, contact length and force curve of one solution. A value of zero has no relative error and is left out.
+/// Forces, energy, contact length and force curve of one solution. A value of zero has no relative
+/// error and is left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
     pub points: u64,
@@ -49,7 +51,8 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference. An adhesion force in closed form replaces the computed one.
+    /// Returns this solution as a reference. An adhesion force in closed form replaces the computed
+    /// one.
     pub(super) fn reference(&self) -> Solution {
         match self.closed_form {
             Some(_) => Solution {
@@ -61,8 +64,9 @@ impl Solution {
         }
     }
 
-    /// Returns the relative differences from a reference. The difference of the adhesion force is the largest over all loads
-    /// that both have. An error that changes sign from load to load is then not small by chance.
+    /// Returns the relative differences from a reference. The difference of the adhesion force is
+    /// the largest over all loads that both have. An error that changes sign from load to load is
+    /// then not small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         let relative = |value: Option<f64>, reference: Option<f64>| {
             reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
@@ -85,16 +89,17 @@ impl Solution {
     }
 }
 
-/// Quantity whose error [`estimate`](crate::estimate()) estimates and [`choose`](crate::discretisation::choose) keeps within
-/// a tolerance.
+/// Quantity whose error [`estimate`](crate::estimate()) estimates and
+/// [`choose`](crate::discretisation::choose) keeps within a tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Target {
     /// Adhesion force of a scene with a tensile force.
     AdhesionForce,
-    /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean absolute difference between
-    /// its forces and the exact forces at the same indentations, divided by the largest absolute force in all stages. The
-    /// error of the force curve is the largest of the errors of its stages.
+    /// Force curve of a scene without a tensile force. Its error in a loading stage is the mean
+    /// absolute difference between its forces and the exact forces at the same indentations,
+    /// divided by the largest absolute force in all stages. The error of the force curve is the
+    /// largest of the errors of its stages.
     Curve,
 }
 
@@ -148,8 +153,8 @@ pub(super) fn refined(
     })
 }
 
-/// Returns the scene with all positive target forces and indentations multiplied by a factor. Returns `None` if there are
-/// none, or if a product is out of range.
+/// Returns the scene with all positive target forces and indentations multiplied by a factor.
+/// Returns `None` if there are none, or if a product is out of range.
 pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
     let loaded = |other: &mut Scene| {
         for leg in &mut other.loading {
@@ -230,7 +235,8 @@ pub(super) fn is_spent(error: &RunError) -> bool {
         )
 }
 
-/// Returns true if there are too few springs: none is under the body, or their contact does not reach the end of a stage.
+/// Returns true if there are too few springs: none is under the body, or their contact does not
+/// reach the end of a stage.
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
@@ -244,8 +250,9 @@ fn longest_contact(outcome: &Outcome) -> f64 {
     points.map(|point| point.contact_length).fold(0.0, f64::max)
 }
 
-/// Returns the adhesion force of a scene in closed form in N. `outcome` is the solution of the scene. Returns `None` unless a
-/// smooth body is pulled beyond the indentation of its smallest force, on a profile longer than its contact.
+/// Returns the adhesion force of a scene in closed form in N. `outcome` is the solution of the
+/// scene. Returns `None` unless a smooth body is pulled beyond the indentation of its smallest
+/// force, on a profile longer than its contact.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     if scene.roughness.is_some() {
@@ -280,7 +287,8 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
 /// Number of indentations at which the forces of a loading stage are compared.
 const COMPARED: usize = 2048;
 
-/// Force curve of each loading stage as points of indentation (m) and force (N), ascending in indentation.
+/// Force curve of each loading stage as points of indentation (m) and force (N), ascending in
+/// indentation.
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
@@ -298,9 +306,10 @@ pub(super) fn force_curve(history: &History) -> ForceCurve {
     history.legs.iter().map(points).collect()
 }
 
-/// Returns the mean difference of the forces of a loading stage from a reference at equal indentations, divided by the
-/// largest force of the reference. The largest of all stages counts. A jump that is late by a hundredth of the range of
-/// indentations counts a hundredth of its height. Returns `None` if the reference has no forces or another number of stages.
+/// Returns the mean difference of the forces of a loading stage from a reference at equal
+/// indentations, divided by the largest force of the reference. The largest of all stages counts. A
+/// jump that is late by a hundredth of the range of indentations counts a hundredth of its height.
+/// Returns `None` if the reference has no forces or another number of stages.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
     let largest = reference
         .iter()
@@ -324,7 +333,8 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
         .try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
 }
 
-/// Returns the force of a curve at an indentation, and beyond the ends the force at the end. Returns `None` without points.
+/// Returns the force of a curve at an indentation, and beyond the ends the force at the end.
+/// Returns `None` without points.
 fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
     let above = curve
         .partition_point(|point| point[0] < at)

@@ -13,15 +13,17 @@ pub(super) const REFINEMENTS: usize = 2;
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
 const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 
-/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]), or the step of the
-/// stepwise [`Solver`].
+/// Setting that a [`CostTable`] varies: the number of springs with either edge model ([`Edges`]),
+/// or the step of the stepwise [`Solver`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N, where the edge of a patch may lie between two springs ([`Edges::SubCell`]).
+    /// Number of springs N, where the edge of a patch may lie between two springs
+    /// ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N, where a patch consists of whole springs as in Popov and Filippov (2012) ([`Edges::Grid`]).
+    /// Number of springs N, where a patch consists of whole springs as in Popov and Filippov (2012)
+    /// ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
@@ -53,7 +55,8 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Computes the shortest and the median time from the times of some runs in s. Returns `None` for an empty list.
+    /// Computes the shortest and the median time from the times of some runs in s. Returns `None`
+    /// for an empty list.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         let minimum = seconds.iter().copied().reduce(f64::min)?;
         Some(Timing {
@@ -64,16 +67,18 @@ impl Timing {
     }
 }
 
-/// Relative error of a quantity in a [`Row`], and whether it is larger than the smallest error that can be measured.
+/// Relative error of a quantity in a [`Row`], and whether it is larger than the smallest error that
+/// can be measured.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorFigure {
     /// Relative error. If `resolved` is false, it is the smallest error that can be measured.
     pub error: f64,
-    /// True if the error is larger than the smallest error that can be measured. For a number of springs, the smallest error
-    /// is the estimated error of the reference ([`CostReference::errors`]).
+    /// True if the error is larger than the smallest error that can be measured. For a number of
+    /// springs, the smallest error is the estimated error of the reference
+    /// ([`CostReference::errors`]).
     pub resolved: bool,
-    /// Order of convergence p from the previous row to this row: a setting that is r times as fine makes the error r^p times
-    /// smaller. `None` unless `resolved` is true in both rows.
+    /// Order of convergence p from the previous row to this row: a setting that is r times as fine
+    /// makes the error r^p times smaller. `None` unless `resolved` is true in both rows.
     pub order: Option<f64>,
 }
 
@@ -86,19 +91,22 @@ pub struct Row {
     pub setting: f64,
     /// Number of springs N of the solution.
     pub springs: u64,
-    /// Times of complete computations, which reuse no earlier result; `None` if no computation was timed.
+    /// Times of complete computations, which reuse no earlier result; `None` if no computation was
+    /// timed.
     pub seconds: Option<Timing>,
-    /// Shortest time of `seconds` divided by the time of one Fourier transform ([`CostTable::transform_seconds`]); `None`
-    /// if no computation was timed.
+    /// Shortest time of `seconds` divided by the time of one Fourier transform
+    /// ([`CostTable::transform_seconds`]); `None` if no computation was timed.
     pub transforms: Option<f64>,
-    /// Relative errors of the [`CostTable::QUANTITIES`], in their order; `None` for a quantity whose error is unknown.
+    /// Relative errors of the [`CostTable::QUANTITIES`], in their order; `None` for a quantity
+    /// whose error is unknown.
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<ErrorFigure>; 4],
 }
 
-/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with [`Edges::SubCell`]. An exact
-/// formula for the adhesion force, if there is one, replaces the adhesion force of this solution. Rows with a [`Knob::Step`]
-/// are compared with the exact solution with equally many springs.
+/// Solution to which the errors in a [`CostTable`] are relative: the finest solution with
+/// [`Edges::SubCell`]. An exact formula for the adhesion force, if there is one, replaces the
+/// adhesion force of this solution. Rows with a [`Knob::Step`] are compared with the exact solution
+/// with equally many springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.
@@ -107,7 +115,8 @@ pub struct CostReference {
     pub adhesion_force: Option<f64>,
     /// True if `adhesion_force` is from an exact formula.
     pub closed_form: bool,
-    /// Estimated relative errors of the reference itself, one for each of the [`CostTable::QUANTITIES`].
+    /// Estimated relative errors of the reference itself, one for each of the
+    /// [`CostTable::QUANTITIES`].
     #[serde(serialize_with = "by_name")]
     pub errors: [Option<f64>; 4],
 }
@@ -116,28 +125,33 @@ fn by_name<T: Serialize, S: Serializer>(values: &[T; 4], serializer: S) -> Resul
     serializer.collect_map(CostTable::QUANTITIES.iter().zip(values))
 }
 
-/// Errors and computing times of one scene, as [`measure`](crate::discretisation::measure) returns them: rows with more and
-/// more springs for the exact solver, and rows with smaller and smaller steps for the stepwise solver ([`Solver::Stepwise`]).
+/// Errors and computing times of one scene, as [`measure`](crate::discretisation::measure) returns
+/// them: rows with more and more springs for the exact solver, and rows with smaller and smaller
+/// steps for the stepwise solver ([`Solver::Stepwise`]).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CostTable {
     /// Time in s that the measurement was allowed to take.
     pub budget: f64,
     /// Time in s that the measurement has taken.
     pub spent: f64,
-    /// Shortest time in s of one real Fourier transform of 2^20 points, the unit of [`Row::transforms`].
+    /// Shortest time in s of one real Fourier transform of 2^20 points, the unit of
+    /// [`Row::transforms`].
     pub transform_seconds: f64,
     /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
-    /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to fine.
+    /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to
+    /// fine.
     pub rows: Vec<Row>,
-    /// Values of the settings, in words such as `512 springs`, that have no row because time or memory did not suffice.
+    /// Values of the settings, in words such as `512 springs`, that have no row because time or
+    /// memory did not suffice.
     pub left_out: Vec<String>,
 }
 
 impl CostTable {
-    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve, dissipated energy, and largest
-    /// contact length. The error of a force curve is its mean absolute difference from the force curve of the reference
-    /// ([`CostReference`]) at equal indentations, divided by the largest absolute force of the reference.
+    /// Names of the quantities whose errors are measured: adhesion force F_a, force curve,
+    /// dissipated energy, and largest contact length. The error of a force curve is its mean
+    /// absolute difference from the force curve of the reference ([`CostReference`]) at equal
+    /// indentations, divided by the largest absolute force of the reference.
     pub const QUANTITIES: [&str; 4] = [
         "adhesion_force",
         "curve",
@@ -150,7 +164,8 @@ impl CostTable {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
 
-    /// Returns the main error of a row: the error of the adhesion force, or of the force curve if there is no tensile force.
+    /// Returns the main error of a row: the error of the adhesion force, or of the force curve if
+    /// there is no tensile force.
     pub fn main_error(&self, row: &Row) -> Option<ErrorFigure> {
         let [adhesion_force, curve, ..] = row.errors;
         if self.reference.adhesion_force.is_some() {
@@ -160,33 +175,35 @@ impl CostTable {
         }
     }
 
-    /// Returns true if the error of the adhesion force in each row with springs is the largest at half, once and twice the
-    /// loads of `scene`, whose table this is. Returns false if it is the error at the loads of the scene alone: with an exact
-    /// formula of the adhesion force, which holds at any load, without an adhesion force, or without target forces and
-    /// indentations.
+    /// Returns true if the error of the adhesion force in each row with springs is the largest at
+    /// half, once and twice the loads of `scene`, whose table this is. Returns false if it is the
+    /// error at the loads of the scene alone: with an exact formula of the adhesion force, which
+    /// holds at any load, without an adhesion force, or without target forces and indentations.
     pub fn is_over_loads(&self, scene: &Scene) -> bool {
         self.reference.adhesion_force.is_some() && !self.reference.closed_form && has_loads(scene)
     }
 
-    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns `None` unless both are
-    /// known, positive and finite.
+    /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns
+    /// `None` unless both are known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
         let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
         (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite())
             .then_some((seconds, figure))
     }
 
-    /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this row and of all finer rows
-    /// is at most `bound`. Returns `None` if there is no such row with at least two finer rows.
+    /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this
+    /// row and of all finer rows is at most `bound`. Returns `None` if there is no such row with at
+    /// least two finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
         let rows: Vec<_> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
         first_within(errors, bound).map(|index| rows[index])
     }
 
-    /// Returns the computing time in s and the main error of the scene with `numerics`, interpolated between two rows.
-    /// Returns `None` if the number of springs or the step lies outside the range of the rows, or if the rows of the stepwise
-    /// solver have another number of springs.
+    /// Returns the computing time in s and the main error of the scene with `numerics`,
+    /// interpolated between two rows. Returns `None` if the number of springs or the step lies
+    /// outside the range of the rows, or if the rows of the stepwise solver have another number of
+    /// springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -214,9 +231,9 @@ impl CostTable {
         Some((between(before.0, there.0), between(before.1, there.1)))
     }
 
-    /// Returns the order of convergence of the main error with a setting: the absolute value of the slope of ln(error) as a
-    /// function of ln(setting), fitted by least squares to all rows with resolved errors. Returns `None` for fewer than
-    /// three such rows.
+    /// Returns the order of convergence of the main error with a setting: the absolute value of the
+    /// slope of ln(error) as a function of ln(setting), fitted by least squares to all rows with
+    /// resolved errors. Returns `None` for fewer than three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
         let point = |row: &Row| {
             let figure = self.main_error(row).filter(|figure| figure.resolved)?;
@@ -227,8 +244,8 @@ impl CostTable {
         slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
     }
 
-    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each states how many springs this error needs with
-    /// either edge model, and how long the computation takes.
+    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each states how many springs
+    /// this error needs with either edge model, and how long the computation takes.
     pub fn answer(&self) -> Vec<String> {
         let of_force = self.reference.adhesion_force.is_some();
         let what = if of_force {
@@ -264,8 +281,9 @@ impl CostTable {
     }
 }
 
-/// Returns the index of the first error, from coarse to fine, from which on all are within a bound. At least two finer errors
-/// must confirm it, because an error that changes sign may be small by chance.
+/// Returns the index of the first error, from coarse to fine, from which on all are within a bound.
+/// At least two finer errors must confirm it, because an error that changes sign may be small by
+/// chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

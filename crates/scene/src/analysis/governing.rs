@@ -1,7 +1,9 @@
-//! Parameters that compare roughness and adhesion, κ of eq. (11) and e_el/γ, and limits of the rule of Hess.
+//! Parameters that compare roughness and adhesion, κ of eq. (11) and e_el/γ, and limits of the rule
+//! of Hess.
 //!
-//! The rule holds for short-ranged attraction, which the Tabor number measures, and for profiles that rise everywhere.
-//! Attraction of finite range dissipates less energy. In three dimensions the hysteresis vanishes at a Tabor number near 1.
+//! The rule holds for short-ranged attraction, which the Tabor number measures, and for profiles
+//! that rise everywhere. Attraction of finite range dissipates less energy. In three dimensions the
+//! hysteresis vanishes at a Tabor number near 1.
 
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
@@ -11,7 +13,8 @@ use asperity_surface::{Amplitude, Form};
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and e_el/γ.
+/// Parameters that govern the contact of a scene: modulus, work of adhesion, roughness, κ and
+/// e_el/γ.
 ///
 /// ```
 /// use asperity_scene::{Adhesion, RoughnessParameter, Simulation, open};
@@ -19,7 +22,8 @@ use std::f64::consts::PI;
 /// let rough = open("pressure-sensitive")?;
 /// let (_, _, governing) = Simulation::default().make_line(rough.scene())?;
 /// // The same profile with κ = 1: the work of adhesion grows with 1/κ².
-/// let softer = governing.with_adhesion(Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)));
+/// let softer =
+///     governing.with_adhesion(Some(Adhesion::by_parameter(RoughnessParameter::Kappa, 1.0)));
 /// let ratio = softer.work_of_adhesion.unwrap() / governing.work_of_adhesion.unwrap();
 /// assert!((ratio / governing.kappa.unwrap().powi(2) - 1.0).abs() < 1e-12);
 /// # Ok::<(), asperity_scene::Error>(())
@@ -30,24 +34,28 @@ pub struct Governing {
     pub effective_modulus: f64,
     /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Energy γ₁ per area gained where the interface closes, in J/m²; `None` if it is not given and thus equals γ.
+    /// Energy γ₁ per area gained where the interface closes, in J/m²; `None` if it is not given and
+    /// thus equals γ.
     pub closing_work: Option<f64>,
-    /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth profile.
+    /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth
+    /// profile.
     pub amplitude: Option<Amplitude>,
-    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None` without roughness or
-    /// adhesion.
+    /// Roughness-adhesion parameter κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012); `None`
+    /// without roughness or adhesion.
     pub kappa: Option<f64>,
-    /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion; `None` without roughness or
-    /// adhesion.
+    /// Ratio e_el/γ of the elastic energy that flattens the roughness to the work of adhesion;
+    /// `None` without roughness or adhesion.
     pub elastic_energy_ratio: Option<f64>,
 }
 
 impl Governing {
-    /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated energy.
+    /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated
+    /// energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
-    /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`] of its profile when scaled
-    /// to an rms height of 1 m. A measured roughness needs `measured`, the amplitude of the surface.
+    /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`]
+    /// of its profile when scaled to an rms height of 1 m. A measured roughness needs `measured`,
+    /// the amplitude of the surface.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
         let effective_modulus = scene.material.effective_modulus();
         let amplitude = measured.or_else(|| {
@@ -68,8 +76,9 @@ impl Governing {
                 ..amplitude
             })
         });
-        // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄ is the mean wave number of the
-        // roughness in rad/m, weighted by the squared amplitudes of the waves.
+        // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄
+        // is the mean wave number of the roughness in rad/m, weighted by the squared amplitudes of
+        // the waves.
         Governing {
             effective_modulus,
             amplitude,
@@ -95,8 +104,8 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion of `adhesion` on this profile in J/m²; `None` if a parameter gives it and there is no
-    /// roughness.
+    /// Returns the work of adhesion of `adhesion` on this profile in J/m²; `None` if a parameter
+    /// gives it and there is no roughness.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -104,13 +113,14 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² at which κ or e_el/γ, as `parameter` states, has this value; `None` without
-    /// roughness.
+    /// Returns the work of adhesion in J/m² at which κ or e_el/γ, as `parameter` states, has this
+    /// value; `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of κ or e_el/γ in this contact, as `parameter` states; `None` without roughness or adhesion.
+    /// Returns the value of κ or e_el/γ in this contact, as `parameter` states; `None` without
+    /// roughness or adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -118,25 +128,27 @@ impl Governing {
         }
     }
 
-    /// Returns the elastic energy e_el per area that flattens the roughness, in J/m²; `None` without roughness.
+    /// Returns the elastic energy e_el per area that flattens the roughness, in J/m²; `None`
+    /// without roughness.
     pub fn elastic_energy(&self) -> Option<f64> {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Returns the energy per area in J/m² whose ratio to the work of adhesion defines the parameter: h⟨∇z⟩E* for κ, e_el for
-    /// e_el/γ. Returns `None` without roughness.
+    /// Returns the energy per area in J/m² whose ratio to the work of adhesion defines the
+    /// parameter: h⟨∇z⟩E* for κ, e_el for e_el/γ. Returns `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
             .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns E* h L in N, the unit of force in Pohrt, Popov and Filippov (2012), with the rms height h and the length L of
-    /// the profile in m. Returns `None` without roughness.
+    /// Returns E* h L in N, the unit of force in Pohrt, Popov and Filippov (2012), with the rms
+    /// height h and the length L of the profile in m. Returns `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Returns a builder of a contact of `profile` with this effective modulus and these works of adhesion.
+    /// Returns a builder of a contact of `profile` with this effective modulus and these works of
+    /// adhesion.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
@@ -145,7 +157,8 @@ impl Governing {
         Ok(contact.works_of_adhesion(self.adhesive_works().unwrap_or_default()))
     }
 
-    /// Returns the works of adhesion [γ₁, γ] on closing and on opening in J/m²; `None` without adhesion.
+    /// Returns the works of adhesion [γ₁, γ] on closing and on opening in J/m²; `None` without
+    /// adhesion.
     pub fn adhesive_works(&self) -> Option<[f64; 2]> {
         let work = self.adhesive_work()?;
         Some([self.closing_work.unwrap_or(work), work])
@@ -156,9 +169,10 @@ impl Governing {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
 
-    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the radius of curvature ρ of the summits, the work
-    /// of adhesion γ on opening, the effective modulus E* and the range z₀ of the attraction. Returns `None` without
-    /// adhesion, and for bodies such as cones, which have no ρ.
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the radius of curvature ρ
+    /// of the summits, the work of adhesion γ on opening, the effective modulus E* and the range z₀
+    /// of the attraction. Returns `None` without adhesion, and for bodies such as cones, which have
+    /// no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let (radius, work) = (
             curvature_radius(scene.form.as_ref(), self)?,
@@ -179,18 +193,20 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
     }
 }
 
-/// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns `None` if adhesion is so
-/// small that the value overflows.
+/// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns
+/// `None` if adhesion is so small that the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     Some(parameter.of_energy_over_work(energy / work))
         .filter(|value| work > 0.0 && value.is_finite())
 }
 
-/// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and power laws.
+/// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and
+/// power laws.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the profile. z″ is the rms Laplacian of the surface, twice its mean curvature. A
-/// paraboloid of radius R has the profile x²/R and thus ρ = R. A crest of a sphere with waves has the curvature 1/R +
-/// 4π²A/λ². On a rough form the squares of both curvatures add.
+/// ρ = 2/z″ with the rms curvature z″ of the profile. z″ is the rms Laplacian of the surface, twice
+/// its mean curvature. A paraboloid of radius R has the profile x²/R and thus ρ = R. A crest of a
+/// sphere with waves has the curvature 1/R + 4π²A/λ². On a rough form the squares of both
+/// curvatures add.
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     // A flat face has the curvature of the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
@@ -200,8 +216,9 @@ fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
 }
 
-/// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature radius ρ in m. The other
-/// arguments are the work of adhesion γ in J/m², the effective modulus E* in Pa and the range z₀ of the attraction in m.
+/// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature
+/// radius ρ in m. The other arguments are the work of adhesion γ in J/m², the effective modulus E*
+/// in Pa and the range z₀ of the attraction in m.
 fn tabor_number(
     curvature_radius: f64,
     work_of_adhesion: f64,
@@ -211,15 +228,16 @@ fn tabor_number(
     ((work_of_adhesion / effective_modulus).powi(2) * curvature_radius / range.powi(3)).cbrt()
 }
 
-/// Waves of a wavy sphere that are so steep that its equivalent profile does not rise everywhere from the axis outwards. The
-/// rule of Hess then differs from the theory of Johnson, Kendall and Roberts (JKR).
+/// Waves of a wavy sphere that are so steep that its equivalent profile does not rise everywhere
+/// from the axis outwards. The rule of Hess then differs from the theory of Johnson, Kendall and
+/// Roberts (JKR).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SteepWaves {
     /// Ratio λ²/(AR), with wavelength λ, amplitude A and sphere radius R.
     pub ratio: f64,
-    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR theory, with effective
-    /// modulus E* and work of adhesion γ. The formula holds for waves much shorter than the contact radius (Kesari and Lew
-    /// 2011).
+    /// Factor (1 + A√(πE*/2λγ))² by which the waves raise the pull-off force of the sphere in JKR
+    /// theory, with effective modulus E* and work of adhesion γ. The formula holds for waves much
+    /// shorter than the contact radius (Kesari and Lew 2011).
     pub jkr_factor: f64,
 }
 
@@ -262,7 +280,8 @@ mod tests {
         mean_wave_number: 0.5,
     });
 
-    /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no roughness.
+    /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no
+    /// roughness.
     fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
         let roughness = amplitude.map_or_else(String::new, |amplitude| {
             format!("roughness: SelfAffine(hurst: 0.5, {amplitude} modes: (1, 8), seed: 1), ")

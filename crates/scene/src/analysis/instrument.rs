@@ -1,12 +1,15 @@
-//! Force over the displacement D = d + F/k of a compliant instrument, from the force curve of a loading stage.
+//! Force over the displacement D = d + F/k of a compliant instrument, from the force curve of a
+//! loading stage.
 //!
-//! On one stage the contact depends on the indentation d alone. While D grows, d(D) is the smallest d at which the running
-//! maximum of d + F(d)/k reaches D. While D falls, it is the largest d at which the running minimum reaches D. Where dF/dd <
-//! −k, d + F(d)/k turns back, and the body jumps at constant D to the next d at which the instrument can hold it.
+//! On one stage the contact depends on the indentation d alone. While D grows, d(D) is the smallest
+//! d at which the running maximum of d + F(d)/k reaches D. While D falls, it is the largest d at
+//! which the running minimum reaches D. Where dF/dd < −k, d + F(d)/k turns back, and the body jumps
+//! at constant D to the next d at which the instrument can hold it.
 
 use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord};
 
-/// Point of the force curve of an instrument of stiffness k: displacement D, indentation d and force F, with D = d + F/k.
+/// Point of the force curve of an instrument of stiffness k: displacement D, indentation d and
+/// force F, with D = d + F/k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementPoint {
     /// Displacement D of the instrument in m, with D = 0 at first touch.
@@ -17,32 +20,44 @@ pub struct DisplacementPoint {
     pub force: f64,
 }
 
-/// Force of one loading stage as a function of the displacement of the instrument, linear between the computed points.
-/// Where the instrument cannot hold the body, the body jumps to another indentation at constant displacement.
+/// Force of one loading stage as a function of the displacement of the instrument, linear between
+/// the computed points. Where the instrument cannot hold the body, the body jumps to another
+/// indentation at constant displacement.
 ///
 /// ```
 /// use asperity_contact::{CurvePoint, Direction};
 /// use asperity_scene::instrument::DisplacementCurve;
 ///
-/// let point = |indentation, force| CurvePoint { indentation, force, springs: 1, ..CurvePoint::default() };
-/// let curve = DisplacementCurve::new(Direction::Loading, &[point(0.0, 0.0), point(1.0, 2.0)], 2.0);
+/// let point = |indentation, force| CurvePoint {
+///     indentation,
+///     force,
+///     springs: 1,
+///     ..CurvePoint::default()
+/// };
+/// let curve =
+///     DisplacementCurve::new(Direction::Loading, &[point(0.0, 0.0), point(1.0, 2.0)], 2.0);
 /// // D = d + F/k: half of the way is taken by the instrument.
-/// assert_eq!(curve.at(1.0).map(|point| (point.indentation, point.force)), Some((0.5, 1.0)));
+/// assert_eq!(
+///     curve.at(1.0).map(|point| (point.indentation, point.force)),
+///     Some((0.5, 1.0))
+/// );
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DisplacementCurve {
-    /// Points in the order of the stage, along which D never turns back. Two neighbours with the same D are the ends of a
-    /// jump.
+    /// Points in the order of the stage, along which D never turns back. Two neighbours with the
+    /// same D are the ends of a jump.
     points: Vec<DisplacementPoint>,
     /// 1 if D grows along the stage, −1 if D falls.
     sign: f64,
-    /// Whether the body is separated before the first point, and whether it is separated after the last one.
+    /// Whether the body is separated before the first point, and whether it is separated after the
+    /// last one.
     free: [bool; 2],
 }
 
 impl DisplacementCurve {
-    /// Computes the curve of a loading stage for an instrument of this stiffness in N/m; an infinite stiffness means a rigid
-    /// instrument. `curve` has at least one point. Its indentations grow on loading and fall on unloading.
+    /// Computes the curve of a loading stage for an instrument of this stiffness in N/m; an
+    /// infinite stiffness means a rigid instrument. `curve` has at least one point. Its
+    /// indentations grow on loading and fall on unloading.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
@@ -90,15 +105,17 @@ impl DisplacementCurve {
             .chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// Returns the two points of each jump of the body: before the jump, and after it at the same displacement.
+    /// Returns the two points of each jump of the body: before the jump, and after it at the same
+    /// displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points
             .windows(2)
             .filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point of the curve at a displacement in m, at a jump the point before it. Beyond an end of the stage the
-    /// force is zero if the bodies are separated at that end; otherwise the function returns `None`.
+    /// Returns the point of the curve at a displacement in m, at a jump the point before it. Beyond
+    /// an end of the stage the force is zero if the bodies are separated at that end; otherwise the
+    /// function returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -141,8 +158,8 @@ impl DisplacementPoint {
 }
 
 /// Returns the displacement of the instrument in m for each point of a loading stage. This is the
-/// largest value of d + F/k at this point and all points before it; on unloading it is the smallest value. Here d is the
-/// indentation, F the force and k the `stiffness` in N/m.
+/// largest value of d + F/k at this point and all points before it; on unloading it is the smallest
+/// value. Here d is the indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve
@@ -167,15 +184,18 @@ fn sign_of(direction: Direction) -> f64 {
 pub struct InstrumentFigures {
     /// Stiffness k of the instrument in N/m.
     pub stiffness: f64,
-    /// Displacement of the instrument in m at which the body jumps off in the last unloading; `None` without a pull-off.
+    /// Displacement of the instrument in m at which the body jumps off in the last unloading;
+    /// `None` without a pull-off.
     pub pull_off_displacement: Option<f64>,
-    /// Area in J that the force encloses as a function of the displacement: the energy dissipated in the contact plus the
-    /// energy lost in jumps of the instrument. `None` if the bodies are not separated at the end.
+    /// Area in J that the force encloses as a function of the displacement: the energy dissipated
+    /// in the contact plus the energy lost in jumps of the instrument. `None` if the bodies are not
+    /// separated at the end.
     pub loop_area: Option<f64>,
 }
 
 impl InstrumentFigures {
-    /// Computes these results from the force curves of a loading, its forces and energies, and the stiffness in N/m.
+    /// Computes these results from the force curves of a loading, its forces and energies, and the
+    /// stiffness in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let legs = &history.legs;
         let smallest = |unloading: Branch| {

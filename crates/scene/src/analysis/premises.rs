@@ -17,18 +17,25 @@ pub(crate) struct MeasuredFacts {
 }
 
 impl Scene {
-    /// Returns the premises of the model that this scene does not meet, as far as they are known without computing it. The
-    /// list [`Outcome::warnings`](crate::Outcome::warnings) has these premises and those that depend on the results, such as
-    /// a contact that ends inside the profile. What depends on a measured surface is known only from an outcome.
+    /// Returns the premises of the model that this scene does not meet, as far as they are known
+    /// without computing it. The list [`Outcome::warnings`](crate::Outcome::warnings) has these
+    /// premises and those that depend on the results, such as a contact that ends inside the
+    /// profile. What depends on a measured surface is known only from an outcome.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
     /// use asperity_scene::ProfileBuilder;
     ///
-    /// let coarse = ProfileBuilder::new(1.0e-4, 256).self_affine(0.7).rms_height(1.0e-7).modes(8, 100);
+    /// let coarse = ProfileBuilder::new(1.0e-4, 256)
+    ///     .self_affine(0.7)
+    ///     .rms_height(1.0e-7)
+    ///     .modes(8, 100);
     /// let scene = coarse.scene(Modulus::effective(1.0e6)?, None, &[Move::ToTouch])?;
     /// let warnings = scene.warnings();
-    /// assert_eq!((warnings.len(), warnings[0].name()), (1, "few_springs_per_wave"));
+    /// assert_eq!(
+    ///     (warnings.len(), warnings[0].name()),
+    ///     (1, "few_springs_per_wave")
+    /// );
     /// # Ok::<(), asperity_scene::Error>(())
     /// ```
     pub fn warnings(&self) -> Vec<Warning> {
@@ -38,8 +45,8 @@ impl Scene {
         self.warnings_of(&Governing::of(self, unit, None), None)
     }
 
-    /// Returns the premises that this scene does not meet, with its governing parameters and what is known of its measured
-    /// surface.
+    /// Returns the premises that this scene does not meet, with its governing parameters and what
+    /// is known of its measured surface.
     pub(crate) fn warnings_of(
         &self,
         governing: &Governing,
@@ -69,8 +76,8 @@ impl Scene {
         found.into_iter().flatten().collect()
     }
 
-    /// Returns the doubt about measured heights that are used as the profile itself. A doubt that depends on the heights is
-    /// that of [`Profile::doubt`](asperity_contact::Profile::doubt).
+    /// Returns the doubt about measured heights that are used as the profile itself. A doubt that
+    /// depends on the heights is that of [`Profile::doubt`](asperity_contact::Profile::doubt).
     fn heights_as_profile(&self) -> Option<Warning> {
         let has_form = self.form.is_some();
         (self.measured_as_line() && has_form).then_some(Warning::HeightsAsProfile)
@@ -97,8 +104,8 @@ impl Scene {
         Warning::of_waves([longest, shortest], used)
     }
 
-    /// Returns the number of the longest waves of a random roughness on the flat face of a body; `None` for a body that is not
-    /// nominally flat.
+    /// Returns the number of the longest waves of a random roughness on the flat face of a body;
+    /// `None` for a body that is not nominally flat.
     fn long_waves(&self, measured: Option<MeasuredFacts>) -> Option<f64> {
         let share_of_length = match &self.form {
             None => 1.0,
@@ -112,7 +119,8 @@ impl Scene {
         Some(waves * share_of_length)
     }
 
-    /// Returns the number of springs on the shortest wave of a random roughness; `None` where it is not stated.
+    /// Returns the number of springs on the shortest wave of a random roughness; `None` where it is
+    /// not stated.
     fn springs_per_wave(&self) -> Option<f64> {
         match self.roughness.as_ref()? {
             Roughness::SelfAffine { .. } => {

@@ -4,15 +4,19 @@ use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)): how strongly the adhesion force depends on the
-/// preload. [`Regime::of_loading`] has the conditions of each regime.
+/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)): how strongly the adhesion
+/// force depends on the preload. [`Regime::of_loading`] has the conditions of each regime.
 ///
 /// ```
 /// use asperity_contact::Figures;
 /// use asperity_scene::Regime;
 ///
 /// // 5 µN after a preload, 1 µN without one, 10 µN of the smooth body.
-/// let figures = Figures { preload: Some(1.0e-4), adhesion_force: Some(5.0e-6), ..Figures::default() };
+/// let figures = Figures {
+///     preload: Some(1.0e-4),
+///     adhesion_force: Some(5.0e-6),
+///     ..Figures::default()
+/// };
 /// let regime = Regime::of_loading(&figures, Some(1.0e-6), Some(1.0e-5));
 /// assert_eq!(regime, Some(Regime::PressureSensitive));
 /// ```
@@ -29,18 +33,19 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// Smallest ratio of the adhesion force without a preload to the adhesion force after the preload at which a loading can
-    /// be pressure-insensitive; see [`Regime::of_loading`].
+    /// Smallest ratio of the adhesion force without a preload to the adhesion force after the
+    /// preload at which a loading can be pressure-insensitive; see [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero; see
-    /// [`Regime::of_loading`].
+    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero;
+    /// see [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
-    // While κ grows by a factor of about three, the adhesion force without a preload falls from one half to one twentieth of
-    // the smooth adhesion force. Another share would therefore move the boundary of the regime only a little.
+    // While κ grows by a factor of about three, the adhesion force without a preload falls from one
+    // half to one twentieth of the smooth adhesion force. Another share would therefore move the
+    // boundary of the regime only a little.
 
-    /// Largest ratio F_a/F_n of the adhesion force to the preload at which a loading counts as non-adhesive, unless it is
-    /// pressure-insensitive.
+    /// Largest ratio F_a/F_n of the adhesion force to the preload at which a loading counts as
+    /// non-adhesive, unless it is pressure-insensitive.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
     /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
@@ -50,17 +55,20 @@ impl Regime {
         Regime::NonAdhesive,
     ];
 
-    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile force.
+    /// Returns the regime of one loading of one profile; `None` for a loading without a tensile
+    /// force.
     ///
-    /// `turned` is the adhesion force without a preload in N: F_a(d=0) of a loop that turns at first touch, or F_a(F=0) of
-    /// a loop that turns at zero force. `smooth` is the adhesion force in N of the same body without roughness. Both are
-    /// `None` for a contact without adhesion, which is non-adhesive.
+    /// `turned` is the adhesion force without a preload in N: F_a(d=0) of a loop that turns at
+    /// first touch, or F_a(F=0) of a loop that turns at zero force. `smooth` is the adhesion force
+    /// in N of the same body without roughness. Both are `None` for a contact without adhesion,
+    /// which is non-adhesive.
     ///
-    /// F_a is the adhesion force and F_n the preload of this loading. The regime is pressure-insensitive if
-    /// `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of
-    /// `smooth`. Otherwise the regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading
-    /// without a preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All other loadings
-    /// are pressure-sensitive.
+    /// F_a is the adhesion force and F_n the preload of this loading. The regime is
+    /// pressure-insensitive if `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of
+    /// F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the regime is
+    /// non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading without a
+    /// preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All
+    /// other loadings are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -93,8 +101,9 @@ impl Regime {
         self.into()
     }
 
-    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0), insensitive (F=0)`. This regime
-    /// follows from F_a(d=0), and `after_zero_force` from F_a(F=0).
+    /// Returns a text with two regimes of the same body, such as
+    /// `pressure-sensitive (d=0), insensitive (F=0)`. This regime follows from F_a(d=0), and
+    /// `after_zero_force` from F_a(F=0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {
@@ -159,7 +168,8 @@ mod tests {
                 1.0,
                 sensitive,
             ),
-            // Without a preload adhesion below a twentieth of the smooth body's is none; a twentieth is some.
+            // Without a preload adhesion below a twentieth of the smooth body's is none; a
+            // twentieth is some.
             (
                 0.01,
                 Regime::VANISHING_SHARE.next_down(),

@@ -3,17 +3,18 @@
 use asperity_contact::Reversal;
 use std::ops::RangeInclusive;
 
-/// Unloading curves from many turning points of one loading (first-order reversal curves). A turning point is an indentation
-/// at which the loading ends and the unloading to separation begins. The forces are known at equally spaced indentations, the
-/// grid points.
+/// Unloading curves from many turning points of one loading (first-order reversal curves). A
+/// turning point is an indentation at which the loading ends and the unloading to separation
+/// begins. The forces are known at equally spaced indentations, the grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on, each grid point is also
-    /// a turning point.
+    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on, each
+    /// grid point is also a turning point.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,
-    /// One unloading for each turning point, with its forces at the grid points up to the turning point.
+    /// One unloading for each turning point, with its forces at the grid points up to the turning
+    /// point.
     pub reversals: Vec<Reversal>,
 }
 
@@ -32,15 +33,15 @@ impl ReversalMap {
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Returns the force in N at the grid point of index `point`, on the unloading from the turning point of index `turn`;
-    /// `None` if the grid point is above the turning point.
+    /// Returns the force in N at the grid point of index `point`, on the unloading from the turning
+    /// point of index `turn`; `None` if the grid point is above the turning point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
-    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at the turning point d_r of
-    /// index `turn`. F(d_r, d) is the force at the grid point d of index `point` on the unloading from d_r. Returns `None` if
-    /// d is above d_r.
+    /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at
+    /// the turning point d_r of index `turn`. F(d_r, d) is the force at the grid point d of index
+    /// `point` on the unloading from d_r. Returns `None` if d is above d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))

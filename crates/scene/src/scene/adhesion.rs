@@ -1,12 +1,13 @@
-//! Adhesion, given by the work of adhesion or by a dimensionless parameter that compares roughness and adhesion.
+//! Adhesion, given by the work of adhesion or by a dimensionless parameter that compares roughness
+//! and adhesion.
 
 use serde::{Deserialize, Serialize};
 
 use super::fields::field;
 use super::text::ron_float;
 
-/// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter in place of the work of
-/// adhesion γ.
+/// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter
+/// in place of the work of adhesion γ.
 ///
 /// ```
 /// use asperity_scene::RoughnessParameter;
@@ -22,11 +23,12 @@ use super::text::ron_float;
 )]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RoughnessParameter {
-    /// κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with rms height h, rms gradient ⟨∇z⟩, effective modulus E*
-    /// and work of adhesion γ.
+    /// κ = √(h⟨∇z⟩E*/γ), eq. (11) of Popov and Filippov (2012), with rms height h, rms gradient
+    /// ⟨∇z⟩, effective modulus E* and work of adhesion γ.
     #[default]
     Kappa,
-    /// e_el/γ: elastic energy e_el per area that flattens the roughness, divided by the work of adhesion γ.
+    /// e_el/γ: elastic energy e_el per area that flattens the roughness, divided by the work of
+    /// adhesion γ.
     ElasticEnergyRatio,
 }
 
@@ -55,15 +57,16 @@ impl RoughnessParameter {
         field(self.path(), None).map_or("", |field| field.symbol)
     }
 
-    /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if there is none.
+    /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if
+    /// there is none.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL
             .into_iter()
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of an elastic energy per area to the work of adhesion at this value of the parameter. For κ the
-    /// ratio is h⟨∇z⟩E*/γ = κ², for e_el/γ it is the value itself.
+    /// Returns the ratio of an elastic energy per area to the work of adhesion at this value of the
+    /// parameter. For κ the ratio is h⟨∇z⟩E*/γ = κ², for e_el/γ it is the value itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -71,7 +74,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter at which [`energy_over_work`](Self::energy_over_work) is `ratio`.
+    /// Returns the value of the parameter at which [`energy_over_work`](Self::energy_over_work) is
+    /// `ratio`.
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -80,8 +84,8 @@ impl RoughnessParameter {
     }
 }
 
-/// Adhesion between the bodies: its strength and the range of the attraction. A scene file states it as `(work: 0.05)` or
-/// `(kappa: 2.0, range: 3.0e-10)`.
+/// Adhesion between the bodies: its strength and the range of the attraction. A scene file states
+/// it as `(work: 0.05)` or `(kappa: 2.0, range: 3.0e-10)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
@@ -91,14 +95,17 @@ pub struct Adhesion {
     pub range: Option<f64>,
 }
 
-/// Strength of the adhesion: a work of adhesion, or a [`RoughnessParameter`] from which the work follows.
+/// Strength of the adhesion: a work of adhesion, or a [`RoughnessParameter`] from which the work
+/// follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion. Its value may be smaller where the interface closes than where the interface opens.
+    /// Work of adhesion. Its value may be smaller where the interface closes than where the
+    /// interface opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
-        /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None` if both are equal.
+        /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None`
+        /// if both are equal.
         closing: Option<f64>,
     },
     /// One of κ and e_el/γ with its value, from which the work of adhesion follows.
@@ -106,7 +113,8 @@ pub enum Strength {
 }
 
 impl Adhesion {
-    /// Returns the range z₀ of the attraction in m. If none is given, it is 0.3 nm, an interatomic distance.
+    /// Returns the range z₀ of the attraction in m. If none is given, it is 0.3 nm, an interatomic
+    /// distance.
     pub fn attraction_range(&self) -> f64 {
         self.range.unwrap_or(0.3e-9)
     }
@@ -135,7 +143,10 @@ impl Adhesion {
     /// use asperity_scene::{Adhesion, RoughnessParameter};
     ///
     /// let given = Adhesion::by_parameter(RoughnessParameter::Kappa, 6.0);
-    /// assert_eq!((given.work(), given.parameter()), (None, Some((RoughnessParameter::Kappa, 6.0))));
+    /// assert_eq!(
+    ///     (given.work(), given.parameter()),
+    ///     (None, Some((RoughnessParameter::Kappa, 6.0)))
+    /// );
     /// ```
     pub fn by_parameter(parameter: RoughnessParameter, value: f64) -> Self {
         Adhesion {
@@ -144,7 +155,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given instead.
+    /// Returns the given work of adhesion γ on opening in J/m²; `None` if κ or e_el/γ is given
+    /// instead.
     pub fn work(&self) -> Option<f64> {
         if let Strength::Work { opening, .. } = self.strength {
             Some(opening)
@@ -167,7 +179,8 @@ impl Adhesion {
         self.closing_work().is_some()
     }
 
-    /// Returns the given parameter, κ or e_el/γ, and its value; `None` if a work of adhesion is given instead.
+    /// Returns the given parameter, κ or e_el/γ, and its value; `None` if a work of adhesion is
+    /// given instead.
     pub fn parameter(&self) -> Option<(RoughnessParameter, f64)> {
         if let Strength::Parameter(parameter, value) = self.strength {
             Some((parameter, value))

@@ -35,7 +35,8 @@ fn symbol_or_name(field: &Field) -> &'static str {
     }
 }
 
-/// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`, `sub-cell`, `none`.
+/// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`,
+/// `sub-cell`, `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
     let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
     match field.range {
@@ -48,8 +49,8 @@ fn value_in_words(field: &Field, value: &str) -> String {
     }
 }
 
-/// Returns a field as its value, and a group as its choice and its given values: `self-affine (H 0.7, h 200 nm)`, `γ 50
-/// mJ/m²`.
+/// Returns a field as its value, and a group as its choice and its given values:
+/// `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
 fn in_words(tree: &Tree, field: &Field) -> String {
     let value = tree.written(field).unwrap_or_default();
     let inside = tree.inside(field);
@@ -74,8 +75,9 @@ fn in_words(tree: &Tree, field: &Field) -> String {
 }
 
 impl Document {
-    /// Lists the fields whose values differ between this scene and `other`, except title, notes and version. If the scenes
-    /// have different choices of a group of fields, such as the forms cone and sphere, the whole group is one entry.
+    /// Lists the fields whose values differ between this scene and `other`, except title, notes and
+    /// version. If the scenes have different choices of a group of fields, such as the forms cone
+    /// and sphere, the whole group is one entry.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;

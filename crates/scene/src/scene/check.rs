@@ -1,8 +1,8 @@
-//! Invalid values of a scene. Each field is checked against its range. Then fields are checked against each other: values may
-//! contradict each other, exclude each other, or be too few.
+//! Invalid values of a scene. Each field is checked against its range. Then fields are checked
+//! against each other: values may contradict each other, exclude each other, or be too few.
 //!
-//! No check allocates memory in proportion to a value of the scene. A scene of excessive size is therefore refused before
-//! anything is built.
+//! No check allocates memory in proportion to a value of the scene. A scene of excessive size is
+//! therefore refused before anything is built.
 
 use serde_json::Value;
 
@@ -20,7 +20,8 @@ use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
 use asperity_surface::{Form, Unit};
 
-/// Largest number of curve points of all loading stages together. Such a curve still fits the memory of a small machine.
+/// Largest number of curve points of all loading stages together. Such a curve still fits the
+/// memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
 /// Returns all errors of a scene in the order of its fields; none for a scene that can be computed.
@@ -108,8 +109,9 @@ impl Found<'_> {
             .any(|error| is_within(&error.field, path))
     }
 
-    /// Adds an error of the field `path` unless the condition is met or one of the fields `of` has an error already.
-    /// `allowed` is empty if `message` contains the allowed values; the value of a group is not repeated.
+    /// Adds an error of the field `path` unless the condition is met or one of the fields `of` has
+    /// an error already. `allowed` is empty if `message` contains the allowed values; the value of
+    /// a group is not repeated.
     fn require(&mut self, is_met: bool, of: &[&str], path: &str, allowed: &str, message: &str) {
         if is_met || of.iter().any(|path| self.has(path)) {
             return;
@@ -323,7 +325,8 @@ impl Found<'_> {
                 };
                 self.require(wrong.is_empty(), &[], "roughness", "", wrong);
             }
-            // A profile is one row or one column; several files have a common spectrum and no profile.
+            // A profile is one row or one column; several files have a common spectrum and no
+            // profile.
             Some(Roughness::Measured(measured)) => {
                 let Measured {
                     unit,
@@ -364,7 +367,8 @@ impl Found<'_> {
         }
     }
 
-    /// Checks that the waves fit the length, that the springs resolve them, and that the roll-off lies among them.
+    /// Checks that the waves fit the length, that the springs resolve them, and that the roll-off
+    /// lies among them.
     fn check_waves(
         &mut self,
         modes: Option<(u64, u64)>,
@@ -421,7 +425,8 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the work of adhesion on closing does not exceed the work on opening, and that a parameter has a roughness.
+    /// Checks that the work of adhesion on closing does not exceed the work on opening, and that a
+    /// parameter has a roughness.
     fn check_adhesion(&mut self) {
         let Some(Adhesion { strength, .. }) = self.scene.adhesion else {
             return;

@@ -32,8 +32,8 @@ impl Scene {
 }
 
 impl Scene {
-    /// Removes what forces and energies do not depend on: the title, the notes, the [`Observer`]s, and all points of the
-    /// force curve except two on each loading stage.
+    /// Removes what forces and energies do not depend on: the title, the notes, the [`Observer`]s,
+    /// and all points of the force curve except two on each loading stage.
     pub fn strip(&mut self) {
         self.title.clear();
         self.notice.clear();
@@ -43,7 +43,8 @@ impl Scene {
 }
 
 impl CheckedScene {
-    /// Checks a scene that was read from a text. Errors show numbers that are not finite as they are written: `1e999`.
+    /// Checks a scene that was read from a text. Errors show numbers that are not finite as they
+    /// are written: `1e999`.
     pub(super) fn of(
         scene: Scene,
         text: Option<&Text>,
@@ -88,14 +89,16 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene without the parts that its forces and energies do not depend on, as [`Scene::strip`] removes them.
+    /// Returns this scene without the parts that its forces and energies do not depend on, as
+    /// [`Scene::strip`] removes them.
     pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip();
         CheckedScene(scene)
     }
 
-    /// Returns this scene with `observer` among the quantities that are recorded in addition to the force curve.
+    /// Returns this scene with `observer` among the quantities that are recorded in addition to the
+    /// force curve.
     pub fn observing(&self, observer: Observer) -> CheckedScene {
         let mut scene = self.0.clone();
         if !scene.observe.contains(&observer) {
@@ -104,7 +107,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with each name of a measured file replaced by the name that `rename` returns.
+    /// Returns this scene with each name of a measured file replaced by the name that `rename`
+    /// returns.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

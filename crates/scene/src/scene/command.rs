@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// Returns the command for a POSIX shell that opens the scene `name` in `program` and changes its fields by `--set`. Each
-/// override is the path of a field and its new value.
+/// Returns the command for a POSIX shell that opens the scene `name` in `program` and changes its
+/// fields by `--set`. Each override is the path of a field and its new value.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
@@ -22,7 +22,8 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// Returns `word` as it must be written for a POSIX shell to read it as one word: in quotes if it needs them.
+/// Returns `word` as it must be written for a POSIX shell to read it as one word: in quotes if it
+/// needs them.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);

@@ -1,8 +1,9 @@
 //! The words of a built-in scene: its title, its notice and the comments of its text.
 //!
-//! They describe the values of the scene, so a change of a value on which the solution depends removes the notice and the
-//! comment beside the value, and marks the title as that of a changed scene. The words come back with the values. The words
-//! of any other scene are those of its author, and stay.
+//! They describe the values of the scene, so a change of a value on which the solution depends
+//! removes the notice and the comment beside the value, and marks the title as that of a changed
+//! scene. The words come back with the values. The words of any other scene are those of its
+//! author, and stay.
 
 use std::sync::OnceLock;
 
@@ -15,7 +16,8 @@ use super::statements::describes;
 use super::text::index::Text;
 use super::typed::with_typed;
 
-/// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that of a table of results.
+/// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that
+/// of a table of results.
 fn is_built_in(opened: &Scene) -> bool {
     static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
     let built_in = BUILT_IN.get_or_init(|| {
@@ -43,14 +45,15 @@ fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
     first.get(group) != second.get(group)
 }
 
-/// Title of a scene that was a built-in one before it was changed. `name` is the name of its file or the built-in name.
+/// Title of a scene that was a built-in one before it was changed. `name` is the name of its file
+/// or the built-in name.
 fn title_of_changed(name: &str) -> String {
     format!("{name}, changed")
 }
 
 impl Document {
-    /// Returns the text of this document with the words that are true of its values; `None` if the present text has them,
-    /// or if the words are those of another author.
+    /// Returns the text of this document with the words that are true of its values; `None` if the
+    /// present text has them, or if the words are those of another author.
     pub(super) fn text_with_true_words(&self) -> Option<Text> {
         let opened = read(self.opened(), |_| Origin::Scene).ok()?;
         if !self.is_changed() || !is_built_in(&opened) {
@@ -63,7 +66,8 @@ impl Document {
         }
     }
 
-    /// The text as it was opened, with the overrides on which the solution does not depend, and with stated defaults.
+    /// The text as it was opened, with the overrides on which the solution does not depend, and
+    /// with stated defaults.
     fn opened_with_descriptions(&self) -> Option<Text> {
         let mut text = Text::new(self.opened()).ok()?;
         for (path, value) in self.overrides() {
@@ -74,7 +78,8 @@ impl Document {
         Some(text)
     }
 
-    /// The text without the words that are false of its values. `opened` is the scene as it was opened.
+    /// The text without the words that are false of its values. `opened` is the scene as it was
+    /// opened.
     fn without_false_words(&self, opened: &Scene) -> Text {
         let is_own = |path: &str| self.overrides().iter().any(|(own, _)| own == path);
         let mut text = self.indexed_text().clone();
@@ -99,8 +104,8 @@ impl Document {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
     }
 
-    /// Returns the text for a file of the user's own. A changed built-in scene has no title there, and is known by the name
-    /// of the file.
+    /// Returns the text for a file of the user's own. A changed built-in scene has no title there,
+    /// and is known by the name of the file.
     pub fn text_for_own_file(&self) -> String {
         let text = self.indexed_text();
         let text = if self.is_changed_built_in() {

@@ -15,8 +15,8 @@ use super::tree::{Tree, in_ron, to_ron};
 use super::typed::{check_length, with_typed};
 use asperity_contact::Move;
 
-/// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A change returns a new
-/// document and leaves this one as it was.
+/// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A
+/// change returns a new document and leaves this one as it was.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -36,15 +36,16 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects that are switched off. Each has the path, the former text and the present text of every value that changed
-    /// with it.
+    /// Effects that are switched off. Each has the path, the former text and the present text of
+    /// every value that changed with it.
     pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
     /// Choices that a key has replaced, each with the path of its field and its last text.
     pub(super) left: Vec<(&'static str, String)>,
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Messages of errors begin with `name`, the name of the file or built-in scene.
+    /// Reads and checks the text of a scene. Messages of errors begin with `name`, the name of the
+    /// file or built-in scene.
     ///
     /// # Errors
     /// Returns the first syntax error, or an error for each invalid value, with line and column.
@@ -54,7 +55,10 @@ impl Document {
     ///
     /// let text = "(version: 1, material: (effective_modulus: 1.0e6), length: -1.0)";
     /// let errors = Document::parse(text, "my.ron").unwrap_err();
-    /// assert_eq!(errors.to_string(), "my.ron:1:60: length = -1.0: allowed: from 1e-9 to 10 m (apparent diameter)");
+    /// assert_eq!(
+    ///     errors.to_string(),
+    ///     "my.ron:1:60: length = -1.0: allowed: from 1e-9 to 10 m (apparent diameter)"
+    /// );
     /// ```
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
         // Some editors put a byte order mark before the text.
@@ -105,12 +109,13 @@ impl Document {
         self.set_all(&[pair(path, value)])
     }
 
-    /// Returns this document with fields changed one after the other. Each pair is the path of a field and its new value in
-    /// RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The RON text `None` removes an optional part. The values
-    /// are checked once, after all changes.
+    /// Returns this document with fields changed one after the other. Each pair is the path of a
+    /// field and its new value in RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The
+    /// RON text `None` removes an optional part. The values are checked once, after all changes.
     ///
-    /// The first change of a built-in scene on which its solution depends removes its notice and the comments beside the
-    /// changed values, and its title becomes its name with the word *changed*. Words of the user's own stay.
+    /// The first change of a built-in scene on which its solution depends removes its notice and
+    /// the comments beside the changed values, and its title becomes its name with the word
+    /// *changed*. Words of the user's own stay.
     ///
     /// # Errors
     /// Returns an error for each pair that cannot be read, and for each invalid value.
@@ -165,7 +170,8 @@ impl Document {
         &self.text
     }
 
-    /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`] takes such a list.
+    /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`]
+    /// takes such a list.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene
             .loading
@@ -175,8 +181,8 @@ impl Document {
             .collect()
     }
 
-    /// Returns this document with other loading stages. A stage with an index keeps the text and the comments of that stage
-    /// in the present loading. A stage without an index is new.
+    /// Returns this document with other loading stages. A stage with an index keeps the text and
+    /// the comments of that stage in the present loading. A stage without an index is new.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set`].
@@ -207,8 +213,9 @@ impl Document {
         &self.scene
     }
 
-    /// Returns the value of a field as the text states it, or the default of an omitted field. Returns `None` if this scene
-    /// cannot have the field, for example the angle of a cone in a scene with a sphere.
+    /// Returns the value of a field as the text states it, or the default of an omitted field.
+    /// Returns `None` if this scene cannot have the field, for example the angle of a cone in a
+    /// scene with a sphere.
     pub fn value(&self, path: &str) -> Option<&str> {
         self.text.value(path).or_else(|| {
             let field = FIELDS
@@ -218,8 +225,8 @@ impl Document {
         })
     }
 
-    /// Returns the fields that this scene has or may have. Fields of another choice, such as the angle of a cone in a scene
-    /// with a sphere, are left out.
+    /// Returns the fields that this scene has or may have. Fields of another choice, such as the
+    /// angle of a cone in a scene with a sphere, are left out.
     pub fn fields(&self) -> Vec<&'static Field> {
         FIELDS.iter().filter(|field| self.has(field)).collect()
     }
@@ -233,7 +240,8 @@ impl Document {
         &self.name
     }
 
-    /// Returns the title of the scene, or the name of its file without folders if the scene has no title.
+    /// Returns the title of the scene, or the name of its file without folders if the scene has no
+    /// title.
     pub fn title(&self) -> &str {
         if self.scene.title.is_empty() {
             self.file_name()
@@ -250,7 +258,8 @@ impl Document {
             .unwrap_or(&self.name)
     }
 
-    /// Returns the changes since the text was opened, each as the path of a field and its new value.
+    /// Returns the changes since the text was opened, each as the path of a field and its new
+    /// value.
     pub fn overrides(&self) -> &[(String, String)] {
         &self.overrides
     }
@@ -263,7 +272,8 @@ impl Document {
         }
     }
 
-    /// Returns the lines above the scene in the CSV table of results from which it was read; for another file an empty text.
+    /// Returns the lines above the scene in the CSV table of results from which it was read; for
+    /// another file an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
@@ -273,7 +283,8 @@ impl Document {
         self.text.comments()
     }
 
-    /// Returns line and column, both from 1, of a field in the text, or of the group around an omitted field.
+    /// Returns line and column, both from 1, of a field in the text, or of the group around an
+    /// omitted field.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
@@ -297,8 +308,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with each name of a measured file replaced by the name that `rename` returns. If a name changes,
-    /// the text loses its comments.
+    /// Returns this document with each name of a measured file replaced by the name that `rename`
+    /// returns. If a name changes, the text loses its comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -312,7 +323,8 @@ impl Document {
         }
     }
 
-    /// Returns the path of a file whose name in the scene is relative to the folder of the scene file.
+    /// Returns the path of a file whose name in the scene is relative to the folder of the scene
+    /// file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name)
             .parent()

@@ -22,8 +22,8 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 
 /// Sets the field at `path` to `value`, in RON, and returns the new text.
 ///
-/// A missing field is inserted, and so is its group if that is missing. The value `None` inserts nothing. Only this place of
-/// the text changes.
+/// A missing field is inserted, and so is its group if that is missing. The value `None` inserts
+/// nothing. Only this place of the text changes.
 ///
 /// # Errors
 /// Returns the reason as a sentence: no such field, not a single value, or no place for the field.

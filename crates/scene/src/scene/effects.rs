@@ -50,8 +50,8 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field that has this optional part: `loading` for unloading, otherwise its
-    /// [`name`](Self::name).
+    /// Returns the path of the field that has this optional part: `loading` for unloading,
+    /// otherwise its [`name`](Self::name).
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self {
             "loading"
@@ -60,7 +60,8 @@ impl Effect {
         }
     }
 
-    /// Returns true if the scene has this optional part. A work of adhesion of zero counts as no adhesion.
+    /// Returns true if the scene has this optional part. A work of adhesion of zero counts as no
+    /// adhesion.
     pub fn is_on(self, scene: &Scene) -> bool {
         match self {
             Effect::Form => scene.form.is_some(),
@@ -110,11 +111,13 @@ impl Effect {
     }
 }
 
-/// Returns true if a stage may pull the body back. The first stage cannot, because it begins at separation.
+/// Returns true if a stage may pull the body back. The first stage cannot, because it begins at
+/// separation.
 fn may_pull(loading: &[Move]) -> bool {
     let mut reached = f64::NEG_INFINITY;
     loading.iter().enumerate().any(|(index, stage)| {
-        // The indentation of a force or a displacement is unknown: it may be shallower or deeper than any other.
+        // The indentation of a force or a displacement is unknown: it may be shallower or deeper
+        // than any other.
         let (to, pulls) = match *stage {
             Move::ToIndentation(to) => (to, to < reached),
             Move::ToTouch => (0.0, 0.0 < reached),
@@ -126,7 +129,8 @@ fn may_pull(loading: &[Move]) -> bool {
     })
 }
 
-/// Returns the stage that presses most: the largest force, else the deepest indentation, else the first stage.
+/// Returns the stage that presses most: the largest force, else the deepest indentation, else the
+/// first stage.
 pub(super) fn pressing(loading: &[Move]) -> Move {
     let pressure = |stage: &Move| match *stage {
         Move::ToForce(force) if force > 0.0 => (2, force),

@@ -17,7 +17,8 @@ pub enum Origin {
     File {
         /// Name of the file or of the built-in scene.
         name: String,
-        /// Line and column, both from 1, the column in characters; `None` if the error concerns the whole file.
+        /// Line and column, both from 1, the column in characters; `None` if the error concerns the
+        /// whole file.
         place: Option<(usize, usize)>,
     },
     /// Changes of fields, each as `path=value`.
@@ -65,8 +66,8 @@ impl fmt::Display for Origin {
 pub struct SceneError {
     /// Where the invalid value comes from: a text, changes of fields, or a program.
     pub origin: Origin,
-    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage. Empty if the error does
-    /// not concern a single field.
+    /// Path of the field, such as `roughness.hurst`, or `loading.0` for the first loading stage.
+    /// Empty if the error does not concern a single field.
     pub field: String,
     /// Invalid value as it was written; empty if there is none.
     pub value: String,
@@ -107,8 +108,8 @@ impl SceneError {
         SceneError { origin, ..self }
     }
 
-    /// Returns field, value, allowed values and reason as text, without the origin: `roughness.hurst = 1.4: allowed: above 0
-    /// and below 1 (Hurst exponent)`.
+    /// Returns field, value, allowed values and reason as text, without the origin:
+    /// `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
     pub fn what(&self) -> String {
         let of = [&self.field, &self.value]
             .map(|part| shown(part))
@@ -195,8 +196,8 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     }
 }
 
-/// Returns the overrides that cause an error: those of its field, of a group around it, or of a field inside it. If there are
-/// none, all overrides count.
+/// Returns the overrides that cause an error: those of its field, of a group around it, or of a
+/// field inside it. If there are none, all overrides count.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
     let is_known = overrides.iter().any(|(path, _)| is_behind(path));
@@ -213,9 +214,11 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
 /// Largest length of a name that is compared with other names. A longer one is no misspelt name.
 const LONGEST: usize = 64;
 
-/// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is similar.
+/// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is
+/// similar.
 ///
-/// For a path with dots it is enough that its last part is similar: the name `hurst` finds `roughness.hurst`.
+/// For a path with dots it is enough that its last part is similar: the name `hurst` finds
+/// `roughness.hurst`.
 ///
 /// ```
 /// use asperity_scene::text::nearest;
@@ -244,8 +247,8 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Returns a question to append to a message, such as `; did you mean length?`, with the name that is most similar to
-/// `name`. The text is empty if no name is similar.
+/// Returns a question to append to a message, such as `; did you mean length?`, with the name that
+/// is most similar to `name`. The text is empty if no name is similar.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

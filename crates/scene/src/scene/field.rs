@@ -6,19 +6,21 @@ use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 
-/// Description of one field of a scene: a row of the table [`FIELDS`](crate::scene::fields::FIELDS).
+/// Description of one field of a scene: a row of the table
+/// [`FIELDS`](crate::scene::fields::FIELDS).
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Choice that has this field, such as the form `Paraboloid` for the radius of a paraboloid. `None` if the field does not
-    /// depend on a choice.
+    /// Choice that has this field, such as the form `Paraboloid` for the radius of a paraboloid.
+    /// `None` if the field does not depend on a choice.
     pub variant: Option<&'static str>,
     /// Name of the field in words, such as `Hurst exponent`.
     pub name: &'static str,
     /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
-    /// SI unit of the field; `1` for a number without a unit, empty for a field that is not a number.
+    /// SI unit of the field; `1` for a number without a unit, empty for a field that is not a
+    /// number.
     pub unit: &'static str,
     /// Allowed values of the field.
     pub range: Range,
@@ -35,20 +37,22 @@ pub struct Field {
 /// Function that converts typed text, without blanks around it, to the value of a field in RON.
 pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 
-/// How one press of a key in the explorer changes the value of a field, by a small or by a large step.
+/// How one press of a key in the explorer changes the value of a field, by a small or by a large
+/// step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// A small step adds the first number, a large step the second one. The result is a multiple of the first number.
+    /// A small step adds the first number, a large step the second one. The result is a multiple of
+    /// the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number: in a small step to the next one of the Renard series R20, in a large step to
-    /// the next one of the series …, 1, 2, 5, 10, 20, 50, ….
+    /// Goes to the next preferred number: in a small step to the next one of the Renard series R20,
+    /// in a large step to the next one of the series …, 1, 2, 5, 10, 20, 50, ….
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
     /// A small step goes to the next power of two. A large step is as far as four small steps.
     Doubling,
-    /// Changes one end of a range of waves, which is a pair of modes (waves per length) or of wavelengths. A small step changes
-    /// the second number of the pair, a large step the first.
+    /// Changes one end of a range of waves, which is a pair of modes (waves per length) or of
+    /// wavelengths. A small step changes the second number of the pair, a large step the first.
     Band,
     /// Goes to the next allowed choice.
     Choice,
@@ -125,7 +129,8 @@ impl Field {
 }
 
 impl Field {
-    /// Returns a description of a parameter that a program has in addition to the fields of a scene.
+    /// Returns a description of a parameter that a program has in addition to the fields of a
+    /// scene.
     pub const fn beside(
         path: &'static str,
         name: &'static str,
@@ -148,8 +153,9 @@ impl Field {
         }
     }
 
-    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number or a pair of wavelengths
-    /// in RON, and `format` is called for each number and its unit. Returns `None` for any other value.
+    /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number
+    /// or a pair of wavelengths in RON, and `format` is called for each number and its unit.
+    /// Returns `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         let ends = match self.range {
             Range::Real(..) => vec![written.parse().ok()?],
@@ -166,7 +172,8 @@ impl Field {
         )
     }
 
-    /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²` if `4.356 mJ/m²` is shown.
+    /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²`
+    /// if `4.356 mJ/m²` is shown.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         match (self.range, shown.split_once(", "), split_pair(typed)) {
             (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
@@ -214,7 +221,8 @@ pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
         "target: the stage ends where the force first reaches this value; compression is positive",
     );
 
-/// Description of the indentation that ends a loading stage [`ToIndentation`](asperity_contact::Move::ToIndentation).
+/// Description of the indentation that ends a loading stage
+/// [`ToIndentation`](asperity_contact::Move::ToIndentation).
 pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToIndentation")
     .quantity("indentation of stage", "d", "m")
@@ -224,7 +232,8 @@ pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
 pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
-/// Description of the displacement that ends a loading stage [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
+/// Description of the displacement that ends a loading stage
+/// [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
 pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
     .of("ToDisplacement")
     .quantity("displacement of stage", "D", "m")
@@ -233,8 +242,8 @@ pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
 /// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the description of the number that ends a loading stage, and the number itself. Returns `None` for a stage without
-/// a number, such as separation.
+/// Returns the description of the number that ends a loading stage, and the number itself. Returns
+/// `None` for a stage without a number, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),
@@ -248,11 +257,12 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
-    /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of the field: `50 mJ/m²`,
-    /// `16k`. The text `none` omits an optional part. A loading may be a list of stages as
-    /// [`loading_text`](crate::scene::stages::loading_text) writes it.
+    /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of
+    /// the field: `50 mJ/m²`, `16k`. The text `none` omits an optional part. A loading may be a
+    /// list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it.
     /// # Errors
-    /// Returns an error for a number with another unit, a number too large for `f64`, or a choice without its numbers.
+    /// Returns an error for a number with another unit, a number too large for `f64`, or a choice
+    /// without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
             // As an omitted part is shown.

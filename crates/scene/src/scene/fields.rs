@@ -16,8 +16,9 @@ pub const SCENE_VERSION: u32 = 1;
 /// Largest number of springs that a scene may have.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// Returns the description of the field at a path. Several choices may have a field at the same path, such as the radius of
-/// a sphere and of a punch. Then `variant` is the name of the choice; `None` means the first choice that has the field.
+/// Returns the description of the field at a path. Several choices may have a field at the same
+/// path, such as the radius of a sphere and of a punch. Then `variant` is the name of the choice;
+/// `None` means the first choice that has the field.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
@@ -40,7 +41,8 @@ pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
         .expect("a row of the table with a default of this type")
 }
 
-/// Returns the fields directly inside the group or the variant at a path; an empty path is the whole scene.
+/// Returns the fields directly inside the group or the variant at a path; an empty path is the
+/// whole scene.
 pub(super) fn fields_inside(
     path: &str,
     variant: Option<&str>,

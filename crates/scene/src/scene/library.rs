@@ -23,7 +23,8 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it, which are named without their ending `.ron`.
+/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it, which are named
+/// without their ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -90,10 +91,12 @@ pub enum Source {
     Working,
 }
 
-/// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid scene.
+/// Entry of the list that [`scenes`] returns: a scene, or a file ending in `.ron` that is no valid
+/// scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the scene: with the ending `.ron` for a file of the working folder, otherwise without it.
+    /// Name of the scene: with the ending `.ron` for a file of the working folder, otherwise
+    /// without it.
     pub name: String,
     /// Place from which the scene comes.
     pub origin: Source,
@@ -105,8 +108,9 @@ pub struct Entry {
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes: `asperity/presets` in `$XDG_CONFIG_HOME` or `~/.config`, on Windows in the
-/// folder for roaming application data. The folder need not exist. Returns `None` if the user has no home folder.
+/// Returns the folder of the user's own scenes: `asperity/presets` in `$XDG_CONFIG_HOME` or
+/// `~/.config`, on Windows in the folder for roaming application data. The folder need not exist.
+/// Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     Some(
         choose_base_strategy()
@@ -136,9 +140,9 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
         .collect()
 }
 
-/// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the scenes in the folder
-/// `working`. A file is listed if its name ends in `.ron`, except for plans of studies. A file that is no valid scene is
-/// listed with its error.
+/// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the
+/// scenes in the folder `working`. A file is listed if its name ends in `.ron`, except for plans of
+/// studies. A file that is no valid scene is listed with its error.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let built_in = presets().iter().map(|preset| {
         Entry::new(
@@ -206,8 +210,8 @@ impl Entry {
             .map_or("", |document| &document.scene().notice)
     }
 
-    /// Returns the first error of the file on one line, with its place and the number of further errors. Returns `None` for a
-    /// valid scene.
+    /// Returns the first error of the file on one line, with its place and the number of further
+    /// errors. Returns `None` for a valid scene.
     pub fn error(&self) -> Option<String> {
         let errors = self.document.as_ref().err()?;
         let (first, more) = (errors.first(), errors.iter().count() - 1);

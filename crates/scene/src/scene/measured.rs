@@ -1,4 +1,5 @@
-//! A measured surface as the roughness of a scene: its files, and the options for reading and analysing them.
+//! A measured surface as the roughness of a scene: its files, and the options for reading and
+//! analysing them.
 
 use super::fields::default_of;
 use asperity_surface::lines::MeasuredOptions;
@@ -8,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::ops::Not;
 
-/// A measured surface, profile or map, as the roughness of a scene. Many fields of this type are also options of `asperity
-/// surface`.
+/// A measured surface, profile or map, as the roughness of a scene. Many fields of this type are
+/// also options of `asperity surface`.
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -17,17 +18,19 @@ pub struct Measured {
     /// Name of the measured file, relative to the scene file.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub file: String,
-    /// Names of files with further measurements of the same surface. The spectrum is estimated from all files together.
+    /// Names of files with further measurements of the same surface. The spectrum is estimated from
+    /// all files together.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_files: Vec<String>,
-    /// True if the heights of the file are those of an equivalent line and are the profile, unchanged; false if random
-    /// profiles get the measured spectrum. A measured profile is a cut through the surface, not an equivalent line.
+    /// True if the heights of the file are those of an equivalent line and are the profile,
+    /// unchanged; false if random profiles get the measured spectrum. A measured profile is a cut
+    /// through the surface, not an equivalent line.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub as_line: bool,
-    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface is smooth. The profile
-    /// gets the sum of the spectra of the two surfaces.
+    /// Name of the file of the opposite surface, relative to the scene file; `None` if that surface
+    /// is smooth. The profile gets the sum of the spectra of the two surfaces.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub opposite: Option<String>,
@@ -91,8 +94,8 @@ pub struct Measured {
     #[cfg_attr(feature = "clap", arg(long))]
     #[serde(default, skip_serializing_if = "Not::not")]
     pub periodic: bool,
-    /// Wavelength in m down to which the measured spectrum continues as a power law; `None` if the spectrum ends at its
-    /// shortest resolved wave.
+    /// Wavelength in m down to which the measured spectrum continues as a power law; `None` if the
+    /// spectrum ends at its shortest resolved wave.
     #[cfg_attr(feature = "clap", arg(skip))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continue_to: Option<f64>,
@@ -148,7 +151,8 @@ fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
 }
 
 impl Measured {
-    /// Returns the names of the files of each face: the rough face, then the opposite one, if it is given.
+    /// Returns the names of the files of each face: the rough face, then the opposite one, if it is
+    /// given.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
         let face = std::iter::once(&self.file)
             .chain(&self.further_files)
@@ -159,7 +163,8 @@ impl Measured {
             .collect()
     }
 
-    /// Returns the options for reading and analysing the files of this surface. The values of this surface must be valid.
+    /// Returns the options for reading and analysing the files of this surface. The values of this
+    /// surface must be valid.
     pub fn options(&self) -> MeasuredOptions {
         MeasuredOptions {
             as_line: self.as_line.then(|| self.detrend.unwrap_or(Detrend::None)),

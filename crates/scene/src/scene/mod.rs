@@ -1,7 +1,8 @@
 //! Scenes: read from RON, checked, and changed field by field.
 //!
-//! [`open()`](crate::open) returns a [`Document`](crate::Document), which is a checked [`Scene`](crate::Scene) with its text.
-//! [`FIELDS`](fields::FIELDS) is the table of all fields of a scene.
+//! [`open()`](crate::open) returns a [`Document`](crate::Document), which is a checked
+//! [`Scene`](crate::Scene) with its text. [`FIELDS`](fields::FIELDS) is the table of all fields of
+//! a scene.
 //!
 //! ```
 //! let sphere = asperity_scene::open("jkr-sphere")?;

@@ -16,8 +16,8 @@ use strum::IntoStaticStr;
 
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
-/// Recommended number of springs on the shortest wave. With this number the adhesion force of a rough profile has an error of
-/// about one per cent (docs/accuracy.md).
+/// Recommended number of springs on the shortest wave. With this number the adhesion force of a
+/// rough profile has an error of about one per cent (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = Warning::LEAST_SPRINGS_PER_WAVE;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -56,8 +56,8 @@ pub struct Scene {
     pub observe: Vec<Observer>,
 }
 
-/// Elastic constants as a scene states them: either Young's modulus E and Poisson's ratio ν of a half-space under a rigid
-/// body, or the effective modulus E*.
+/// Elastic constants as a scene states them: either Young's modulus E and Poisson's ratio ν of a
+/// half-space under a rigid body, or the effective modulus E*.
 ///
 /// ```
 /// use asperity_scene::Material;
@@ -90,7 +90,8 @@ impl Material {
         }
     }
 
-    /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's ratio ν give E* = E/(1 − ν²).
+    /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's
+    /// ratio ν give E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
         let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
         Material {
@@ -100,8 +101,9 @@ impl Material {
         }
     }
 
-    /// Returns the effective modulus E* in Pa: the given one, otherwise E/(1 − ν²) (eq. (2) of Popov and Filippov (2012)).
-    /// Returns NaN if neither E* nor both E and ν are given, or if a used value is out of its range.
+    /// Returns the effective modulus E* in Pa: the given one, otherwise E/(1 − ν²) (eq. (2) of
+    /// Popov and Filippov (2012)). Returns NaN if neither E* nor both E and ν are given, or if a
+    /// used value is out of its range.
     pub fn effective_modulus(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
@@ -109,7 +111,8 @@ impl Material {
     /// Returns the effective modulus E* as a [`Modulus`].
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value is out of its range.
+    /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value
+    /// is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
         let [modulus, ratio] =
             [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
@@ -122,8 +125,8 @@ impl Material {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Roughness {
-    /// Random self-affine profile, eqs. (4) to (9) of Popov and Filippov (2012). Either `rms_height` or `rms_gradient`
-    /// gives its amplitude.
+    /// Random self-affine profile, eqs. (4) to (9) of Popov and Filippov (2012). Either
+    /// `rms_height` or `rms_gradient` gives its amplitude.
     SelfAffine {
         /// Hurst exponent H, above 0 and below 1.
         hurst: f64,
@@ -133,25 +136,28 @@ pub enum Roughness {
         /// Root mean square gradient ⟨∇z⟩ of the profile; `None` if `rms_height` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         rms_gradient: Option<f64>,
-        /// First and last mode, as numbers of waves on the length L; `None` if `wavelengths` is given.
+        /// First and last mode, as numbers of waves on the length L; `None` if `wavelengths` is
+        /// given.
         #[serde(skip_serializing_if = "Option::is_none")]
         modes: Option<(u64, u64)>,
         /// Longest and shortest wavelength in m; `None` if `modes` is given.
         #[serde(skip_serializing_if = "Option::is_none")]
         wavelengths: Option<(f64, f64)>,
-        /// Wavelength in m above which the spectrum of the surface is flat; `None` if there is no such wavelength.
+        /// Wavelength in m above which the spectrum of the surface is flat; `None` if there is no
+        /// such wavelength.
         #[serde(skip_serializing_if = "Option::is_none")]
         roll_off: Option<f64>,
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness of a file: random profiles with the spectrum of a measured surface, or the profile of the file as equivalent line.
+    /// Roughness of a file: random profiles with the spectrum of a measured surface, or the profile
+    /// of the file as equivalent line.
     Measured(Measured),
 }
 
 impl Scene {
-    /// Returns a scene of this material and this apparent diameter in m. The body is nominally flat and smooth, there is no
-    /// adhesion, and other fields have the defaults of a scene file.
+    /// Returns a scene of this material and this apparent diameter in m. The body is nominally flat
+    /// and smooth, there is no adhesion, and other fields have the defaults of a scene file.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, Material, Scene};
@@ -180,12 +186,14 @@ impl Scene {
         }
     }
 
-    /// Returns the distance Δx between springs in m: the apparent diameter L divided by the number of springs N.
+    /// Returns the distance Δx between springs in m: the apparent diameter L divided by the number
+    /// of springs N.
     pub fn spacing(&self) -> f64 {
         self.length / self.numerics.points as f64
     }
 
-    /// Returns the indices of the springs under the body: all springs, unless the body is a punch narrower than the profile.
+    /// Returns the indices of the springs under the body: all springs, unless the body is a punch
+    /// narrower than the profile.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form
@@ -193,7 +201,8 @@ impl Scene {
             .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any other roughness.
+    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any
+    /// other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine {
             hurst,
@@ -237,7 +246,8 @@ impl Scene {
             .map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Returns the names, relative to the scene file, of the measured files and of the table of the form.
+    /// Returns the names, relative to the scene file, of the measured files and of the table of the
+    /// form.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self
             .measured()
@@ -248,8 +258,8 @@ impl Scene {
         files
     }
 
-    /// Returns the paths of the measured files in `folder`: first all files of the rough body, then the file of the opposite
-    /// body, if it is given.
+    /// Returns the paths of the measured files in `folder`: first all files of the rough body, then
+    /// the file of the opposite body, if it is given.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces
@@ -258,8 +268,8 @@ impl Scene {
             .collect()
     }
 
-    /// Replaces, in this scene only, each name of a measured file or of the table of the form by the name that `rename`
-    /// returns.
+    /// Replaces, in this scene only, each name of a measured file or of the table of the form by
+    /// the name that `rename` returns.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -304,9 +314,11 @@ impl Scene {
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Solver for the equilibrium of the springs: exact, or stepwise as by Popov and Filippov (2012).
+    /// Solver for the equilibrium of the springs: exact, or stepwise as by Popov and Filippov
+    /// (2012).
     pub solver: Solver,
-    /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of whole springs.
+    /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of
+    /// whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,
@@ -362,10 +374,11 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it computes, without steps, the indentations at which contact patches form, merge, split and detach.
+    /// Exact solver: it computes, without steps, the indentations at which contact patches form,
+    /// merge, split and detach.
     Exact,
-    /// Method of Popov and Filippov (2012): the body moves by steps. After each step springs attach and detach until no
-    /// further spring does.
+    /// Method of Popov and Filippov (2012): the body moves by steps. After each step springs attach
+    /// and detach until no further spring does.
     Stepwise {
         /// Step Δd of the indentation in m.
         step: f64,
@@ -373,8 +386,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene file that states no edge model: [`Edges::SubCell`] with the exact solver,
-    /// [`Edges::Grid`] with the stepwise solver.
+    /// Returns the edge model of a scene file that states no edge model: [`Edges::SubCell`] with
+    /// the exact solver, [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => default_of("numerics.edges"),

@@ -12,12 +12,14 @@ use super::library::{describe, find_scene, own_folder, own_names, own_scene, pre
 use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
-/// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an existing file is opened as a
-/// file. Other names are searched among the built-in scenes, then in the user's [`own_folder`]. If the file is a CSV
-/// table of results, the scene that the table contains is opened.
+/// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an
+/// existing file is opened as a file. Other names are searched among the built-in scenes, then in
+/// the user's [`own_folder`]. If the file is a CSV table of results, the scene that the table
+/// contains is opened.
 ///
 /// # Errors
-/// Returns an error if there is no such scene, if its file cannot be read, or if the scene has errors.
+/// Returns an error if there is no such scene, if its file cannot be read, or if the scene has
+/// errors.
 ///
 /// ```
 /// assert_eq!(asperity_scene::open("jkr-sphere")?.scene().length, 1.0e-4);
@@ -87,8 +89,9 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument on the command line names: as [`open`] does, or from standard input for `-`. A pipe or a
-/// device is read to its end, so the function may wait for another program.
+/// Opens the scene that an argument on the command line names: as [`open`] does, or from standard
+/// input for `-`. A pipe or a device is read to its end, so the function may wait for another
+/// program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].
@@ -121,7 +124,8 @@ fn whole(name: &str, message: String) -> SceneErrors {
 /// Text with which a table of results begins, and text between its head and its scene.
 const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
 
-/// Returns the document of a scene, or of the scene in a table of results, whose other lines are not read.
+/// Returns the document of a scene, or of the scene in a table of results, whose other lines are
+/// not read.
 fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
     let text = text.map_err(|error| whole(name, describe(error)))?;
     if !text.starts_with(TABLE.0) {

@@ -4,17 +4,20 @@ use std::fmt;
 use std::ops::Bound::{Excluded, Included};
 use std::ops::{Bound, RangeBounds};
 
-/// Allowed values of a field of a scene: the kind of the value, such as a real number or a text, and its bounds.
+/// Allowed values of a field of a scene: the kind of the value, such as a real number or a text,
+/// and its bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// A finite real number between a smallest and a largest number, each of which is included or excluded.
+    /// A finite real number between a smallest and a largest number, each of which is included or
+    /// excluded.
     Real(Bound<f64>, Bound<f64>),
     /// An integer from the first to the second number, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of integers with first ≤ last, both from the first to the second number of this variant.
+    /// A pair `(first, last)` of integers with first ≤ last, both from the first to the second
+    /// number of this variant.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest, both from the first to the second number of
-    /// this variant.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest, both from the
+    /// first to the second number of this variant.
     Wavelengths(f64, f64),
     /// Text without control characters, except for line breaks where they are allowed.
     Text {
@@ -25,9 +28,11 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// The value of the field is one of these choices. Each choice is written in RON, with example numbers.
+    /// The value of the field is one of these choices. Each choice is written in RON, with example
+    /// numbers.
     Choice(&'static [&'static str]),
-    /// The value of the field is itself a list: from `least` to `most` elements, each of a kind in `of`.
+    /// The value of the field is itself a list: from `least` to `most` elements, each of a kind in
+    /// `of`.
     List {
         /// Allowed kinds of elements. Each kind is written in RON, with example numbers.
         of: &'static [&'static str],
@@ -56,7 +61,8 @@ impl Range {
         Range::Real(Excluded(min), Excluded(max))
     }
 
-    /// Returns true if this is a range of real numbers or wavelengths and contains `value`. NaN and infinity are never allowed.
+    /// Returns true if this is a range of real numbers or wavelengths and contains `value`. NaN and
+    /// infinity are never allowed.
     pub fn contains(&self, value: f64) -> bool {
         match *self {
             Range::Real(min, max) => value.is_finite() && (min, max).contains(&value),
@@ -65,13 +71,14 @@ impl Range {
         }
     }
 
-    /// Returns true if this is a range of integers ([`Whole`](Self::Whole) or [`Band`](Self::Band)) and contains `value`.
+    /// Returns true if this is a range of integers ([`Whole`](Self::Whole) or [`Band`](Self::Band))
+    /// and contains `value`.
     pub fn contains_whole(&self, value: u64) -> bool {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges. Either number may itself be
-    /// excluded from the range.
+    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges.
+    /// Either number may itself be excluded from the range.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => {
@@ -84,7 +91,8 @@ impl Range {
     }
 }
 
-/// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a name is returned whole.
+/// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a
+/// name is returned whole.
 pub(super) fn choice_name(choice: &str) -> &str {
     choice.split_once('(').map_or(
         choice,
@@ -92,7 +100,8 @@ pub(super) fn choice_name(choice: &str) -> &str {
     )
 }
 
-/// Returns the part that identifies a choice: its name, or the first field of a group without a name.
+/// Returns the part that identifies a choice: its name, or the first field of a group without a
+/// name.
 pub(super) fn choice_key(choice: &str) -> &str {
     let key = choice_name(choice.trim());
     key.split_once(':')

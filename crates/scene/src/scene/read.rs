@@ -18,7 +18,8 @@ const MOST_REPEATED: usize = 60;
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene by --set roughness=FILE";
 
-/// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of the text.
+/// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of
+/// the text.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
         let (offset, error) = no_scene(text, &error).unwrap_or_else(|| explain(text, &error));
@@ -26,8 +27,8 @@ pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene
     })
 }
 
-/// Returns the byte and the error of a text that does not begin as a scene or has an unsupported version, which may be why
-/// the rest is unreadable. Returns `None` for any other text.
+/// Returns the byte and the error of a text that does not begin as a scene or has an unsupported
+/// version, which may be why the rest is unreadable. Returns `None` for any other text.
 fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
         let start = source.len() - source.trim_start().len();
@@ -53,7 +54,8 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     if let Error::Message(_) = error.code {
         return (text[..end].trim_end().len().saturating_sub(1), end);
     }
-    // The span starts before the last token read; if that was only blank or punctuation, the error comes after it.
+    // The span starts before the last token read; if that was only blank or punctuation, the error
+    // comes after it.
     let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
     (
         if text[start..end].contains(something) {
@@ -65,7 +67,8 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     )
 }
 
-/// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the error in plain words.
+/// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the
+/// error in plain words.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(
@@ -122,7 +125,8 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     (offset, error)
 }
 
-/// Explains the error of a value. A single value is marked as a whole and repeated, with the allowed values.
+/// Explains the error of a value. A single value is marked as a whole and repeated, with the
+/// allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
     let value = text.written(path).filter(|value| {
         !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])

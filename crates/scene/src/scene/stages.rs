@@ -62,7 +62,8 @@ impl StageKind {
         },
     ];
 
-    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the stage, if it has one.
+    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the
+    /// stage, if it has one.
     pub fn of(stage: &Move) -> (usize, Option<f64>) {
         let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
         let number = match *stage {
@@ -88,7 +89,8 @@ pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
     examples
 };
 
-/// Returns the largest target force of the loading stages in N; 0 if no stage has a positive target force.
+/// Returns the largest target force of the loading stages in N; 0 if no stage has a positive target
+/// force.
 pub fn pressing_force(loading: &[Move]) -> f64 {
     let force = |stage: &Move| {
         if let Move::ToForce(force) = *stage {
@@ -122,8 +124,9 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. If `format` is
-/// [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text into the same loading again.
+/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. If
+/// `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text
+/// into the same loading again.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -157,7 +160,8 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage may also be in RON.
+/// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage
+/// may also be in RON.
 ///
 /// # Errors
 /// Returns an error if a part of the text is no stage, or if there are more than 100 000 stages.
@@ -193,8 +197,8 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of the kind with the index
-/// `usual` in [`StageKind::ALL`], or a force in N if `usual` is `None`.
+/// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of
+/// the kind with the index `usual` in [`StageKind::ALL`], or a force in N if `usual` is `None`.
 ///
 /// # Errors
 /// Returns an error if the text is no stage.

@@ -16,12 +16,13 @@ const COARSE_SERIES: &[f64] = &[1.0, 2.0, 5.0];
 const SAME: f64 = 1e-9;
 
 impl Field {
-    /// Returns the value of this field, in RON, after `steps` presses of a key in the explorer. `value` is the present value
-    /// in RON. Negative `steps` lead to smaller values or earlier choices. Each step is a large one ([`Step`]) if `coarse` is
-    /// true. An optional field also has the RON text `None` as a choice, which is returned as `Some("None")`.
+    /// Returns the value of this field, in RON, after `steps` presses of a key in the explorer.
+    /// `value` is the present value in RON. Negative `steps` lead to smaller values or earlier
+    /// choices. Each step is a large one ([`Step`]) if `coarse` is true. An optional field also has
+    /// the RON text `None` as a choice, which is returned as `Some("None")`.
     ///
-    /// Returns `None` at the end of the range, or if keys cannot change the field. The steps of wavelengths depend on the length
-    /// of the profile, see [`Field::stepped_on`].
+    /// Returns `None` at the end of the range, or if keys cannot change the field. The steps of
+    /// wavelengths depend on the length of the profile, see [`Field::stepped_on`].
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -73,15 +74,22 @@ impl Field {
         })
     }
 
-    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has this length in m. After the step
-    /// a whole number of the changed wavelength fits on the length, and it is another number than before. The wavelength is
-    /// the one of these that is nearest to a preferred number.
+    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has
+    /// this length in m. After the step a whole number of the changed wavelength fits on the
+    /// length, and it is another number than before. The wavelength is the one of these that is
+    /// nearest to a preferred number.
     ///
     /// ```
     /// let field = asperity_scene::fields::field("roughness.wavelengths", None).unwrap();
     /// // Ten waves in place of five. A profile of 100 µm has no wave between 100 and 50 µm.
-    /// assert_eq!(field.stepped_on(1e-4, "(2e-5, 1e-6)", -1, true).as_deref(), Some("(1.0e-5, 1.0e-6)"));
-    /// assert_eq!(field.stepped_on(1e-4, "(5e-5, 1e-6)", 1, true).as_deref(), Some("(1.0e-4, 1.0e-6)"));
+    /// assert_eq!(
+    ///     field.stepped_on(1e-4, "(2e-5, 1e-6)", -1, true).as_deref(),
+    ///     Some("(1.0e-5, 1.0e-6)")
+    /// );
+    /// assert_eq!(
+    ///     field.stepped_on(1e-4, "(5e-5, 1e-6)", 1, true).as_deref(),
+    ///     Some("(1.0e-4, 1.0e-6)")
+    /// );
     /// ```
     pub fn stepped_on(&self, length: f64, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if !matches!(self.range, Range::Wavelengths(..)) {
@@ -95,15 +103,16 @@ impl Field {
         } else {
             (longest, moved)
         };
-        // Waves on the length, since a longest wavelength that is not whole may equal the shortest one.
+        // Waves on the length, since a longest wavelength that is not whole may equal the shortest
+        // one.
         let is_ordered = (length / longest).round() <= (length / shortest).round();
         let (longest, shortest) = (longest.max(shortest), shortest.min(longest));
         (is_ordered && self.range.contains(moved))
             .then(|| format!("({}, {})", ron_float(longest), ron_float(shortest)))
     }
 
-    /// Returns the wavelength of which a whole number fits on the length, near the preferred number `steps` steps away.
-    /// Returns `None` if not even one wave fits.
+    /// Returns the wavelength of which a whole number fits on the length, near the preferred number
+    /// `steps` steps away. Returns `None` if not even one wave fits.
     fn whole_wave(&self, length: f64, wavelength: f64, steps: i32, coarse: bool) -> Option<f64> {
         if steps == 0 {
             return None;
@@ -118,7 +127,8 @@ impl Field {
         (waves >= 1.0).then(|| length / waves)
     }
 
-    /// Returns the preferred number `steps` steps away, or the first one outside the range of the field.
+    /// Returns the preferred number `steps` steps away, or the first one outside the range of the
+    /// field.
     fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
         let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
         let mut next = preferred(value, series, steps > 0)?;
@@ -149,7 +159,8 @@ impl Field {
         let Range::Choice(choices) = self.range else {
             return None;
         };
-        // A text such as a file name cannot be stepped to; a choice that requires one is only typed.
+        // A text such as a file name cannot be stepped to; a choice that requires one is only
+        // typed.
         let is_stepped = |choice: &&str| {
             let mut fields = fields_inside(self.path, Some(choice_name(choice)));
             !fields
@@ -195,7 +206,8 @@ fn doubled(value: u64, times: i32) -> u64 {
     })
 }
 
-/// Returns the next member of a series of preferred numbers in [1, 10), which repeats in all decades.
+/// Returns the next member of a series of preferred numbers in
+/// [1, 10), which repeats in all decades.
 fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     if value == 0.0 {
         return None;
@@ -273,7 +285,8 @@ mod tests {
         }
     }
 
-    /// Each step changes the number of waves on the length, and reaches the next preferred wavelength where it is whole.
+    /// Each step changes the number of waves on the length, and reaches the next preferred
+    /// wavelength where it is whole.
     #[test]
     fn wavelengths_step_by_whole_waves() {
         for row in [

@@ -14,8 +14,9 @@ use super::tree::{Tree, differing};
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
-    /// Returns this document without the optional part `effect` of its scene. If the roughness is removed, a work of adhesion
-    /// replaces κ or e_el/γ. If the unloading is removed, one loading stage remains.
+    /// Returns this document without the optional part `effect` of its scene. If the roughness is
+    /// removed, a work of adhesion replaces κ or e_el/γ. If the unloading is removed, one loading
+    /// stage remains.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without this part.
@@ -50,10 +51,12 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the optional part `effect` in its scene. The part gets back the values that it had before
-    /// [`Self::without`] removed it, otherwise values that suit the scene.
+    /// Returns this document with the optional part `effect` in its scene. The part gets back the
+    /// values that it had before [`Self::without`] removed it, otherwise values that suit the
+    /// scene.
     /// # Errors
-    /// Returns an error if the part is impossible in the scene, such as roughness on a single spring.
+    /// Returns an error if the part is impossible in the scene, such as roughness on a single
+    /// spring.
     pub fn with(&self, effect: Effect) -> Result<Document, SceneErrors> {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
@@ -76,7 +79,8 @@ impl Document {
         restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
     }
 
-    /// Returns this document with the values of `scene`. Only values that differ are replaced in the text.
+    /// Returns this document with the values of `scene`. Only values that differ are replaced in
+    /// the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -95,9 +99,10 @@ impl Document {
         })
     }
 
-    /// Returns this document with `field` set to its next choice ([`Range::Choice`]), or to its previous choice if `forwards`
-    /// is false. Choices that the scene does not allow are skipped. For the field of an optional part ([`Effect`]) the RON
-    /// text `None` is a further choice, which removes the part. Returns `None` if there is no other choice.
+    /// Returns this document with `field` set to its next choice ([`Range::Choice`]), or to its
+    /// previous choice if `forwards` is false. Choices that the scene does not allow are skipped.
+    /// For the field of an optional part ([`Effect`]) the RON text `None` is a further choice,
+    /// which removes the part. Returns `None` if there is no other choice.
     ///
     /// # Errors
     /// Returns an error if the scene allows none of the other choices.
@@ -131,7 +136,8 @@ impl Document {
                 break;
             };
             let chosen = match effect {
-                // The removed text where it is this choice: other choices lie on the way around the circle.
+                // The removed text where it is this choice: other choices lie on the way around the
+                // circle.
                 Some(effect) if !is_on => match self.with(effect) {
                     Ok(back)
                         if back.value(field.path).map(choice_key) != Some(choice_key(&next)) =>
@@ -154,8 +160,8 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// Returns this document with a choice as the field last had it, if that is still allowed. Otherwise the choice has
-    /// values that suit the scene, or its usual values.
+    /// Returns this document with a choice as the field last had it, if that is still allowed.
+    /// Otherwise the choice has values that suit the scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let is_same = |text: &str| choice_key(text) == choice_key(choice);
         let left = self
@@ -179,7 +185,8 @@ impl Document {
     }
 }
 
-/// Returns overrides that turn one scene into another. A field that is no longer given is replaced together with its group.
+/// Returns overrides that turn one scene into another. A field that is no longer given is replaced
+/// together with its group.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     let [from, to] = [from, to].map(Tree::of);
     let changed = differing([&from, &to], |before, after| after || !before).into_iter();

@@ -1,4 +1,5 @@
-//! A scene as a tree of values, which are read, set and written by the paths of the table of fields.
+//! A scene as a tree of values, which are read, set and written by the paths of the table of
+//! fields.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -37,14 +38,14 @@ impl Tree {
         serde_json::from_value(self.0).map_err(|error| error.to_string())
     }
 
-    /// Returns the number at a path, such as `form.radius`, `roughness.modes.0` or `loading.1.0`; `None` if there is no
-    /// number.
+    /// Returns the number at a path, such as `form.radius`, `roughness.modes.0` or `loading.1.0`;
+    /// `None` if there is no number.
     pub fn get(&self, path: &str) -> Option<f64> {
         self.at(path)?.as_f64()
     }
 
-    /// Sets the number at a path without checking its range. A number that the scene omits is added. Returns false, with the
-    /// tree unchanged, if the scene can have no number at this path.
+    /// Sets the number at a path without checking its range. A number that the scene omits is
+    /// added. Returns false, with the tree unchanged, if the scene can have no number at this path.
     pub fn set(&mut self, path: &str, value: f64) -> bool {
         let is_adhesion =
             |field: &Field| field.parent() == "adhesion" && self.0["adhesion"].is_null();
@@ -106,8 +107,8 @@ impl Tree {
         group.is_some_and(|group| !group.is_null() && is_of(group))
     }
 
-    /// Returns the value of a field; `None` if it is omitted or belongs to a variant that is not selected. A number that is
-    /// not finite is `null`.
+    /// Returns the value of a field; `None` if it is omitted or belongs to a variant that is not
+    /// selected. A number that is not finite is `null`.
     pub(super) fn value(&self, field: &Field) -> Option<&Value> {
         let is_given = |value: &&Value| !value.is_null() || matches!(field.range, Range::Real(..));
         self.at(field.path)
@@ -131,7 +132,8 @@ impl Tree {
         if is_stepwise { "Grid" } else { field.default }
     }
 
-    /// Returns the value of a field in RON, or its default; `None` if it belongs to a variant that is not selected.
+    /// Returns the value of a field in RON, or its default; `None` if it belongs to a variant that
+    /// is not selected.
     pub(super) fn written(&self, field: &Field) -> Option<String> {
         let Some(value) = self.value(field) else {
             return self.has(field).then(|| self.default(field).into());
@@ -168,9 +170,9 @@ impl Tree {
     }
 }
 
-/// Returns the fields that differ between two scenes. Fields of a group are compared one by one if both scenes have the same
-/// variant and `splits` is true for each; otherwise the whole group counts. `splits` gets whether each scene states the
-/// field.
+/// Returns the fields that differ between two scenes. Fields of a group are compared one by one if
+/// both scenes have the same variant and `splits` is true for each; otherwise the whole group
+/// counts. `splits` gets whether each scene states the field.
 pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Vec<&'static Field> {
     let mut fields: Vec<&Field> = fields_inside("", None).collect();
     let mut found = Vec::new();
@@ -201,7 +203,8 @@ pub(super) fn differing(trees: [&Tree; 2], splits: fn(bool, bool) -> bool) -> Ve
     found
 }
 
-/// Writes a scene as RON text, without fields that have their default. The text reads back as the same scene.
+/// Writes a scene as RON text, without fields that have their default. The text reads back as the
+/// same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let tree = Tree::of(scene);
     let fields: Vec<&Field> = fields_inside("", None).collect();

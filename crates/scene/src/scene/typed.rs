@@ -8,7 +8,8 @@ use super::range::Range;
 use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 
-/// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes have a few hundred bytes.
+/// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes
+/// have a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
 /// Returns the text with the field at `path` set to `value`.
@@ -39,8 +40,8 @@ pub(super) fn with_typed(text: &Text, path: &str, value: &str) -> Result<Text, S
     Ok(text)
 }
 
-/// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON. Returns `None` for any other
-/// text, also for a group that is in RON already.
+/// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON.
+/// Returns `None` for any other text, also for a group that is in RON already.
 fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
     let mut depth = 0_usize;

@@ -1,4 +1,5 @@
-//! From a scene to its force curve: the computing stages, their selection by the scene, and their results.
+//! From a scene to its force curve: the computing stages, their selection by the scene, and their
+//! results.
 
 pub(crate) mod outcome;
 pub(crate) mod reach;

@@ -18,30 +18,34 @@ use thiserror::Error;
 pub struct Outcome {
     /// Numbers that describe the profile, such as its length and its largest gap.
     pub line: LineFacts,
-    /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and e_el/γ.
+    /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and
+    /// e_el/γ.
     pub governing: Governing,
-    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, eq. (14) of Popov and Filippov
-    /// (2012); `None` without adhesion.
+    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, eq. (14) of
+    /// Popov and Filippov (2012); `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
-    /// Adhesion force F_smooth in N of the same body without roughness after the same preload; `None` without adhesion.
+    /// Adhesion force F_smooth in N of the same body without roughness after the same preload;
+    /// `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch; `None` without adhesion or without an unloading
-    /// stage.
-    pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero; `None` without adhesion or
+    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch; `None` without adhesion or
     /// without an unloading stage.
+    pub first_touch_adhesion_force: Option<f64>,
+    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero; `None`
+    /// without adhesion or without an unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
-    /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such as a cone.
+    /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such
+    /// as a cone.
     pub tabor_number: Option<f64>,
-    /// Waves of a wavy sphere with adhesion, if the waves are so steep that the rule of Hess differs from the theory of
-    /// Johnson, Kendall and Roberts; otherwise `None`.
+    /// Waves of a wavy sphere with adhesion, if the waves are so steep that the rule of Hess
+    /// differs from the theory of Johnson, Kendall and Roberts; otherwise `None`.
     pub steep_waves: Option<SteepWaves>,
-    /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)) that follows from F_a(d=0); `None` for a loading without a
-    /// tensile force.
+    /// Regime of adhesion (Fig. 4 of Popov and Filippov (2012)) that follows from F_a(d=0); `None`
+    /// for a loading without a tensile force.
     pub regime: Option<Regime>,
     /// Regime of adhesion that follows from F_a(F=0); `None` for a loading without a tensile force.
     pub regime_after_zero_force: Option<Regime>,
-    /// Main forces and energies of the loading, such as preload, adhesion force and dissipated energy.
+    /// Main forces and energies of the loading, such as preload, adhesion force and dissipated
+    /// energy.
     pub figures: Figures,
     /// Pull-off displacement and loop area of the instrument; `None` for a rigid instrument.
     pub instrument: Option<InstrumentFigures>,
@@ -53,16 +57,16 @@ pub struct Outcome {
     /// Histogram of the heights of the profile; `None` unless the scene has
     /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
-    /// Premises of the model that the scene and its results do not meet; empty if all hold. Each [`Warning`] says what follows
-    /// for the results.
+    /// Premises of the model that the scene and its results do not meet; empty if all hold. Each
+    /// [`Warning`] says what follows for the results.
     pub warnings: Vec<Warning>,
     /// Times that the parts of the computation have taken.
     pub timings: Timings,
 }
 
 impl Outcome {
-    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force; `None` without a tensile force or
-    /// without adhesion.
+    /// Returns the ratio F_a/F_a,max of the adhesion force to the ideal adhesion force; `None`
+    /// without a tensile force or without adhesion.
     pub fn adhesion_share(&self) -> Option<f64> {
         Some(
             self.figures.adhesion_force?
@@ -83,32 +87,37 @@ pub struct LineFacts {
     pub spacing: f64,
     /// Index of the first spring under the body; above zero only for a punch.
     pub first: usize,
-    /// Height of the highest point in m. The apex of the form without roughness has the height zero.
+    /// Height of the highest point in m. The apex of the form without roughness has the height
+    /// zero.
     pub summit: f64,
     /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
-    /// First and last mode of a random roughness, as numbers of waves on the length L; `None` for other profiles.
+    /// First and last mode of a random roughness, as numbers of waves on the length L; `None` for
+    /// other profiles.
     pub modes: Option<(u64, u64)>,
     /// Seed of the random phases; `None` for profiles without random phases.
     pub seed: Option<u64>,
-    /// Rms gradient of a continuous spectrum with the same rms height, eq. (12) of Popov and Filippov (2012); `None` unless
-    /// the roughness is self-affine.
+    /// Rms gradient of a continuous spectrum with the same rms height, eq. (12) of Popov and
+    /// Filippov (2012); `None` unless the roughness is self-affine.
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier result was used again.
+/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier
+/// result was used again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Time in s for computing the profile from the form and the roughness.
     pub line: f64,
-    /// Time in s for building the contact tree ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the
-    /// histogram of the heights.
+    /// Time in s for building the contact tree
+    /// ([`Stage::Tree`](crate::simulation::workload::Stage::Tree)) and for the histogram of the
+    /// heights.
     pub tree: f64,
-    /// Time in s for finding the indentations at which contact patches form, merge, split and detach, or for the steps of the
-    /// stepwise solver.
+    /// Time in s for finding the indentations at which contact patches form, merge, split and
+    /// detach, or for the steps of the stepwise solver.
     #[serde(rename = "loop")]
     pub passes: f64,
-    /// Time in s for the force curves of all loading stages, with their largest and smallest forces.
+    /// Time in s for the force curves of all loading stages, with their largest and smallest
+    /// forces.
     pub curve: f64,
     /// Time in s for F_a(d=0) and F_a(F=0), which the regimes need.
     pub without_preload: f64,
@@ -145,12 +154,14 @@ pub enum RunError {
         "numerics.solver = Stepwise: reversals need the exact solver; allowed: numerics.solver = Exact"
     )]
     NeedsExactSolver,
-    /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses the bodies together.
+    /// A [`ReversalMap`](crate::theory::ReversalMap) was requested for a loading that never presses
+    /// the bodies together.
     #[error(
         "loading: no indentation above 0 m at the preload; allowed: a stage that presses the bodies together"
     )]
     NeverPressed,
-    /// The requested preload is below the force at first touch, so no loading from separation can end at this force.
+    /// The requested preload is below the force at first touch, so no loading from separation can
+    /// end at this force.
     #[error(
         "preload {}: allowed: at least the force at first touch, {}",
         format_quantity(*preload, "N"),
@@ -162,7 +173,8 @@ pub enum RunError {
         /// Force at first touch in N.
         touch: f64,
     },
-    /// A loading stage presses the body deeper than one length of the profile beyond full contact, where all springs touch.
+    /// A loading stage presses the body deeper than one length of the profile beyond full contact,
+    /// where all springs touch.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.

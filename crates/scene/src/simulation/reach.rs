@@ -1,19 +1,25 @@
-//! Loading stages beyond the reach of the model: the reason in words, and the nearest allowed target.
+//! Loading stages beyond the reach of the model: the reason in words, and the nearest allowed
+//! target.
 
 use crate::scene::field::target_field;
 use asperity_contact::{Contact, Move};
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
-/// Deepest state up to which a loading is computed: the body is one length of the profile deeper than at full contact, where
-/// the last spring touches.
+/// Deepest state up to which a loading is computed: the body is one length of the profile deeper
+/// than at full contact, where the last spring touches.
 ///
 /// ```
 /// use asperity_contact::Move;
 /// use asperity_scene::{Simulation, open};
 ///
 /// let reach = Simulation::default().reach(open("jkr-sphere")?.scene())?;
-/// assert!(reach.refusal(Move::ToForce(2.0 * reach.force)).unwrap().contains("far beyond full contact"));
+/// assert!(
+///     reach
+///         .refusal(Move::ToForce(2.0 * reach.force))
+///         .unwrap()
+///         .contains("far beyond full contact")
+/// );
 /// assert_eq!(reach.refusal(Move::ToForce(0.5 * reach.force)), None);
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```
@@ -45,7 +51,8 @@ impl Reach {
         }
     }
 
-    /// Returns a message that says why a loading stage is refused; `None` if the stage does not end beyond the deepest state.
+    /// Returns a message that says why a loading stage is refused; `None` if the stage does not end
+    /// beyond the deepest state.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
@@ -67,7 +74,8 @@ impl Reach {
     }
 }
 
-/// Error of a loading stage that presses the body deeper than one length of the profile beyond full contact.
+/// Error of a loading stage that presses the body deeper than one length of the profile beyond full
+/// contact.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
@@ -105,7 +113,8 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
         .map_or(Ok(()), Err)
 }
 
-/// Returns the force in N that is added to the force at full contact if the body goes one length of the profile deeper.
+/// Returns the force in N that is added to the force at full contact if the body goes one length of
+/// the profile deeper.
 fn force_of_a_length(contact: &Contact) -> f64 {
     contact.spring_stiffness() * contact.gaps().len() as f64 * contact.profile().length()
 }

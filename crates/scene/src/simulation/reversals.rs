@@ -20,14 +20,14 @@ const MOST_BELOW: usize = 4;
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Computes unloadings to separation from several turning points, at which a loading ends. Each stage in `ends` loads the
-    /// separated bodies up to one turning point. The stages must be ordered from the shallowest to the deepest. `see`
-    /// receives each unloading, with its forces at the ascending indentations `points` in m, and the index of its stage in
-    /// `ends`.
+    /// Computes unloadings to separation from several turning points, at which a loading ends. Each
+    /// stage in `ends` loads the separated bodies up to one turning point. The stages must be
+    /// ordered from the shallowest to the deepest. `see` receives each unloading, with its forces
+    /// at the ascending indentations `points` in m, and the index of its stage in `ends`.
     ///
     /// # Errors
-    /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if the contact cannot reach
-    /// the end of a stage, or if `stop` returned true.
+    /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if
+    /// the contact cannot reach the end of a stage, or if `stop` returned true.
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
@@ -67,14 +67,15 @@ impl Simulation {
         Ok(Reach::of(&self.prepare(&plan, scene, &|| false)?.contact))
     }
 
-    /// Computes the unloading curves of a scene from `count` turning points to separation (first-order reversal curves).
-    /// `preloads` are the forces in N at the first and the last turning point. If `preloads` is `None`, these points are at
-    /// first touch and at the preload of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest
-    /// allowed number.
+    /// Computes the unloading curves of a scene from `count` turning points to separation
+    /// (first-order reversal curves). `preloads` are the forces in N at the first and the last
+    /// turning point. If `preloads` is `None`, these points are at first touch and at the preload
+    /// of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest allowed
+    /// number.
     ///
     /// # Errors
-    /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading never presses the bodies
-    /// together.
+    /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading
+    /// never presses the bodies together.
     ///
     /// ```
     /// use asperity_scene::{Simulation, open};

@@ -175,7 +175,8 @@ impl RoughnessMaker {
         }
     }
 
-    /// Returns the measured surface of the faces: the given one, the spectrum kept from the last call, or a new one.
+    /// Returns the measured surface of the faces: the given one, the spectrum kept from the last
+    /// call, or a new one.
     fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
@@ -196,8 +197,9 @@ impl RoughnessMaker {
     }
 }
 
-/// Returns a recommended number of springs for a profile of this length in m with this measured spectrum: the smallest
-/// power of two with twice [`SPRINGS_PER_WAVE`] springs on the shortest wave, but at least 2^10 and at most 2^28.
+/// Returns a recommended number of springs for a profile of this length in m with this measured
+/// spectrum: the smallest power of two with twice [`SPRINGS_PER_WAVE`] springs on the shortest
+/// wave, but at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)
@@ -205,8 +207,8 @@ pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
         .clamp(1024, MOST_POINTS)
 }
 
-/// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a profile of this length in m, with
-/// these first and last modes and this rms height in m.
+/// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a
+/// profile of this length in m, with these first and last modes and this rms height in m.
 fn long_waves(
     line: &EquivalentLine,
     length: f64,

@@ -14,8 +14,8 @@ use asperity_surface::Form;
 use asperity_surface::lines::Line;
 
 impl Simulation {
-    /// Computes the adhesion force F_smooth in N that the body of a scene has without its roughness, after the preload in
-    /// `figures`. Returns `None` without adhesion.
+    /// Computes the adhesion force F_smooth in N that the body of a scene has without its
+    /// roughness, after the preload in `figures`. Returns `None` without adhesion.
     ///
     /// # Errors
     /// Returns an error if the memory is too small, or if the table of the form cannot be read.
@@ -72,8 +72,8 @@ impl Simulation {
         }
     }
 
-    /// Returns the profile of a form without roughness. It is kept from the last scene with the same form, length and number
-    /// of springs.
+    /// Returns the profile of a form without roughness. It is kept from the last scene with the
+    /// same form, length and number of springs.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let (length, points) = (scene.length, scene.numerics.points);
         let is_same =

@@ -23,17 +23,20 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
-/// Kept memory is released if it exceeds the memory that the next run needs by more than this factor.
+/// Kept memory is released if it exceeds the memory that the next run needs by more than this
+/// factor.
 const MOST_SPARE: u64 = 4;
-// The memory that a run needs is `Workload::peak_bytes` plus 20 bytes per spring for a Fourier transform. Released memory goes
-// to the allocator: glibc keeps released blocks of less than 32 MiB for reuse, in total at most 64 MiB for each thread.
+// The memory that a run needs is `Workload::peak_bytes` plus 20 bytes per spring for a Fourier
+// transform. Released memory goes to the allocator: glibc keeps released blocks of less than 32 MiB
+// for reuse, in total at most 64 MiB for each thread.
 /// Number of bytes that are always kept.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes, one after the other. A simulation repeats only the parts of the computation that depend on a changed
-/// field of the scene.
+/// Computes scenes, one after the other. A simulation repeats only the parts of the computation
+/// that depend on a changed field of the scene.
 ///
-/// Between runs a simulation keeps at most 32 MiB or four times the memory that its last scene needed, whichever is larger.
+/// Between runs a simulation keeps at most 32 MiB or four times the memory that its last scene
+/// needed, whichever is larger.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -94,8 +97,9 @@ pub(super) struct Prepared {
     warnings: Vec<Warning>,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage, its force curve
-/// ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns an error, the run ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage,
+/// its force curve ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns an
+/// error, the run ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
@@ -110,8 +114,8 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation with a smaller need of memory, for a single scene. Each further profile takes more time to
-    /// compute.
+    /// Returns this simulation with a smaller need of memory, for a single scene. Each further
+    /// profile takes more time to compute.
     pub fn for_one_scene(self) -> Self {
         Simulation {
             single: true,
@@ -119,15 +123,15 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation with a measured roughness that every scene with a measured surface uses, instead of the files
-    /// that the scene names.
+    /// Returns this simulation with a measured roughness that every scene with a measured surface
+    /// uses, instead of the files that the scene names.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
     }
 
-    /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise the last one that was
-    /// estimated from files. Returns `None` if there is no spectrum.
+    /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise
+    /// the last one that was estimated from files. Returns `None` if there is no spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
         let RoughnessMaker {
             measured,
@@ -308,8 +312,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Makes the histogram and the contact tree of the profile, if the plan requires them and they are missing. Returns the
-    /// number of heights sorted into bins.
+    /// Makes the histogram and the contact tree of the profile, if the plan requires them and they
+    /// are missing. Returns the number of heights sorted into bins.
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
@@ -329,8 +333,8 @@ impl Simulation {
         Ok(binned)
     }
 
-    /// Checks before any allocation that there is enough memory for a run. Kept memory counts. It is released if it is far
-    /// too large or leaves too little room.
+    /// Checks before any allocation that there is enough memory for a run. Kept memory counts. It
+    /// is released if it is far too large or leaves too little room.
     fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
         if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();
@@ -394,8 +398,8 @@ impl Simulation {
         })
     }
 
-    /// Returns the premises of the model that a scene does not meet before its loading: those of its fields, its measured surface
-    /// and its profile.
+    /// Returns the premises of the model that a scene does not meet before its loading: those of
+    /// its fields, its measured surface and its profile.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].
@@ -404,7 +408,8 @@ impl Simulation {
         Ok(self.warnings_before_loading(scene, &governing)?)
     }
 
-    /// Returns the premises that a scene does not meet before its loading, once its profile is made.
+    /// Returns the premises that a scene does not meet before its loading, once its profile is
+    /// made.
     fn warnings_before_loading(
         &self,
         scene: &Scene,
@@ -419,7 +424,8 @@ impl Simulation {
     /// Returns the contact of a scene before its loading, and the governing parameters.
     ///
     /// # Errors
-    /// Returns the same errors as [`Self::make_line`]. Also returns an error if a value of the contact is out of its range.
+    /// Returns the same errors as [`Self::make_line`]. Also returns an error if a value of the
+    /// contact is out of its range.
     pub fn contact(&mut self, scene: &CheckedScene) -> Result<(Contact, Governing), RunError> {
         let made = self.prepare(&Workload::of_any(scene), scene, &|| false)?;
         Ok((made.contact, made.governing))
@@ -433,8 +439,8 @@ impl Simulation {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Computes all results of a scene. `after` is called after each loading stage. The run ends soon after `stop` returns
-    /// true.
+    /// Computes all results of a scene. `after` is called after each loading stage. The run ends
+    /// soon after `stop` returns true.
     ///
     /// # Errors
     /// Returns an error if a part of the computation fails or if `stop` returned true.
@@ -544,7 +550,8 @@ pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profi
     Ok(placed.with_nominal_form(nominal_form))
 }
 
-/// Returns the form of the body of a scene. Measured heights that are the profile itself have a form that nobody states.
+/// Returns the form of the body of a scene. Measured heights that are the profile itself have a
+/// form that nobody states.
 pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     match &scene.form {
         Some(form) if form.flat_end().is_none() => NominalForm::Curved,
@@ -553,8 +560,8 @@ pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     }
 }
 
-/// Loads a contact with the solver of the scene. Returns its history, and F_a(d=0) and F_a(F=0) in N where the contact pulls
-/// and `without_preload` is true.
+/// Loads a contact with the solver of the scene. Returns its history, and F_a(d=0) and F_a(F=0) in
+/// N where the contact pulls and `without_preload` is true.
 fn load(
     scene: &Scene,
     contact: &Contact,

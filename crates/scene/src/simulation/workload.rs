@@ -1,4 +1,5 @@
-//! Parts of the computation of a scene, the fields that require them, and their costs. A run follows this plan.
+//! Parts of the computation of a scene, the fields that require them, and their costs. A run
+//! follows this plan.
 
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
@@ -8,16 +9,17 @@ use serde::Serialize;
 
 /// Bytes per spring of the heights of the roughness or the gaps of the profile.
 const HEIGHT: u64 = 8;
-/// Bytes per spring of the contact tree for modes up to the Nyquist wave number. A quarter of the springs are then local
-/// maxima of the gap, each with a node and two turning points. Every fourth spring has two sums.
+/// Bytes per spring of the contact tree for modes up to the Nyquist wave number. A quarter of the
+/// springs are then local maxima of the gap, each with a node and two turning points. Every fourth
+/// spring has two sums.
 const NODE: u64 = 20;
-/// Bytes per spring for finding events: thresholds of a quarter of the springs, and runs of the present and the previous
-/// stage. Runs are few except with almost no adhesion.
+/// Bytes per spring for finding events: thresholds of a quarter of the springs, and runs of the
+/// present and the previous stage. Runs are few except with almost no adhesion.
 const PASSED: u64 = 12;
 /// Bytes per spring of the stepwise solver: its threshold and its state of contact.
 const RELAXED: u64 = 9;
-/// Bytes per curve point of the present loading stage besides the curve, as measured. The second number is for edges between
-/// springs, whose contributions are also summed for each point.
+/// Bytes per curve point of the present loading stage besides the curve, as measured. The second
+/// number is for edges between springs, whose contributions are also summed for each point.
 const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
 /// Largest prime factor of a number of springs that the Fourier transform handles directly.
@@ -28,8 +30,9 @@ const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its ow
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
 
-/// Part of the computation from a scene to its force curve. The variants are in the order of execution. These parts are not
-/// the stages of the loading, which [`Scene::loading`](crate::Scene::loading) has.
+/// Part of the computation from a scene to its force curve. The variants are in the order of
+/// execution. These parts are not the stages of the loading, which
+/// [`Scene::loading`](crate::Scene::loading) has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stage {
@@ -39,7 +42,8 @@ pub enum Stage {
     Synthesis,
     /// Reading of the files of a measured surface.
     MeasuredProfile,
-    /// Contact tree: the tree of the gaps from which the exact solver finds where patches form, merge, split and detach.
+    /// Contact tree: the tree of the gaps from which the exact solver finds where patches form,
+    /// merge, split and detach.
     Tree,
     /// Rule of Hess, which limits how far the springs of a contact patch may be stretched.
     RuleOfHess,
@@ -47,9 +51,11 @@ pub enum Stage {
     LoadingPass,
     /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach until no further one does.
+    /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach
+    /// until no further one does.
     Relaxation,
-    /// Two loops, of which one turns at first touch and one at zero force. They give F_a(d=0), F_a(F=0) and the regimes.
+    /// Two loops, of which one turns at first touch and one at zero force. They give F_a(d=0),
+    /// F_a(F=0) and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
     Fragments,
@@ -80,16 +86,18 @@ pub struct PlannedStage {
     pub runs: bool,
     /// Name of the field that requires this part, or the reason why it is skipped.
     pub because: &'static str,
-    /// Number of passes: how often this part goes through the profile or its contact tree. `None` if the number depends on
-    /// the loading stages.
+    /// Number of passes: how often this part goes through the profile or its contact tree. `None`
+    /// if the number depends on the loading stages.
     pub passes: Option<u64>,
-    /// Upper bound of the number of springs that all passes together visit; `None` if the number of passes is unknown.
+    /// Upper bound of the number of springs that all passes together visit; `None` if the number of
+    /// passes is unknown.
     pub springs_touched: Option<u64>,
     /// Memory in bytes of the arrays that this part adds.
     pub bytes: u64,
 }
 
-/// Plan of the computation of a scene: the parts of the computation in the order of execution, and the memory that they need.
+/// Plan of the computation of a scene: the parts of the computation in the order of execution, and
+/// the memory that they need.
 ///
 /// ```
 /// use asperity_scene::stages::{Stage, Workload};
@@ -104,7 +112,8 @@ pub struct PlannedStage {
 pub struct Workload {
     /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate peak memory of a run in bytes, without the program itself, measured files and lists of contact patches.
+    /// Approximate peak memory of a run in bytes, without the program itself, measured files and
+    /// lists of contact patches.
     pub peak_bytes: u64,
     /// Approximate largest resident memory of `asperity run` in bytes, with the program itself.
     pub resident_bytes: u64,
@@ -193,7 +202,8 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         matches!(scene.roughness, Some(Roughness::Measured { .. })),
         scene.seed().is_some(),
     );
-    // Field that requires the stage or reason for skipping it, number of passes, springs of each pass, bytes.
+    // Field that requires the stage or reason for skipping it, number of passes, springs of each
+    // pass, bytes.
     let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
         let runs = because.is_ok();
         let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };
@@ -223,7 +233,8 @@ fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
         (false, true) => Err("roughness: Measured, as the line"),
         (false, false) => Err("no roughness: smooth"),
     };
-    // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs transform at twice the length.
+    // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs
+    // transform at twice the length.
     let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
     // The convolution that transforms a large prime factor, as measured.
     let factor = largest_prime_factor(points);

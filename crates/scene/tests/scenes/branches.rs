@@ -49,7 +49,8 @@ fn figures_are_of_the_last_unloading_and_of_its_own_preload() {
         smaller.figures.adhesion_coefficient
     );
     assert_eq!(whole.regime, Some(Regime::PressureSensitive));
-    // An unloading that ends in contact has a pull-off only if it passes it, in any number of stages.
+    // An unloading that ends in contact has a pull-off only if it passes it, in any number of
+    // stages.
     let least = whole.figures.pull_off_indentation.unwrap();
     let held = |share: f64| {
         let stages = [1.05, 1.01, share].map(|share| format!("ToIndentation({:e})", share * least));
@@ -128,7 +129,8 @@ proptest! {
             force_cuts.push(by_force.advance(target).unwrap());
             legs.push(record);
         }
-        // Between springs the force is stationary at its extremes: their place is known to the root of a rounding.
+        // Between springs the force is stationary at its extremes: their place is known to the root
+        // of a rounding.
         let rounding = [1e-13 * body.scales()[0], 1e-6 * (1.3 + body.largest_stretch())];
         let exact = if body.edges == Edges::Grid { [0.0; 2] } else { rounding };
         prop_assert!(agree(&legs, &cuts, exact), "{:?}: {:?} {:?}", turns, figures(&legs), figures(&cuts));

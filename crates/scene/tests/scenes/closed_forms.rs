@@ -1,5 +1,5 @@
-//! Smooth bodies against their closed forms, and the order at which they are reached: the first for patches of whole
-//! springs, the second for edges between springs.
+//! Smooth bodies against their closed forms, and the order at which they are reached: the first for
+//! patches of whole springs, the second for edges between springs.
 
 mod one_piece;
 mod waves;
@@ -28,8 +28,9 @@ struct Problem {
 
 const BOTH: [Edges; 2] = [Edges::Grid, Edges::SubCell];
 
-/// Figures of a loop, each with true where its error falls evenly, for edges between springs with the second order. The force
-/// falls so steeply before separation, and changes so little about its minimum, that two of them do not.
+/// Figures of a loop, each with true where its error falls evenly, for edges between springs with
+/// the second order. The force falls so steeply before separation, and changes so little about its
+/// minimum, that two of them do not.
 const FIGURES: [(&str, bool); 7] = [
     ("smallest force", true),
     ("indentation there", false),
@@ -125,7 +126,8 @@ fn grids(edges: Edges, odd: bool) -> Vec<usize> {
         .collect()
 }
 
-/// Computes errors on all grids, and checks the order and the last error of each figure with a demand on its order.
+/// Computes errors on all grids, and checks the order and the last error of each figure with a
+/// demand on its order.
 fn judge<const N: usize>(
     name: &str,
     edges: Edges,
@@ -134,8 +136,8 @@ fn judge<const N: usize>(
 ) {
     for odd in [true, false] {
         let grids = grids(edges, odd);
-        // An error between springs depends on the position of an edge in its cell: the worst of some grids of about as
-        // many springs.
+        // An error between springs depends on the position of an edge in its cell: the worst of
+        // some grids of about as many springs.
         let near = |points: usize| {
             (0..if edges == Edges::Grid { 1 } else { 4 })
                 .map(move |k| points + 2 * (k * points / 100))
@@ -175,8 +177,9 @@ fn judge<const N: usize>(
     }
 }
 
-/// The edge of one patch grows and recedes along the same curve: a minor loop in contact loses nothing. Whole springs attach
-/// and detach at indentations that differ by as much as the rule of Hess for one spring more: a loss of the first order.
+/// The edge of one patch grows and recedes along the same curve: a minor loop in contact loses
+/// nothing. Whole springs attach and detach at indentations that differ by as much as the rule of
+/// Hess for one spring more: a loss of the first order.
 #[test]
 fn a_minor_loop_in_contact_loses_energy_only_with_whole_springs() {
     let sphere = Problem {
@@ -288,8 +291,8 @@ fn a_cone_is_exact_to_rounding_between_springs() {
     }
 }
 
-/// Observed orders of the median errors of pull-off force and dissipated energy of lines with 24 modes, over Hurst
-/// exponents, κ and ten seeds each, on 2⁷ to 2¹³ springs against 2¹⁵.
+/// Observed orders of the median errors of pull-off force and dissipated energy of lines with 24
+/// modes, over Hurst exponents, κ and ten seeds each, on 2⁷ to 2¹³ springs against 2¹⁵.
 #[test]
 fn rough_bodies_of_few_modes_converge_with_the_square_of_the_distance_in_the_median() {
     // Form and roughness are aligned as on any other grid, and the tip is on a spring.

@@ -1,4 +1,5 @@
-//! The force over the displacement of a compliant instrument, against a search and against closed forms.
+//! The force over the displacement of a compliant instrument, against a search and against closed
+//! forms.
 
 use super::body::{cases, end};
 use asperity_contact::ClosedForm;
@@ -107,7 +108,8 @@ fn a_rigid_instrument_controls_the_indentation_and_a_soft_one_the_force() {
     assert_eq!(one, other);
 }
 
-/// The pull-off force of a sphere does not depend on the instrument; the displacement at which the sphere jumps off does.
+/// The pull-off force of a sphere does not depend on the instrument; the displacement at which the
+/// sphere jumps off does.
 #[test]
 fn a_sphere_jumps_off_where_the_closed_form_does() {
     let targets = [Move::ToDisplacement(2.0), Move::ToDisplacement(-40.0)];

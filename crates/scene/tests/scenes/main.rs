@@ -1,5 +1,5 @@
-//! Scenes: their text and their fields, smooth bodies against closed forms, figures of force curves, and what a
-//! simulation keeps.
+//! Scenes: their text and their fields, smooth bodies against closed forms, figures of force
+//! curves, and what a simulation keeps.
 
 #[path = "../../../contact/tests/laws/body.rs"]
 mod body;

@@ -100,7 +100,8 @@ fn rough(random: &mut Random) -> (Scene, u64, u64) {
     (scene, first, last)
 }
 
-/// A scene with the roughness of a measured file, on a sphere so large that the contact ends inside the profile.
+/// A scene with the roughness of a measured file, on a sphere so large that the contact ends inside
+/// the profile.
 fn measured(random: &mut Random, folder: &Path, heights: impl Fn(f64) -> f64) -> (Scene, f64) {
     let points = random.whole(200, 400);
     let spacing = random.between(1e-7, 2e-7);
@@ -280,8 +281,8 @@ fn computed(scene: &Scene, folder: &Path) -> (Vec<&'static str>, Option<f64>) {
     )
 }
 
-/// Of 300 random scenes each breaks one premise. The warning is named in all of them, alone, and the same scene with the
-/// premise restored has no warning.
+/// Of 300 random scenes each breaks one premise. The warning is named in all of them, alone, and
+/// the same scene with the premise restored has no warning.
 #[test]
 fn the_premise_that_a_scene_breaks_is_named_alone() {
     let folder = tempfile::tempdir().unwrap();

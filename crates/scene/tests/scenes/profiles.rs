@@ -1,4 +1,5 @@
-//! Profiles of a form and a roughness: the same as in a scene file, to the bit, and the sum of both by its definition.
+//! Profiles of a form and a roughness: the same as in a scene file, to the bit, and the sum of both
+//! by its definition.
 
 use asperity_contact::{Modulus, Move};
 use asperity_data::on_this_thread;
@@ -100,7 +101,8 @@ proptest! {
         prop_assert_eq!((run.governing, run.regime), (outcome.governing, outcome.regime));
     }
 
-    /// Heights are the waves less the form about an axis on the point N/2; both are shifted together.
+    /// Heights are the waves less the form about an axis on the point N/2; both are shifted
+    /// together.
     #[test]
     fn a_built_profile_is_the_sum_of_its_waves_and_its_form(
         points in 64_usize..200, hurst in 0.1..0.9_f64, seed in any::<u64>(), radius in 1e-4..1e-2_f64,

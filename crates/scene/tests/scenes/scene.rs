@@ -1,4 +1,5 @@
-//! Scenes from outside: any text gets an answer, and a change to one field changes that field alone.
+//! Scenes from outside: any text gets an answer, and a change to one field changes that field
+//! alone.
 
 use asperity_contact::Move;
 use asperity_scene::fields::{Effect, FIELDS, Range};
@@ -313,7 +314,8 @@ fn presets_say_only_what_differs_from_the_defaults() {
     }
 }
 
-/// What is refused where a scene is read is refused where it is computed: there is no other way to a checked scene.
+/// What is refused where a scene is read is refused where it is computed: there is no other way to
+/// a checked scene.
 #[test]
 fn a_refused_scene_has_no_numbers() {
     let document = open("pressure-sensitive").unwrap();

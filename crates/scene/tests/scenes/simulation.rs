@@ -1,4 +1,5 @@
-//! Scenes through the library: what a simulation keeps changes no bit, counted work, and finer grids of one profile.
+//! Scenes through the library: what a simulation keeps changes no bit, counted work, and finer
+//! grids of one profile.
 
 use asperity_contact::{Move, Work};
 use asperity_scene::stages::Timings;

@@ -19,7 +19,8 @@ fn run(
     simulation.compute(document.scene()).unwrap()
 }
 
-/// Bodies with a closed form and without one: waves, tables, contacts that reach the end of the profile, two works.
+/// Bodies with a closed form and without one: waves, tables, contacts that reach the end of the
+/// profile, two works.
 #[test]
 fn the_smooth_force_is_that_of_a_run_without_roughness() {
     let folder = tempfile::tempdir().unwrap();

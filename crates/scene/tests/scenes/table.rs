@@ -265,7 +265,8 @@ fn stated_depth(radii: &[f64], depths: &[f64], x: f64, rule: &[(Precise, Precise
     (sum * at).to_f64().value()
 }
 
-/// Tables with corners, walls, plateaus, noise, edges and rows close together, and those of smooth bodies.
+/// Tables with corners, walls, plateaus, noise, edges and rows close together, and those of smooth
+/// bodies.
 fn nasty_tables() -> Vec<(Vec<f64>, Vec<f64>)> {
     let even = |count: usize| (0..count).map(move |row| row as f64 / (count - 1) as f64);
     let of = |radii: Vec<f64>, depth: &dyn Fn(f64) -> f64| {
@@ -339,8 +340,8 @@ fn nasty_tables() -> Vec<(Vec<f64>, Vec<f64>)> {
     tables
 }
 
-/// Depths are those of the stated interpolant, to rounding; between two rows it stays between their depths, so that no
-/// depth leaves what the rows allow.
+/// Depths are those of the stated interpolant, to rounding; between two rows it stays between their
+/// depths, so that no depth leaves what the rows allow.
 #[test]
 fn tables_of_any_kind_have_the_profile_of_their_interpolant() {
     let rule = quadrature(16);
@@ -372,7 +373,8 @@ fn tables_of_any_kind_have_the_profile_of_their_interpolant() {
     assert!(falls(&|r| r * r + 0.05 * (1.0 - (40.0 * r).cos())).is_some());
 }
 
-/// A punch with an edge in few rows, and rows far closer than its springs beside the corner of a flat end.
+/// A punch with an edge in few rows, and rows far closer than its springs beside the corner of a
+/// flat end.
 #[test]
 fn tips_with_edges_have_their_own_forces() {
     let folder = tempfile::tempdir().unwrap();
@@ -408,7 +410,8 @@ fn tips_with_edges_have_their_own_forces() {
     };
     let [close, wide] = [corner(1e-12), corner(1e-8)];
     for outcome in [&close, &wide] {
-        // g = 0.3 x arccos(b/x): F_n and pull-off of the closed form, on a fine grid of contact radii.
+        // g = 0.3 x arccos(b/x): F_n and pull-off of the closed form, on a fine grid of contact
+        // radii.
         let (b, modulus, work) = (1e-5, 1e6, 0.05);
         let profile = |x: f64| {
             if x <= b {

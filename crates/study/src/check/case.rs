@@ -1,4 +1,5 @@
-//! A case of the catalogue of checks, and the adhesive rough bodies that the cases load through the public interface.
+//! A case of the catalogue of checks, and the adhesive rough bodies that the cases load through the
+//! public interface.
 
 use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
@@ -16,7 +17,8 @@ pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 pub(super) enum Subject {
     /// Scene given by its text.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
-    /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The largest error counts.
+    /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The
+    /// largest error counts.
     Bodies(fn(&Body) -> Measured),
 }
 
@@ -25,14 +27,17 @@ pub(super) enum Subject {
 pub struct Case {
     /// Name of the case, such as `jkr-sphere`.
     pub name: &'static str,
-    /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that hold for every body, or
-    /// `hard-cases` for extreme input, such as nearly equal gaps or very large loads.
+    /// Family of the case: `closed-forms` for bodies with a known force curve, `laws` for laws that
+    /// hold for every body, or `hard-cases` for extreme input, such as nearly equal gaps or very
+    /// large loads.
     pub family: &'static str,
     /// Statement that must hold for the result of the case, as a sentence.
     pub holds: &'static str,
-    /// How the correct result of the case is known: `closed form`, `independent computation` or `self-consistency`.
+    /// How the correct result of the case is known: `closed form`, `independent computation` or
+    /// `self-consistency`.
     pub evidence: &'static str,
-    /// Name of the quantity whose error must not exceed the bound of a [`Check`](crate::checks::Check).
+    /// Name of the quantity whose error must not exceed the bound of a
+    /// [`Check`](crate::checks::Check).
     pub error_of: &'static str,
     pub(super) bounds: &'static [(Edges, f64)],
     pub(super) subject: Subject,
@@ -102,13 +107,14 @@ pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// Effective modulus of random bodies in Pa, their length in m, and their rms height or largest height in m.
+/// Effective modulus of random bodies in Pa, their length in m, and their rms height or largest
+/// height in m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
 
-/// Rigid profile on an adhesive foundation: heights in m, length in m, effective modulus E* in Pa, work of adhesion γ in
-/// J/m².
+/// Rigid profile on an adhesive foundation: heights in m, length in m, effective modulus E* in Pa,
+/// work of adhesion γ in J/m².
 #[derive(Clone, Debug)]
 pub struct Body {
     pub heights: Vec<f64>,
@@ -119,7 +125,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates a body with one of several kinds of profiles. The seed determines the same body on every machine.
+    /// Creates a body with one of several kinds of profiles. The seed determines the same body on
+    /// every machine.
     pub fn random(seed: u64, edges: Edges) -> Measured<Body> {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
@@ -173,7 +180,8 @@ impl Body {
         self.modulus * self.length * (self.depth() + self.stretch())
     }
 
-    /// Returns irregular indentations in m, from just before separation to full contact, as turning points.
+    /// Returns irregular indentations in m, from just before separation to full contact, as turning
+    /// points.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
         let (low, high) = (
             -0.9 * self.stretch(),
@@ -183,8 +191,8 @@ impl Body {
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }
 
-    /// Loads the separated body to one indentation after the other, and to separation at the end if `separates` is true.
-    /// `samples` is the number of points in the curve of each stage.
+    /// Loads the separated body to one indentation after the other, and to separation at the end if
+    /// `separates` is true. `samples` is the number of points in the curve of each stage.
     pub fn load(&self, turns: &[f64], separates: bool, samples: u64) -> Measured<Cycle> {
         let turns = turns.iter().map(|&turn| Move::ToIndentation(turn));
         let legs: Vec<Move> = turns

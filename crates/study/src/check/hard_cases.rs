@@ -1,4 +1,5 @@
-//! Cases at the limits of numbers: nearly equal gaps, heights of any magnitude, and loads far beyond the roughness.
+//! Cases at the limits of numbers: nearly equal gaps, heights of any magnitude, and loads far
+//! beyond the roughness.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
@@ -29,8 +30,8 @@ pub const CASES: &[Case] = &[
         &both(4.0, 4.0), OfScene(ROUGH, far_loads)),
 ];
 
-/// Returns the force on a rough flat face in full contact in N. Cosines have the mean 0, so the mean gap equals the height
-/// of the highest point.
+/// Returns the force on a rough flat face in full contact in N. Cosines have the mean 0, so the
+/// mean gap equals the height of the highest point.
 fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
     outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
@@ -78,8 +79,8 @@ fn heights_of_any_size(body: &Body) -> Measured {
     )
 }
 
-/// Presses a scene to large indentations and to the forces found there. Returns the largest error of a force, in units of
-/// its change by one rounding of the indentation.
+/// Presses a scene to large indentations and to the forces found there. Returns the largest error
+/// of a force, in units of its change by one rounding of the indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
     let (depth, bare) = (
         outcome(scene)?.line.deepest,

@@ -1,5 +1,5 @@
-//! Cases with laws that hold for every body: reversibility without adhesion, memory, energy, scaling, and the agreement of
-//! both solvers.
+//! Cases with laws that hold for every body: reversibility without adhesion, memory, energy,
+//! scaling, and the agreement of both solvers.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
@@ -99,7 +99,8 @@ fn energy(body: &Body) -> Measured {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
     let cycle = body.load(&[high, low, high], true, 20_000)?;
-    // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with their number.
+    // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with
+    // their number.
     let trapezium = |pair: &[CurvePoint]| {
         0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
     };
@@ -112,8 +113,8 @@ fn energy(body: &Body) -> Measured {
     Ok((lost(cycle.stages()) - done).abs() / scale)
 }
 
-/// Scales lengths along the profile, heights and stresses by these powers of two, which must not change any bit of a
-/// mantissa.
+/// Scales lengths along the profile, heights and stresses by these powers of two, which must not
+/// change any bit of a mantissa.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
@@ -140,7 +141,8 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
             heights: body.heights.iter().map(|point| height * point).collect(),
             length: length * body.length,
             modulus: stress * body.modulus,
-            // Δl² = π ℓ γ/E* scales with the square of heights, whose own square may overflow or underflow.
+            // Δl² = π ℓ γ/E* scales with the square of heights, whose own square may overflow or
+            // underflow.
             work: height * (height * body.work) * (stress / length),
             edges: body.edges,
         };

@@ -1,7 +1,8 @@
 //! The catalogue of checks of scenes and profiles, computed through the public interface.
 //!
-//! A check computes one number, the error, and compares it with a bound that was set beforehand. The evidence is a closed form,
-//! a law that holds for every body, or the stepwise solver, which applies the rules without tree and thresholds.
+//! A check computes one number, the error, and compares it with a bound that was set beforehand.
+//! The evidence is a closed form, a law that holds for every body, or the stepwise solver, which
+//! applies the rules without tree and thresholds.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
@@ -14,13 +15,15 @@ use case::Case;
 use case::{Body, Measured, Subject, largest};
 use std::time::Instant;
 
-/// Test of the program on a [`Case`], which has a known result. The case is computed with one rule for the edges of patches
-/// of contact. The check passes if the error of the result is at most [`Check::bound`].
+/// Test of the program on a [`Case`], which has a known result. The case is computed with one rule
+/// for the edges of patches of contact. The check passes if the error of the result is at most
+/// [`Check::bound`].
 #[derive(Clone, Copy, Debug)]
 pub struct Check {
     /// Case on which the program is tested.
     pub case: Case,
-    /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two springs.
+    /// Rule for the edges of patches of contact: an edge lies at a spring, or may lie between two
+    /// springs.
     pub edges: Edges,
     /// Largest error of the quantity [`Case::error_of`] with which the check passes.
     pub bound: f64,
@@ -32,7 +35,10 @@ impl Check {
     /// ```
     /// use asperity_study::checks::Check;
     ///
-    /// let verdicts: Vec<_> = Check::of(|case| case.name == "jkr").into_iter().map(Check::judge).collect();
+    /// let verdicts: Vec<_> = Check::of(|case| case.name == "jkr")
+    ///     .into_iter()
+    ///     .map(Check::judge)
+    ///     .collect();
     /// assert!(verdicts.iter().all(|verdict| verdict.passes()));
     /// ```
     pub fn of(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
@@ -77,7 +83,8 @@ impl Case {
 pub struct Verdict {
     /// Check whose case was computed.
     pub check: Check,
-    /// Error of the quantity [`Case::error_of`] that was measured, or the reason why the error could not be measured.
+    /// Error of the quantity [`Case::error_of`] that was measured, or the reason why the error
+    /// could not be measured.
     pub error: Result<f64, String>,
     /// Computing time of the check, s.
     pub seconds: f64,

@@ -12,18 +12,28 @@ use std::f64::consts::TAU;
 /// Relative excess of a wavelength over the length of the scan that counts as rounding.
 const ROUNDING: f64 = 1.0e-9;
 
-/// Equivalent line of measured surfaces: a random rigid profile with their spectrum. A contact has two faces, the surfaces that
-/// touch each other, and one or both may be measured. If both are measured, the line has the sum of their spectra.
+/// Equivalent line of measured surfaces: a random rigid profile with their spectrum. A contact has
+/// two faces, the surfaces that touch each other, and one or both may be measured. If both are
+/// measured, the line has the sum of their spectra.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, EquivalentLine, Topography, analyse};
 ///
-/// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+/// let height = |i: u32| {
+///     (1..60)
+///         .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+///         .sum::<f64>()
+/// };
 /// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
 /// let surface = Topography::from_profile(&heights, 1e-6)?;
 /// let line = EquivalentLine::from(&analyse(&[surface], &AnalysisOptions::default())?);
 /// // A random profile has the rms height of the line.
-/// let square = line.heights(2.56e-4, 1024, 7)?.iter().map(|z| z * z).sum::<f64>() / 1024.0;
+/// let square = line
+///     .heights(2.56e-4, 1024, 7)?
+///     .iter()
+///     .map(|z| z * z)
+///     .sum::<f64>()
+///     / 1024.0;
 /// assert!((square.sqrt() / line.moments().rms_height.value - 1.0).abs() < 0.05);
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
@@ -45,7 +55,8 @@ impl EquivalentLine {
     /// Analyses the surfaces in the files of one or two [faces](crate::lines::Face).
     ///
     /// # Errors
-    /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or has no spectrum.
+    /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or
+    /// has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let spectra = faces
             .iter()
@@ -55,12 +66,12 @@ impl EquivalentLine {
         })
     }
 
-    /// Computes the heights in m of a random profile of this length in m, at the middles of `points` equal cells. The seed
-    /// gives the random phases.
+    /// Computes the heights in m of a random profile of this length in m, at the middles of
+    /// `points` equal cells. The seed gives the random phases.
     ///
     /// # Errors
-    /// Returns an error if no wave of the spectrum fits the length and is resolved by the points, or if the memory is too
-    /// small.
+    /// Returns an error if no wave of the spectrum fits the length and is resolved by the points,
+    /// or if the memory is too small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
         let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| {
             self.amplitude(mode, length)
@@ -69,8 +80,9 @@ impl EquivalentLine {
         Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
     }
 
-    /// Returns the line with a random error of the spectrum of each face, drawn from the distribution of the errors of its
-    /// fit and multiplied by `share`. `number` is the seed: equal numbers give equal errors.
+    /// Returns the line with a random error of the spectrum of each face, drawn from the
+    /// distribution of the errors of its fit and multiplied by `share`. `number` is the seed: equal
+    /// numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
             // Faces are independent of each other.
@@ -91,8 +103,8 @@ impl EquivalentLine {
         self.faces.iter().map(|face| face.line(wave_number)).sum()
     }
 
-    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest wave number that the
-    /// spectra of all faces have, the last the largest of any face.
+    /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
+    /// wave number that the spectra of all faces have, the last the largest of any face.
     pub fn range(&self) -> [f64; 2] {
         let ranges = self.faces.iter().map(IsotropicSpectrum::range);
         ranges.fold([0.0, 0.0], |[first, last], [low, high]| {
@@ -100,9 +112,9 @@ impl EquivalentLine {
         })
     }
 
-    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points` springs. Mode k is the
-    /// wave with the wave number q = 2πk/L. The modes are the waves of the spectrum that fit the line and that the springs
-    /// resolve. Returns an error if there is none.
+    /// Returns the first and the last mode k of a line of the length L = `length` in m on `points`
+    /// springs. Mode k is the wave with the wave number q = 2πk/L. The modes are the waves of the
+    /// spectrum that fit the line and that the springs resolve. Returns an error if there is none.
     pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -133,15 +145,17 @@ impl EquivalentLine {
         }
     }
 
-    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k² = 4 C(q_k)/L. Here C is
-    /// [`EquivalentLine::power`], q_k = 2πk/L the wave number, and L the length.
+    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k²
+    /// = 4 C(q_k)/L. Here C is [`EquivalentLine::power`], q_k = 2πk/L the wave number, and L the
+    /// length.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
 
-    /// Returns the mean square height in m² that one wave adds to a square surface with the measured spectra. `side` is the
-    /// side of the square in m. `waves`, the number of periods over this side, need not be a whole number. Returns 0 if the
-    /// wave lies outside the measured spectra.
+    /// Returns the mean square height in m² that one wave adds to a square surface with the
+    /// measured spectra. `side` is the side of the square in m. `waves`, the number of periods over
+    /// this side, need not be a whole number. Returns 0 if the wave lies outside the measured
+    /// spectra.
     pub fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         let [first, last] = self.range().map(|wave_number| wave_number * side / TAU);
         if waves < first - 0.5 || waves > last + 0.5 {
@@ -164,8 +178,8 @@ impl EquivalentLine {
         4.0 * self.faces.iter().map(power).sum::<f64>() / length
     }
 
-    /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that has only the modes
-    /// `first..=last`.
+    /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that
+    /// has only the modes `first..=last`.
     pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
         let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
         // Starts with the smallest amplitudes.
@@ -183,9 +197,9 @@ pub enum MeasuredRoughness {
 }
 
 impl MeasuredRoughness {
-    /// Parses the files of one or two [faces](crate::lines::Face), and analyses them if needed. If [`MeasuredOptions::as_line`]
-    /// is given and there is only one file, its measured profile is the rigid profile. Otherwise the rigid profile is the
-    /// equivalent line of the faces.
+    /// Parses the files of one or two [faces](crate::lines::Face), and analyses them if needed. If
+    /// [`MeasuredOptions::as_line`] is given and there is only one file, its measured profile is
+    /// the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
     ///
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
@@ -237,7 +251,8 @@ mod tests {
         EquivalentLine::new(&[face()], options).unwrap()
     }
 
-    /// The squares of the waves of a surface, in all directions, sum to the mean square height of its equivalent line.
+    /// The squares of the waves of a surface, in all directions, sum to the mean square height of
+    /// its equivalent line.
     #[test]
     fn a_surface_has_the_rms_height_of_its_line() {
         let side = 256e-6;

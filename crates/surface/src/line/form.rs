@@ -1,4 +1,5 @@
-//! Macroscopic forms f(r) and their equivalent profiles g(x) by the method of dimensionality reduction.
+//! Macroscopic forms f(r) and their equivalent profiles g(x) by the method of dimensionality
+//! reduction.
 
 use super::table::{FormTable, Rows};
 use crate::error::{Place, SurfaceError, refused};
@@ -10,8 +11,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the apex, and r is the
-/// distance from the axis.
+/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the
+/// apex, and r is the distance from the axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -60,9 +61,10 @@ pub enum Form {
 }
 
 impl Form {
-    /// Reads the file of a [`Form::Table`], unless it has been read already. Other forms need no reading. `folder` is the
-    /// folder of the scene file, and `length` the length of the profile in m. Returns an error if the file holds no table,
-    /// or if the table ends before the profile does.
+    /// Reads the file of a [`Form::Table`], unless it has been read already. Other forms need no
+    /// reading. `folder` is the folder of the scene file, and `length` the length of the profile in
+    /// m. Returns an error if the file holds no table, or if the table ends before the profile
+    /// does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
@@ -93,7 +95,8 @@ impl Form {
         )))
     }
 
-    /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`] has read the table.
+    /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`]
+    /// has read the table.
     pub fn table(&self) -> Option<&FormTable> {
         if let Form::Table { rows, .. } = self {
             rows.0.get()
@@ -102,15 +105,16 @@ impl Form {
         }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of the form, for N = `points` springs. For a punch the axis is in
-    /// the middle of the length instead.
+    /// Returns the index ⌊N/2⌋ of the spring on the axis of the form, for N = `points` springs. For
+    /// a punch the axis is in the middle of the length instead.
     pub fn spring_on_axis(points: u64) -> u64 {
-        // With the axis between two springs no spring would be at the tip, and errors would be proportional to Δx.
+        // With the axis between two springs no spring would be at the tip, and errors would be
+        // proportional to Δx.
         points / 2
     }
 
-    /// Returns the distance, in spring spacings, from the middle of the length to the axis of the form. It is ½ for an even
-    /// number of springs, and 0 for an odd number and for a punch.
+    /// Returns the distance, in spring spacings, from the middle of the length to the axis of the
+    /// form. It is ½ for an even number of springs, and 0 for an odd number and for a punch.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() {
             0.5
@@ -119,9 +123,10 @@ impl Form {
         }
     }
 
-    /// Returns the range of indices of the springs under the form, for `points` springs on the length `length` in m. All
-    /// forms except a punch lie above all springs. The width of a punch is its diameter, rounded to a whole number of spring
-    /// spacings. The range is empty if the diameter is below half a spacing.
+    /// Returns the range of indices of the springs under the form, for `points` springs on the
+    /// length `length` in m. All forms except a punch lie above all springs. The width of a punch
+    /// is its diameter, rounded to a whole number of spring spacings. The range is empty if the
+    /// diameter is below half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -153,7 +158,8 @@ impl Form {
         }
     }
 
-    /// Returns the radius of a sphere or a punch in m as a mutable reference; `None` for other forms.
+    /// Returns the radius of a sphere or a punch in m as a mutable reference; `None` for other
+    /// forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
@@ -163,7 +169,8 @@ impl Form {
         }
     }
 
-    /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other forms.
+    /// Returns the radius in m of a [`Form::Paraboloid`], a sphere without waves; `None` for other
+    /// forms.
     pub fn sphere_radius(&self) -> Option<f64> {
         if let Form::Paraboloid { radius } = self {
             Some(*radius)
@@ -172,8 +179,8 @@ impl Form {
         }
     }
 
-    /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and for a table that has not
-    /// been read or has no finite curvature at the tip.
+    /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and
+    /// for a table that has not been read or has no finite curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } => Some(1.0 / radius),
@@ -188,10 +195,11 @@ impl Form {
         }
     }
 
-    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from the axis in m. For a
-    /// punch it is 0.
+    /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from
+    /// the axis in m. For a punch it is 0.
     ///
-    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is [`Form::depth`].
+    /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
+    /// [`Form::depth`].
     ///
     /// ```
     /// // A sphere f = r²/2R becomes g = x²/R.
@@ -220,11 +228,14 @@ impl Form {
         }
     }
 
-    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m. Returns `None` for a punch
-    /// at a distance above its radius, where there is no body.
+    /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m.
+    /// Returns `None` for a punch at a distance above its radius, where there is no body.
     ///
     /// ```
-    /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1), Some(0.1 * 0.1 / 4.0));
+    /// assert_eq!(
+    ///     asperity_surface::Form::Paraboloid { radius: 2.0 }.depth(0.1),
+    ///     Some(0.1 * 0.1 / 4.0)
+    /// );
     /// ```
     pub fn depth(&self, radius: f64) -> Option<f64> {
         Some(match *self {
@@ -247,12 +258,19 @@ impl Form {
         })
     }
 
-    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent profile g(x) = c |x|ⁿ. Returns
-    /// `None` for a [`Form::Punch`], a [`Form::WavySphere`] and a [`Form::Table`].
+    /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent
+    /// profile g(x) = c |x|ⁿ. Returns `None` for a [`Form::Punch`], a [`Form::WavySphere`] and a
+    /// [`Form::Table`].
     ///
     /// ```
-    /// assert_eq!(asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(), Some((2.0, 2.0)));
-    /// assert_eq!(asperity_surface::Form::Punch { radius: 0.5 }.power_law(), None);
+    /// assert_eq!(
+    ///     asperity_surface::Form::Paraboloid { radius: 0.5 }.power_law(),
+    ///     Some((2.0, 2.0))
+    /// );
+    /// assert_eq!(
+    ///     asperity_surface::Form::Punch { radius: 0.5 }.power_law(),
+    ///     None
+    /// );
     /// ```
     pub fn power_law(&self) -> Option<(f64, f64)> {
         match *self {
@@ -266,9 +284,10 @@ impl Form {
         }
     }
 
-    /// Returns an upper bound in m of the depth that the waves of a [`Form::WavySphere`] add to its equivalent profile at the
-    /// distance r in m from the axis. The bound is π A √(r/λ) with the amplitude A and the wavelength λ of the waves, and π A
-    /// for r < λ. It is 0 for all other forms.
+    /// Returns an upper bound in m of the depth that the waves of a [`Form::WavySphere`] add to its
+    /// equivalent profile at the distance r in m from the axis. The bound is π A √(r/λ) with the
+    /// amplitude A and the wavelength λ of the waves, and π A for r < λ. It is 0 for all other
+    /// forms.
     pub fn wave_depth(&self, distance: f64) -> f64 {
         match *self {
             Form::WavySphere {
@@ -281,7 +300,8 @@ impl Form {
     }
 }
 
-/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ has the equivalent profile κₙ
+/// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
+/// has the equivalent profile κₙ
 /// |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
@@ -289,9 +309,11 @@ pub fn power_law_factor(exponent: f64) -> f64 {
     PI.sqrt() / 2.0 * exponent * quotient
 }
 
-/// Argument above which the asymptotic series of H₀ is accurate to rounding. Its smallest term is about e^−z.
+/// Argument above which the asymptotic series of H₀ is accurate to rounding. Its smallest term is
+/// about e^−z.
 const LARGE: f64 = 40.0;
-/// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up to `LARGE`.
+/// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up
+/// to `LARGE`.
 const NODES: usize = 56;
 
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);

@@ -1,5 +1,5 @@
-//! Measured surfaces as roughness: the profile of a file as an equivalent line, or a random equivalent line with the measured
-//! spectrum.
+//! Measured surfaces as roughness: the profile of a file as an equivalent line, or a random
+//! equivalent line with the measured spectrum.
 
 use super::spectrum::Amplitude;
 use crate::error::{Place, SurfaceError, refused};
@@ -11,16 +11,17 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound of the memory of the transform and its arrays in bytes per point. An odd number of points is transformed at
-/// twice the length.
+/// Upper bound of the memory of the transform and its arrays in bytes per point. An odd number of
+/// points is transformed at twice the length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the profile of the file is an equivalent line already, and is the rigid profile after removal of this
-    /// polynomial. Otherwise the profile is a cut through a surface, and the rigid profile is an equivalent line of this
-    /// surface, a random profile with the measured spectrum.
+    /// If given, the profile of the file is an equivalent line already, and is the rigid profile
+    /// after removal of this polynomial. Otherwise the profile is a cut through a surface, and the
+    /// rigid profile is an equivalent line of this surface, a random profile with the measured
+    /// spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
@@ -28,21 +29,24 @@ pub struct MeasuredOptions {
     pub spectrum: AnalysisOptions,
 }
 
-/// A profile of a file that is used unchanged as an equivalent line: the heights of points at ascending positions.
+/// A profile of a file that is used unchanged as an equivalent line: the heights of points at
+/// ascending positions.
 ///
-/// The profile covers the distance from its first to its last point. If the points are equally spaced, a sampled profile may
-/// extend half a spacing beyond each end.
+/// The profile covers the distance from its first to its last point. If the points are equally
+/// spaced, a sampled profile may extend half a spacing beyond each end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredProfile {
     /// Positions x in m, ascending; at least two.
     pub positions: Vec<f64>,
-    /// Heights z in m, one for each position. If the options remove a polynomial, these are the heights after its removal.
+    /// Heights z in m, one for each position. If the options remove a polynomial, these are the
+    /// heights after its removal.
     pub heights: Vec<f64>,
 }
 
 impl MeasuredProfile {
-    /// Parses the content of a file that holds a profile, or a map of which the options choose a row or a column. Returns an
-    /// error if a polynomial has to be removed and the points are not equally spaced.
+    /// Parses the content of a file that holds a profile, or a map of which the options choose a
+    /// row or a column. Returns an error if a polynomial has to be removed and the points are not
+    /// equally spaced.
     pub fn new(content: &[u8], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
         let mut surface = parse(content, &options.reading)?;
         if let Some(detrend) = options.as_line.filter(|detrend| *detrend != Detrend::None) {
@@ -63,7 +67,8 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Returns the distance between points in m, if the points are centres of cells that begin at x = 0.
+    /// Returns the distance between points in m, if the points are centres of cells that begin at x
+    /// = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         first_uneven(&self.positions, 0.5 * cell, cell)
@@ -71,8 +76,8 @@ impl MeasuredProfile {
             .then_some(cell)
     }
 
-    /// Computes the root mean square height (m) about the mean and the root mean square gradient of the polyline through the
-    /// measured points.
+    /// Computes the root mean square height (m) about the mean and the root mean square gradient of
+    /// the polyline through the measured points.
     fn rms_height_and_gradient(&self) -> (f64, f64) {
         let length = self.span();
         // Differences of heights, not heights: an offset may be far larger than the roughness.
@@ -98,7 +103,8 @@ impl MeasuredProfile {
         ((square / length).sqrt(), (gradient / length).sqrt())
     }
 
-    /// Computes the rms height, the rms gradient, the rms curvature and the mean wave number of the profile.
+    /// Computes the rms height, the rms gradient, the rms curvature and the mean wave number of the
+    /// profile.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
         let (rms_height, rms_gradient) = self.rms_height_and_gradient();
         let points = self.positions.len();
@@ -130,8 +136,9 @@ impl MeasuredProfile {
         })
     }
 
-    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by linear interpolation.
-    /// Here L is `length` in m and N is `points`. The same constant may be subtracted from all heights.
+    /// Computes the heights in m at x = (i + ½ − `shift`)L/N from the beginning of the profile, by
+    /// linear interpolation. Here L is `length` in m and N is `points`. The same constant may be
+    /// subtracted from all heights.
     ///
     /// # Errors
     /// Returns an error if the profile is shorter than `length`.
@@ -158,8 +165,8 @@ impl MeasuredProfile {
         Ok(self.heights_from(begins, length / points as f64, points, shift)?)
     }
 
-    /// Computes the heights in m at the centres of `points` cells of this width (m), displaced by `shift` cells. The first cell
-    /// begins at `begins` in m.
+    /// Computes the heights in m at the centres of `points` cells of this width (m), displaced by
+    /// `shift` cells. The first cell begins at `begins` in m.
     fn heights_from(
         &self,
         begins: f64,
@@ -174,8 +181,8 @@ impl MeasuredProfile {
         )
     }
 
-    /// Returns the position in m at which a line of this length (m) begins on the profile. If the profile is too short, the
-    /// error is the length that it covers in m.
+    /// Returns the position in m at which a line of this length (m) begins on the profile. If the
+    /// profile is too short, the error is the length that it covers in m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
         let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
@@ -198,7 +205,8 @@ impl MeasuredProfile {
         }
     }
 
-    /// Returns the height in m to subtract from all heights: the first one, if all differences from it are exact, else 0.
+    /// Returns the height in m to subtract from all heights: the first one, if all differences from
+    /// it are exact, else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
         let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
@@ -212,7 +220,8 @@ impl MeasuredProfile {
     }
 }
 
-/// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second differences.
+/// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second
+/// differences.
 fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     let squares = heights
         .windows(3)
@@ -222,7 +231,8 @@ fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts a straight line. The step from the last height back to the first is then the mean of the steps next to it.
+/// Subtracts a straight line. The step from the last height back to the first is then the mean of
+/// the steps next to it.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -232,10 +242,12 @@ fn join_ends(heights: &mut [f64]) {
         .for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
 }
 
-/// Paths and contents of the measured files of one face, one of the two surfaces that touch each other.
+/// Paths and contents of the measured files of one face, one of the two surfaces that touch each
+/// other.
 pub type Face = Vec<(PathBuf, Vec<u8>)>;
 
-/// Reads the files with these paths into memory. `faces` has the paths of the files of each [`Face`].
+/// Reads the files with these paths into memory. `faces` has the paths of the files of each
+/// [`Face`].
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
     let read = |path: &PathBuf| match content(path) {
         Ok(content) => Ok((path.clone(), content)),
@@ -293,7 +305,8 @@ mod tests {
         let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
-        // Before the first and behind the last point at its height, halfway between points at their mean.
+        // Before the first and behind the last point at its height, halfway between points at their
+        // mean.
         assert_eq!(
             profile.sample(3.0, 6, 0.5).unwrap(),
             [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]
@@ -406,8 +419,9 @@ mod tests {
 
     #[test]
     fn statistics_are_those_of_the_straight_pieces() {
-        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1. Uneven pieces: mean 1/2; ∫ (z − 1/2)² dx
-        // is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2. A constant height is no roughness.
+        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1. Uneven pieces:
+        // mean 1/2; ∫ (z − 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and
+        // −2. A constant height is no roughness.
         for (text, square, slope) in [
             ("5 0\n6 1\n7 0", 1.0 / 12.0, 1.0),
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),

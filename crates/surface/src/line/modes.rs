@@ -1,22 +1,23 @@
-//! Random phases of modes, which do not depend on the grid, the number of modes or the platform. The Fourier coefficients of a
-//! self-affine profile are computed 64 at a time in loops without branches, so that the compiler computes several in one
-//! instruction.
+//! Random phases of modes, which do not depend on the grid, the number of modes or the platform.
+//! The Fourier coefficients of a self-affine profile are computed 64 at a time in loops without
+//! branches, so that the compiler computes several in one instruction.
 
 use super::spectrum::SelfAffine;
 use asperity_fourier::Complex64;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is drawn first. So no result
-/// depends on the number of threads.
+/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is
+/// drawn first. So no result depends on the number of threads.
 const BLOCK: usize = 64;
 
-/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term is below 1e-18. For |x| ≤
-/// 1/1024 six terms suffice.
+/// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term
+/// is below 1e-18. For |x| ≤ 1/1024 six terms suffice.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. These are minimax
-/// approximations. The errors of sine and cosine are at most 4e-18 in addition to rounding.
+/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest
+/// power first. These are minimax approximations. The errors of sine and cosine are at most 4e-18
+/// in addition to rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -48,8 +49,8 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// Creates the modes of a profile of rms height 1 with this spectrum and seed, on `points` points. The first point lies
-    /// `start` cells along the profile.
+    /// Creates the modes of a profile of rms height 1 with this spectrum and seed, on `points`
+    /// points. The first point lies `start` cells along the profile.
     pub fn new(spectrum: SelfAffine, seed: u64, points: usize, start: f64) -> Self {
         let exponent = spectrum.amplitude_exponent();
         let mut binomial = 1.0;
@@ -66,8 +67,8 @@ impl Modes {
         }
     }
 
-    /// Fills in the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the phases φ at the first point of
-    /// the grid.
+    /// Fills in the coefficients ½ A_k e^(iφ) of the modes k = `first`, `first` + 1, …, with the
+    /// phases φ at the first point of the grid.
     pub fn draw(&self, first: u64, mut coefficients: &mut [Complex64]) {
         let mut generator = phase_words(self.seed, first);
         let mut words = [0; BLOCK];
@@ -85,7 +86,8 @@ impl Modes {
         }
     }
 
-    /// Fills in the coefficients of the block that follows the mode `before`, from one random word for each mode.
+    /// Fills in the coefficients of the block that follows the mode `before`, from one random word
+    /// for each mode.
     fn fill(&self, before: u64, words: &[u64; BLOCK], block: &mut [Complex64; BLOCK]) {
         let amplitudes = self.half_amplitudes(before);
         let before = before as f64;
@@ -112,8 +114,8 @@ impl Modes {
         }
     }
 
-    /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded about the middle of its `SPAN`
-    /// modes with the first `COUNT` terms of the series.
+    /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded
+    /// about the middle of its `SPAN` modes with the first `COUNT` terms of the series.
     #[inline(always)]
     fn half_amplitudes_in_series<const SPAN: usize, const COUNT: usize>(
         &self,
@@ -140,8 +142,8 @@ impl Modes {
 /// Computes the sine and the cosine of 2π `turns`, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> (f64, f64) {
-    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits. So the nearest
-    // quarter is found to 2⁻¹⁰ in any rounding of the sum.
+    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits.
+    // So the nearest quarter is found to 2⁻¹⁰ in any rounding of the sum.
     const ALIGN: f64 = 6_597_069_766_656.0;
     let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
     let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
@@ -161,8 +163,8 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     )
 }
 
-/// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed separately, so that the two sums do
-/// not wait for each other.
+/// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed
+/// separately, so that the two sums do not wait for each other.
 #[inline(always)]
 fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     let square = x * x;
@@ -186,19 +188,22 @@ const COUNTS: [f64; BLOCK] = {
     counts
 };
 
-/// Separates this use of the random generator from other uses; a change in how phases are drawn must change this text.
+/// Separates this use of the random generator from other uses; a change in how phases are drawn
+/// must change this text.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
-/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed, uniform in [0, 2π). Mode k is the
-/// wave with k periods over the profile.
+/// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed,
+/// uniform in [0, 2π). Mode k is the wave with k periods over the profile.
 ///
-/// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every platform.
+/// The phase of a mode depends only on the seed and k. It is the same, bit for bit, on every
+/// platform.
 pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     let mut generator = phase_words(seed, first);
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns the random generator whose next 64-bit words belong to the modes `first`, `first` + 1, … of a seed.
+/// Returns the random generator whose next 64-bit words belong to the modes `first`, `first` + 1, …
+/// of a seed.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
@@ -211,8 +216,9 @@ pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
 
 /// Returns the phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
 ///
-/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every processor does this for several
-/// words in one instruction, whereas few can convert several integers at once.
+/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every
+/// processor does this for several words in one instruction, whereas few can convert several
+/// integers at once.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();

@@ -10,7 +10,8 @@ use std::sync::Arc;
 pub struct Line {
     /// Gaps c_i = max z − z_i in m of the springs under the body, each at least 0.
     pub gaps: Arc<Vec<f64>>,
-    /// Index of the leftmost spring under the body, counted along the whole foundation. It is above zero only for a punch.
+    /// Index of the leftmost spring under the body, counted along the whole foundation. It is above
+    /// zero only for a punch.
     pub first: usize,
     /// Number of springs N of the whole foundation, the row of springs.
     pub points: usize,
@@ -25,13 +26,15 @@ pub struct Line {
 }
 
 impl Line {
-    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form the body is flat, and
-    /// without roughness it is smooth. `roughness` has one height for each spring, in units of the length `scale` in m. The
-    /// roughness has to be displaced by [`Form::shift`] already. The profile of a punch has only the springs of
+    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form
+    /// the body is flat, and without roughness it is smooth. `roughness` has one height for each
+    /// spring, in units of the length `scale` in m. The roughness has to be displaced by
+    /// [`Form::shift`] already. The profile of a punch has only the springs of
     /// [`Form::springs_under`].
     ///
     /// # Errors
-    /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies under a punch.
+    /// Returns an error if the memory is too small, if a height is not finite, or if no spring lies
+    /// under a punch.
     ///
     /// ```
     /// use asperity_surface::Form;
@@ -56,7 +59,8 @@ impl Line {
         Line::from_roughness(heights, length, form, scale)
     }
 
-    /// Creates the profile as [`Line::new`] does, and stores the gaps in the memory of the roughness.
+    /// Creates the profile as [`Line::new`] does, and stores the gaps in the memory of the
+    /// roughness.
     pub fn from_roughness(
         mut gaps: Vec<f64>,
         length: f64,
@@ -76,7 +80,8 @@ impl Line {
         match form {
             None => gaps.iter_mut().for_each(|z| *z *= scale),
             Some(form) => {
-                // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+                // Whole cells from the axis: exact, so that the profile is as symmetric as its
+                // form.
                 let axis = Form::spring_on_axis(points as u64) as f64;
                 let depths = form
                     .table()
@@ -115,7 +120,8 @@ impl Line {
     /// Returns the height in m of a point with this gap in m.
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
-        // The gap of the rounded height may be one digit off; then that of a neighbouring number is exact.
+        // The gap of the rounded height may be one digit off; then that of a neighbouring number is
+        // exact.
         let nearby = [height, height.next_up(), height.next_down()];
         nearby
             .into_iter()
@@ -169,11 +175,12 @@ pub struct Histogram {
 }
 
 impl Histogram {
-    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends included. Heights outside this
-    /// range are left out.
+    /// Counts finite `heights` (m) in `bins` equal bins between `low` and `high` (m), ends
+    /// included. Heights outside this range are left out.
     ///
     /// ```
-    /// let histogram = asperity_surface::lines::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
+    /// let histogram =
+    ///     asperity_surface::lines::Histogram::new([0.1, 0.2, 0.9].into_iter(), 0.0, 1.0, 2);
     /// assert_eq!(histogram.counts, [2, 1]);
     /// ```
     pub fn new(heights: impl Iterator<Item = f64>, low: f64, high: f64, bins: usize) -> Self {
@@ -188,7 +195,8 @@ impl Histogram {
     }
 }
 
-/// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells of this width in m.
+/// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells
+/// of this width in m.
 fn no_springs(spacing: f64) -> SurfaceError {
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
     refused(

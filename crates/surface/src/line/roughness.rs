@@ -1,4 +1,5 @@
-//! Synthesis of a self-affine profile of rms height 1 with random phases, by one inverse Fourier transform.
+//! Synthesis of a self-affine profile of rms height 1 with random phases, by one inverse Fourier
+//! transform.
 
 use super::modes::{Modes, phases};
 use super::spectrum::SelfAffine;
@@ -11,12 +12,12 @@ use std::sync::Arc;
 /// Number of modes below which another thread takes longer to start than it saves.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs for which the planned transform is kept for the next profile. It takes 20 bytes per spring, which
-/// on longer profiles are worth more than the time saved.
+/// Largest number of springs for which the planned transform is kept for the next profile. It takes
+/// 20 bytes per spring, which on longer profiles are worth more than the time saved.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Computes random self-affine profiles one after the other. It keeps the planned Fourier transform and its memory for
-/// the next profile.
+/// Computes random self-affine profiles one after the other. It keeps the planned Fourier transform
+/// and its memory for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -45,8 +46,9 @@ impl Transform {
 }
 
 impl Synthesizer {
-    /// Computes the profile of [`SelfAffine::heights`], displaced along the springs by `shift` spring spacings. Spring i then
-    /// has the height of this profile at x = (i + ½ − `shift`)L/N. The heights are stored in the memory of the vector `memory`.
+    /// Computes the profile of [`SelfAffine::heights`], displaced along the springs by `shift`
+    /// spring spacings. Spring i then has the height of this profile at x = (i + ½ − `shift`)L/N.
+    /// The heights are stored in the memory of the vector `memory`.
     pub fn synthesize(
         &mut self,
         spectrum: SelfAffine,
@@ -69,9 +71,9 @@ impl Synthesizer {
         self.transform((spectrum.first, spectrum.last), points, memory, draw)
     }
 
-    /// Sums cosine waves with k = `first..=last` periods over the length. Their amplitudes `amplitude`(k) are in m, and their
-    /// phases come from the seed. `last` is at most `points`/2. The heights are at the same positions as the heights of
-    /// [`Self::synthesize`].
+    /// Sums cosine waves with k = `first..=last` periods over the length. Their amplitudes
+    /// `amplitude`(k) are in m, and their phases come from the seed. `last` is at most `points`/2.
+    /// The heights are at the same positions as the heights of [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
@@ -91,8 +93,8 @@ impl Synthesizer {
         })
     }
 
-    /// Computes the heights of the modes `first..=last`. `draw` fills in their coefficients ½ A_k e^(iφ), from the mode `first`
-    /// on.
+    /// Computes the heights of the modes `first..=last`. `draw` fills in their coefficients ½ A_k
+    /// e^(iφ), from the mode `first` on.
     fn transform(
         &mut self,
         (first, last): (u64, u64),
@@ -133,17 +135,27 @@ impl Synthesizer {
 }
 
 impl SelfAffine {
-    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov (2012). The heights, in units
-    /// of the rms height, are at x = (i + ½)L/N on N = `points` springs. `points` has to be at least twice the last mode.
+    /// Computes a random profile with this spectrum by eqs. (8) and (9) of Popov and Filippov
+    /// (2012). The heights, in units of the rms height, are at x = (i + ½)L/N on N = `points`
+    /// springs. `points` has to be at least twice the last mode.
     ///
-    /// The unit is the rms height of the continuous profile, which is a sum of cosine waves. The rms of the N heights
-    /// differs from it only if the last mode is exactly N/2.
+    /// The unit is the rms height of the continuous profile, which is a sum of cosine waves. The
+    /// rms of the N heights differs from it only if the last mode is exactly N/2.
     ///
     /// ```
-    /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 128, roll_off_mode: 0.0 };
+    /// let spectrum = asperity_surface::SelfAffine {
+    ///     hurst: 0.8,
+    ///     first: 1,
+    ///     last: 128,
+    ///     roll_off_mode: 0.0,
+    /// };
     /// let heights = spectrum.heights(7, 1024)?;
     /// assert!((heights.iter().map(|z| z * z).sum::<f64>() / 1024.0 - 1.0).abs() < 1e-9);
-    /// assert_eq!(heights, spectrum.heights(7, 1024)?, "the same seed gives the same profile");
+    /// assert_eq!(
+    ///     heights,
+    ///     spectrum.heights(7, 1024)?,
+    ///     "the same seed gives the same profile"
+    /// );
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn heights(self, seed: u64, points: usize) -> Result<Vec<f64>, SurfaceError> {

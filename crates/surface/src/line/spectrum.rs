@@ -1,12 +1,12 @@
-//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9) of Popov and Filippov (2012), and roughness amplitudes of
-//! profiles.
+//! The self-affine spectrum of the equivalent profile, eqs. (4)–(9) of Popov and Filippov (2012),
+//! and roughness amplitudes of profiles.
 
 use asperity_data::{integral_of_power, sum_of_powers};
 use std::f64::consts::TAU;
 
-/// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over the length L and the wave
-/// numbers q_k = 2πk/L. Their amplitudes are A_k ∝ √k below the roll-off mode, eq. (8) of Popov and Filippov (2012), and A_k
-/// ∝ k^(−H−1/2) above it.
+/// Self-affine spectrum of a profile. The modes k = `first` … `last` are waves with k periods over
+/// the length L and the wave numbers q_k = 2πk/L. Their amplitudes are A_k ∝ √k below the roll-off
+/// mode, eq. (8) of Popov and Filippov (2012), and A_k ∝ k^(−H−1/2) above it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H, 0 < H < 1.
@@ -15,13 +15,14 @@ pub struct SelfAffine {
     pub first: u64,
     /// Last mode, the shortest wave; at least `first`.
     pub last: u64,
-    /// Mode at the roll-off: the length L divided by the roll-off wavelength. It need not be a whole number. With any value
-    /// up to `first`, such as 0, the spectrum has no roll-off.
+    /// Mode at the roll-off: the length L divided by the roll-off wavelength. It need not be a
+    /// whole number. With any value up to `first`, such as 0, the spectrum has no roll-off.
     pub roll_off_mode: f64,
 }
 
 impl SelfAffine {
-    /// Returns A_k/A₁, where A_k is the amplitude of mode k and A₁ the amplitude that mode 1 would have without a roll-off.
+    /// Returns A_k/A₁, where A_k is the amplitude of mode k and A₁ the amplitude that mode 1 would
+    /// have without a roll-off.
     #[inline]
     pub fn relative_amplitude(&self, mode: u64) -> f64 {
         let mode = mode as f64;
@@ -39,9 +40,10 @@ impl SelfAffine {
         -self.hurst - 0.5
     }
 
-    /// Returns the mean square height that one wave with `waves` periods over the length adds to a surface with this
-    /// spectrum. The unit is A₁², the square of the amplitude that mode 1 would have without a roll-off. `waves` need not be
-    /// a whole number. Returns 0 if `waves` is more than ½ below `first` or more than ½ above `last`.
+    /// Returns the mean square height that one wave with `waves` periods over the length adds to a
+    /// surface with this spectrum. The unit is A₁², the square of the amplitude that mode 1 would
+    /// have without a roll-off. `waves` need not be a whole number. Returns 0 if `waves` is more
+    /// than ½ below `first` or more than ½ above `last`.
     pub fn relative_variance_of_surface(&self, waves: f64) -> f64 {
         if waves < self.first as f64 - 0.5 || waves > self.last as f64 + 0.5 {
             return 0.0;
@@ -57,14 +59,15 @@ impl SelfAffine {
         square / (4.0 * std::f64::consts::PI * waves)
     }
 
-    /// Returns the rms height of the profile in units of A₁, which is √(Σ A_k²/2)/A₁. [`Self::relative_amplitude`] defines A_k
-    /// and A₁.
+    /// Returns the rms height of the profile in units of A₁, which is √(Σ A_k²/2)/A₁.
+    /// [`Self::relative_amplitude`] defines A_k and A₁.
     pub fn relative_rms(&self) -> f64 {
         (self.moment(0) / 2.0).sqrt()
     }
 
-    /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m. It is √(Σ A_k² q_k² / Σ
-    /// A_k²), summed over the modes k of the profile. A_k is the amplitude of mode k, and q_k its wave number.
+    /// Returns the rms gradient over the rms height, ⟨∇z⟩/h in 1/m, of a profile of length L in m.
+    /// It is √(Σ A_k² q_k² / Σ A_k²), summed over the modes k of the profile. A_k is the amplitude
+    /// of mode k, and q_k its wave number.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
@@ -78,10 +81,16 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
-    /// Returns the roughness amplitude of a profile that has this spectrum, the rms height 1 m and the length L in m.
+    /// Returns the roughness amplitude of a profile that has this spectrum, the rms height 1 m and
+    /// the length L in m.
     ///
     /// ```
-    /// let spectrum = asperity_surface::SelfAffine { hurst: 0.8, first: 1, last: 512, roll_off_mode: 0.0 };
+    /// let spectrum = asperity_surface::SelfAffine {
+    ///     hurst: 0.8,
+    ///     first: 1,
+    ///     last: 512,
+    ///     roll_off_mode: 0.0,
+    /// };
     /// let amplitude = spectrum.unit_amplitude(1e-4).scaled(1e-7); // rms height 100 nm
     /// assert!(amplitude.rms_height == 1e-7 && amplitude.rms_gradient > 0.0);
     /// ```
@@ -95,9 +104,9 @@ impl SelfAffine {
         }
     }
 
-    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the first to the last mode.
-    /// Without a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over these wave numbers, eqs. (5)–(7) and (12) of
-    /// Popov and Filippov (2012).
+    /// Returns the ratio ⟨∇z⟩/h in 1/m as if the profile had waves at all wave numbers from the
+    /// first to the last mode. Without a roll-off its square is ∫ q^(1−2H) dq / ∫ q^(−1−2H) dq over
+    /// these wave numbers, eqs. (5)–(7) and (12) of Popov and Filippov (2012).
     ///
     /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
@@ -117,8 +126,8 @@ impl SelfAffine {
         std::f64::consts::TAU / length * (integral(2) / height).sqrt()
     }
 
-    /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error of a few units in the last
-    /// place.
+    /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error
+    /// of a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
         let begins = (self.roll_off_mode.ceil() as u64)
             .max(self.first)
@@ -150,13 +159,14 @@ pub struct Amplitude {
     pub rms_gradient: f64,
     /// Root mean square curvature in 1/m.
     pub rms_curvature: f64,
-    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m, where A_k are the amplitudes and q_k the wave numbers of the waves of the
-    /// profile. It is 0 for a flat profile.
+    /// Mean wave number Σ q_k A_k²/Σ A_k² in rad/m, where A_k are the amplitudes and q_k the wave
+    /// numbers of the waves of the profile. It is 0 for a flat profile.
     pub mean_wave_number: f64,
 }
 
 impl Amplitude {
-    /// Returns the roughness amplitude of the profile after all its heights are multiplied by a factor.
+    /// Returns the roughness amplitude of the profile after all its heights are multiplied by a
+    /// factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitude {
             rms_height: factor * self.rms_height,
@@ -166,8 +176,8 @@ impl Amplitude {
         }
     }
 
-    /// Returns the roughness amplitude of the profile after it is stretched along x by the factor `times`, with the same
-    /// heights.
+    /// Returns the roughness amplitude of the profile after it is stretched along x by the factor
+    /// `times`, with the same heights.
     pub fn stretched(self, times: f64) -> Self {
         Amplitude {
             rms_height: self.rms_height,
@@ -177,8 +187,8 @@ impl Amplitude {
         }
     }
 
-    /// Computes the amplitude of modes k with these mean squares A_k²/2 (m²) on a length in m. The smallest come first, for
-    /// accuracy.
+    /// Computes the amplitude of modes k with these mean squares A_k²/2 (m²) on a length in m. The
+    /// smallest come first, for accuracy.
     pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
         let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
         for (mode, square) in squares {
@@ -197,16 +207,23 @@ impl Amplitude {
         }
     }
 
-    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in J/m² (Persson and
-    /// Tosatti, 2001). Here A_k are the amplitudes and q_k the wave numbers of the waves of the profile, and E* is the
-    /// effective modulus in Pa.
+    /// Returns the elastic energy per area that flattens the roughness, e_el = (E*/8) Σ q_k A_k² in
+    /// J/m² (Persson and Tosatti, 2001). Here A_k are the amplitudes and q_k the wave numbers of
+    /// the waves of the profile, and E* is the effective modulus in Pa.
     ///
     /// ```
     /// use asperity_surface::SelfAffine;
     /// use std::f64::consts::TAU;
     ///
     /// // A single wave: e_el = E* q h²/4.
-    /// let wave = SelfAffine { hurst: 0.5, first: 1, last: 1, roll_off_mode: 0.0 }.unit_amplitude(1e-6).scaled(1e-9);
+    /// let wave = SelfAffine {
+    ///     hurst: 0.5,
+    ///     first: 1,
+    ///     last: 1,
+    ///     roll_off_mode: 0.0,
+    /// }
+    /// .unit_amplitude(1e-6)
+    /// .scaled(1e-9);
     /// let expected = 1e6 * TAU / 1e-6 * 1e-18 / 4.0;
     /// assert!((wave.elastic_energy(1e6) / expected - 1.0).abs() < 1e-12);
     /// ```

@@ -1,7 +1,8 @@
 //! A body of revolution from a table of radii and depths, and its equivalent profile.
 //!
-//! Between two rows the depth is a cubic with limited slopes at the rows. So f′ = a + b s + c s² at the distance s behind a
-//! row. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the intervals between rows.
+//! Between two rows the depth is a cubic with limited slopes at the rows. So f′ = a + b s + c s² at
+//! the distance s behind a row. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum
+//! over the intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::Unit;
@@ -17,7 +18,8 @@ use std::sync::{Arc, LazyLock, OnceLock};
 const NODES: usize = 20;
 /// Number of points at which the equivalent profile is searched for its falling part.
 const STEPS: usize = 1024;
-/// Smallest allowed distance of two rows over the radius of the last row. The digits of a file resolve no smaller one.
+/// Smallest allowed distance of two rows over the radius of the last row. The digits of a file
+/// resolve no smaller one.
 const CLOSEST: f64 = 1e-9;
 
 /// Sine of the angle of an interval between rows below which power series are accurate to rounding.
@@ -39,7 +41,8 @@ const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 /
 const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
 /// Power series of ∫ (1 − cos)² over δ⁵ in δ².
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
-/// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the angle.
+/// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the
+/// angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
@@ -158,7 +161,8 @@ impl FormTable {
         self.radii[self.radii.len() - 1]
     }
 
-    /// Returns the depth f(r) in m at a radius in m. Beyond the last row the body goes on with its last slope.
+    /// Returns the depth f(r) in m at a radius in m. Beyond the last row the body goes on with its
+    /// last slope.
     pub(super) fn depth(&self, radius: f64) -> f64 {
         let along = |row: usize, distance: f64| {
             let [a, b, c] = self.slopes[row];
@@ -186,11 +190,12 @@ impl FormTable {
         Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
     }
 
-    /// Computes the contribution of the interval after a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to the radius `end` (m) in
-    /// the interval, which is at most x.
+    /// Computes the contribution of the interval after a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to
+    /// the radius `end` (m) in the interval, which is at most x.
     ///
-    /// Let δ be the difference of the angles arcsin(r/x) of r and of the row. Then r = u + c sin δ − u (1 − cos δ), where u is
-    /// the radius of the row and c = √(x² − u²). No term cancels, however close the rows.
+    /// Let δ be the difference of the angles arcsin(r/x) of r and of the row. Then r = u + c sin δ
+    /// − u (1 − cos δ), where u is the radius of the row and c = √(x² − u²). No term cancels,
+    /// however close the rows.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let (u, [a, b, c]) = (self.radii[row], self.slopes[row]);
         // Of a point on the row, rounding may leave x below u.
@@ -226,7 +231,8 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Computes the contribution of the intervals after these rows to g(x)/x. All of them end at x or below, in m.
+    /// Computes the contribution of the intervals after these rows to g(x)/x. All of them end at x
+    /// or below, in m.
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
@@ -237,11 +243,12 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing` (m) from the axis, the first
-    /// on the axis.
+    /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing`
+    /// (m) from the axis, the first on the axis.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
-        // One depth takes a square root for each row nearer the axis. If many depths lie between two rows, the contributions of
-        // rows at least one interval away are therefore interpolated by a polynomial.
+        // One depth takes a square root for each row nearer the axis. If many depths lie between
+        // two rows, the contributions of rows at least one interval away are therefore interpolated
+        // by a polynomial.
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.slopes.len() {
             let (low, high) = (self.radii[gap], self.radii[gap + 1]);
@@ -281,8 +288,9 @@ impl FormTable {
         Ok(depths)
     }
 
-    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent profile decreases. The search
-    /// ends at the distance `radius` in m. Returns `None` if the depth does not decrease up to this distance.
+    /// Finds the smallest distance from the axis in m beyond which the depth g of the equivalent
+    /// profile decreases. The search ends at the distance `radius` in m. Returns `None` if the
+    /// depth does not decrease up to this distance.
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;
@@ -295,9 +303,10 @@ impl FormTable {
     }
 }
 
-/// Returns the slope of the form at a row, from the secants between rows. It is the slope of the parabola through three rows,
-/// at most three times the smaller secant beside the row, and zero where the secants differ in sign. Between two rows the cubic
-/// then stays between their depths. Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
+/// Returns the slope of the form at a row, from the secants between rows. It is the slope of the
+/// parabola through three rows, at most three times the smaller secant beside the row, and zero
+/// where the secants differ in sign. Between two rows the cubic then stays between their depths.
+/// Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let last = secants.len() - 1;
     let one = row.saturating_sub(1).min(last.saturating_sub(1));

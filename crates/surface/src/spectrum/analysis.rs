@@ -1,4 +1,5 @@
-//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and the limits of all three.
+//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and the
+//! limits of all three.
 
 use super::fit::{Model, SelfAffineFit, fit_power_law};
 use super::interlaced;
@@ -17,12 +18,13 @@ const LEAST_POINTS: usize = 32;
 /// Share of the squared gradient that waves beyond the end of the spectrum may have.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points. `CHANCE` is the share of the floor that is
-/// attributed to chance.
+/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points. `CHANCE` is the
+/// share of the floor that is attributed to chance.
 const FLOOR: usize = 8;
 const CHANCE: f64 = 0.25;
 
-/// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before it.
+/// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before
+/// it.
 const DROP: f64 = 0.03;
 
 /// Smallest ratio of length to width of a map whose longest waves are taken from its rows alone.
@@ -31,21 +33,26 @@ const NARROW: f64 = 2.0;
 /// Number of waves before an end inside the scan that the self-affine fit leaves out.
 const BEFORE_END: f64 = 4.0;
 
-/// Relative difference within which lengths of two scans, or their distances between points, count as equal.
+/// Relative difference within which lengths of two scans, or their distances between points, count
+/// as equal.
 const SAME: f64 = 1e-6;
 
-/// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved wave number.
+/// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved
+/// wave number.
 const CONTINUED: f64 = 4.0;
 
 /// Options of the analysis of measured surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnalysisOptions {
-    /// Polynomial removed before the analysis. `Option::None` means the polynomial that the file of the surface states. If
-    /// the file states no polynomial, it means [`Detrend::Tilt`], or [`Detrend::Mean`] for a periodic surface.
+    /// Polynomial removed before the analysis. `Option::None` means the polynomial that the file of
+    /// the surface states. If the file states no polynomial, it means [`Detrend::Tilt`], or
+    /// [`Detrend::Mean`] for a periodic surface.
     pub detrend: Option<Detrend>,
-    /// True for a surface that continues periodically at its borders. The analysis then uses no window function.
+    /// True for a surface that continues periodically at its borders. The analysis then uses no
+    /// window function.
     pub periodic: bool,
-    /// Assumption on waves shorter than the shortest wave that the points resolve: whether the surface has such waves.
+    /// Assumption on waves shorter than the shortest wave that the points resolve: whether the
+    /// surface has such waves.
     pub end: End,
     /// Radius in m of the tip that measured the surface.
     pub tip_radius: Option<f64>,
@@ -57,20 +64,22 @@ pub struct AnalysisOptions {
 pub struct Analysis {
     /// Statistics of the heights of the measured points.
     pub statistics: PointStatistics,
-    /// Rms height in m of each surface, after removal of the polynomial of [`AnalysisOptions::detrend`].
+    /// Rms height in m of each surface, after removal of the polynomial of
+    /// [`AnalysisOptions::detrend`].
     pub rms_heights: Vec<f64>,
     /// Measured power spectra for each direction of the waves, averaged in bins of the wave number.
     pub spectra: Vec<(Along, Vec<Bin>)>,
     /// Isotropic spectrum fitted to the measured power spectra of all surfaces together.
     pub isotropic: IsotropicSpectrum,
-    /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge or finds no Hurst
-    /// exponent between 0 and 1.
+    /// Self-affine spectrum fitted to the same power spectra; `None` if the fit does not converge
+    /// or finds no Hurst exponent between 0 and 1.
     pub power_law: Option<SelfAffineFit>,
-    /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms height.
+    /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms
+    /// height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip of radius R resolves reliably: no curvature measured over this length is
-    /// below −1/(2R). If no length fulfils this, it is half the length of a row. `None` if no tip radius is given, or if the
-    /// tip resolves all waves.
+    /// Shortest wavelength in m that the tip of radius R resolves reliably: no curvature measured
+    /// over this length is below −1/(2R). If no length fulfils this, it is half the length of a
+    /// row. `None` if no tip radius is given, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -78,19 +87,21 @@ pub struct Analysis {
     pub maps: u64,
     /// Length in m of the longest row of all surfaces.
     pub length: f64,
-    /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved one.
+    /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved
+    /// one.
     pub end: End,
-    /// True if the shortest waves that the points resolve have no significant power. The spectrum then ends before these waves.
+    /// True if the shortest waves that the points resolve have no significant power. The spectrum
+    /// then ends before these waves.
     pub ends_inside: bool,
-    /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns of such a map are offset
-    /// against each other, or were levelled one by one.
+    /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns
+    /// of such a map are offset against each other, or were levelled one by one.
     pub offsets: bool,
-    /// Largest difference between the squared gradient of waves parallel to an axis of a map and the value expected from
-    /// waves in neighbouring directions. It is divided by the squared gradient of the map. The value is 0 if the difference
-    /// may be chance.
+    /// Largest difference between the squared gradient of waves parallel to an axis of a map and
+    /// the value expected from waves in neighbouring directions. It is divided by the squared
+    /// gradient of the map. The value is 0 if the difference may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were from two scans. `None` if
-    /// no map has such a displacement.
+    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were
+    /// from two scans. `None` if no map has such a displacement.
     pub displaced: Option<f64>,
 }
 
@@ -99,8 +110,8 @@ pub struct Analysis {
 struct Powers {
     profiles: Vec<ProfilePower>,
     maps: Vec<MapPower>,
-    /// Power spectra along long and narrow maps. Each has the wave number in rad/m below which it replaces the spectrum of the
-    /// map.
+    /// Power spectra along long and narrow maps. Each has the wave number in rad/m below which it
+    /// replaces the spectrum of the map.
     strips: Vec<(ProfilePower, f64)>,
     /// Power spectra along the rows and along the columns of maps, for display.
     axes: [Vec<ProfilePower>; 2],
@@ -109,21 +120,32 @@ struct Powers {
 /// Analyses surfaces as samples of the same isotropic roughness.
 ///
 /// # Errors
-/// Returns an error for a surface with uneven points, with too few points or without roughness. Also returns an error if
-/// [`AnalysisOptions::end`] is [`End::Continues`] with a wave number that the points resolve already.
+/// Returns an error for a surface with uneven points, with too few points or without roughness.
+/// Also returns an error if [`AnalysisOptions::end`] is [`End::Continues`] with a wave number that
+/// the points resolve already.
 ///
 /// ```
 /// use asperity_surface::{AnalysisOptions, Topography, analyse};
 ///
-/// let height = |i: u32| (1..60).map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k)).sum::<f64>();
+/// let height = |i: u32| {
+///     (1..60)
+///         .map(|k| f64::from(i * k * k + 7 * k).sin() / f64::from(k))
+///         .sum::<f64>()
+/// };
 /// let heights: Vec<f64> = (0..256).map(|i| 3e-8 * height(i)).collect();
-/// let found = analyse(&[Topography::from_profile(&heights, 1e-6)?], &AnalysisOptions::default())?;
+/// let found = analyse(
+///     &[Topography::from_profile(&heights, 1e-6)?],
+///     &AnalysisOptions::default(),
+/// )?;
 /// // κ² = E* h⟨∇z⟩/γ with its error, for E* = 1 MPa and γ = 50 mJ/m².
 /// let kappa = found.line.height_gradient.scaled(1e6 / 0.05).root();
 /// assert!(kappa.value > 0.0 && kappa.error > 0.0 && kappa.error < kappa.value);
 /// // The power of the equivalent line is q C2D/2.
 /// let [_, high] = found.isotropic.range();
-/// assert_eq!(found.isotropic.line(high), 0.5 * high * found.isotropic.c2d(high));
+/// assert_eq!(
+///     found.isotropic.line(high),
+///     0.5 * high * found.isotropic.c2d(high)
+/// );
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
 pub fn analyse(
@@ -276,7 +298,8 @@ pub fn analyse(
     })
 }
 
-/// Checks that the heights without the removed polynomial exceed the rounding errors of the original heights.
+/// Checks that the heights without the removed polynomial exceed the rounding errors of the
+/// original heights.
 fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SurfaceError> {
     let largest = |heights: &[f64]| {
         heights
@@ -295,8 +318,9 @@ fn check_rough(before: &[f64], after: &[f64]) -> Result<(), SurfaceError> {
 }
 
 impl Powers {
-    /// Computes the power spectra of surfaces after removal of a polynomial. The heights are from [`Topography::copied_heights`].
-    /// `check` receives them with the distances between the points in m.
+    /// Computes the power spectra of surfaces after removal of a polynomial. The heights are from
+    /// [`Topography::copied_heights`]. `check` receives them with the distances between the points
+    /// in m.
     fn of(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -401,8 +425,9 @@ impl Powers {
             .collect()
     }
 
-    /// Returns the range of wave numbers in rad/m, from wave 1 of the longest surface to the last wave of the finest surface, for
-    /// profiles half a wave further. `last` returns the number of the last wave of a spectrum.
+    /// Returns the range of wave numbers in rad/m, from wave 1 of the longest surface to the last
+    /// wave of the finest surface, for profiles half a wave further. `last` returns the number of
+    /// the last wave of a spectrum.
     fn range(&self, last: impl Fn(&[(f64, f64)]) -> usize) -> [f64; 2] {
         let profiles = self.profiles.iter().map(|power| {
             let count = last(&power.waves);
@@ -451,9 +476,10 @@ impl Powers {
     }
 }
 
-/// Finds the end of a spectrum of waves (wave number, power). Returns the number of waves after which the rest has a negligible
-/// share of the squared gradient and far smaller power, or the number of all waves if there is no end. With `has_floor` only the
-/// power above the level of the last waves counts, because errors of single interpolated points add the same power to all waves.
+/// Finds the end of a spectrum of waves (wave number, power). Returns the number of waves after
+/// which the rest has a negligible share of the squared gradient and far smaller power, or the
+/// number of all waves if there is no end. With `has_floor` only the power above the level of the
+/// last waves counts, because errors of single interpolated points add the same power to all waves.
 fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     let sum = |waves: &[(f64, f64)]| waves.iter().map(square).sum::<f64>();
     let squares = |waves: &[(f64, f64)]| waves.iter().map(|(q, _)| q * q).sum::<f64>();
@@ -481,7 +507,8 @@ fn last_significant(waves: &[(f64, f64)], has_floor: bool) -> usize {
     }
 }
 
-/// Returns the power spectrum of profiles with this number and spacing of points, a new one if there is none yet.
+/// Returns the power spectrum of profiles with this number and spacing of points, a new one if
+/// there is none yet.
 fn group(
     powers: &mut Vec<ProfilePower>,
     points: usize,
@@ -499,8 +526,8 @@ fn group(
 }
 
 impl Analysis {
-    /// Returns the share of the mean square height of the equivalent line that comes from waves longer than a quarter of
-    /// [`Analysis::length`].
+    /// Returns the share of the mean square height of the equivalent line that comes from waves
+    /// longer than a quarter of [`Analysis::length`].
     pub fn long_wave_share(&self) -> f64 {
         let all = self.isotropic.integrals()[0];
         1.0 - self.isotropic.moment(1, 4.0 * TAU / self.length).0 / all

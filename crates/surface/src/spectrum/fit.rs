@@ -1,7 +1,9 @@
-//! The spectrum of largest penalised likelihood (Whittle). The powers of waves are exponentially distributed about their means.
+//! The spectrum of largest penalised likelihood (Whittle). The powers of waves are exponentially
+//! distributed about their means.
 //!
-//! The sum Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised over the values x = ln C2D at the nodes. P are the
-//! observed powers of w waves each, and m(x) their means. Steps follow Fisher's scoring and are halved until the sum falls.
+//! The sum Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised over the values x = ln
+//! C2D at the nodes. P are the observed powers of w waves each, and m(x) their means. Steps follow
+//! Fisher's scoring and are halved until the sum falls.
 //!
 //! In the self-affine fit C2D is constant below a roll-off wave number and ∝ q^(−2−2H) above.
 
@@ -101,8 +103,8 @@ impl<'a> Model<'a> {
         (gradient, information)
     }
 
-    /// Returns the initial values: C2D from the powers as if it were a power law with the exponent −3, constant outside the
-    /// observations.
+    /// Returns the initial values: C2D from the powers as if it were a power law with the exponent
+    /// −3, constant outside the observations.
     fn start(&self) -> Vec<f64> {
         let count = self.nodes.count;
         let mut sums = vec![(0.0, 0.0); count];
@@ -142,8 +144,8 @@ impl<'a> Model<'a> {
         (0..count).map(between).collect()
     }
 
-    /// Finds the spectrum of the smallest objective. `None` if the information matrix is not positive definite, as for powers
-    /// that are zero or not finite.
+    /// Finds the spectrum of the smallest objective. `None` if the information matrix is not
+    /// positive definite, as for powers that are zero or not finite.
     pub fn fit(&self) -> Option<IsotropicSpectrum> {
         let moved = |values: &Vec<f64>, step: &[f64], share: f64| {
             let largest = step
@@ -172,9 +174,9 @@ impl<'a> Model<'a> {
         Some(found)
     }
 
-    /// Compares the moments of the measured powers with the moments of the fitted means over the same waves. Returns the largest
-    /// difference among profiles and maps of one kind, relative to the moments of the whole spectrum. With several kinds, only
-    /// the excess over chance counts.
+    /// Compares the moments of the measured powers with the moments of the fitted means over the
+    /// same waves. Returns the largest difference among profiles and maps of one kind, relative to
+    /// the moments of the whole spectrum. With several kinds, only the excess over chance counts.
     fn departure(&self, found: &IsotropicSpectrum) -> [f64; 3] {
         let mut largest = [0.0_f64; 3];
         let mut means = self.means(&found.values);
@@ -195,7 +197,8 @@ impl<'a> Model<'a> {
                 }
             }
             for ((largest, sum), variance) in largest.iter_mut().zip(sums).zip(variances) {
-                // Scans that share a spectrum depart from it by chance, which is in the statistical error.
+                // Scans that share a spectrum depart from it by chance, which is in the statistical
+                // error.
                 let chance = if kinds.len() > 1 {
                     2.0 * f64::sqrt(variance)
                 } else {
@@ -209,8 +212,9 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Minimises an objective by Fisher's scoring. Steps solve the linearised equations (gradient, information matrix) and are halved
-/// until the objective falls. `moved` makes a share of a step. `None` if an information matrix is not positive definite.
+/// Minimises an objective by Fisher's scoring. Steps solve the linearised equations (gradient,
+/// information matrix) and are halved until the objective falls. `moved` makes a share of a step.
+/// `None` if an information matrix is not positive definite.
 pub(super) fn descend<P>(
     start: P,
     most_steps: usize,
@@ -237,8 +241,8 @@ pub(super) fn descend<P>(
     least.is_finite().then_some((parameters, least))
 }
 
-/// Gain of the log-likelihood that justifies a roll-off. With one more parameter, chance exceeds this gain once in a hundred
-/// times.
+/// Gain of the log-likelihood that justifies a roll-off. With one more parameter, chance exceeds
+/// this gain once in a hundred times.
 const LEAST_GAIN: f64 = 3.3;
 
 /// Number of initial roll-off wave numbers per decade.
@@ -257,14 +261,15 @@ pub struct SelfAffineFit {
     pub hurst: ValueWithError,
     /// Roll-off wave number in rad/m; `None` if the fitted spectrum has no roll-off.
     pub roll_off: Option<ValueWithError>,
-    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. If there is no roll-off, it is C2D at the first
-    /// wave number of the fit.
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. If there is no
+    /// roll-off, it is C2D at the first wave number of the fit.
     pub level: ValueWithError,
 }
 
 impl SelfAffineFit {
-    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave number. `first` and `last`
-    /// are the wave numbers between which the surface has the spectrum. All wave numbers are in rad/m.
+    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
+    /// number. `first` and `last` are the wave numbers between which the surface has the spectrum.
+    /// All wave numbers are in rad/m.
     pub fn cut(&self, wave_number: f64, [first, last]: [f64; 2]) -> f64 {
         let corner = self.roll_off.map_or(first, |roll_off| roll_off.value);
         let (level, exponent) = (self.level.value, -2.0 - 2.0 * self.hurst.value);
@@ -306,8 +311,8 @@ impl Parameters {
     }
 }
 
-/// Fits a self-affine spectrum to the observations of a model. `spectrum` is the fit with nodes to the same observations. `None`
-/// if the fit does not converge or no exponent between 0 and 1 fits.
+/// Fits a self-affine spectrum to the observations of a model. `spectrum` is the fit with nodes to
+/// the same observations. `None` if the fit does not converge or no exponent between 0 and 1 fits.
 pub(super) fn fit_power_law(
     model: &Model<'_>,
     spectrum: &IsotropicSpectrum,
@@ -335,7 +340,8 @@ pub(super) fn fit_power_law(
     let with_roll_off = best.map_or(without.0.hurst, |(parameters, _)| parameters.hurst);
     let found = best.filter(|(_, misfit)| without.1 - misfit > LEAST_GAIN);
     let ((parameters, misfit), free) = found.map_or((without, 2), |found| (found, 3));
-    // Of a self-affine surface twice the difference has as its mean the number of further parameters of the spectrum.
+    // Of a self-affine surface twice the difference has as its mean the number of further
+    // parameters of the spectrum.
     let excess = 2.0 * (misfit - model.misfit(model.means(&spectrum.values)));
     let scale = (excess / (spectrum.values.len() - free) as f64)
         .max(1.0)
@@ -399,7 +405,8 @@ fn search(
     descend(start, most_steps, misfit, linearise, moved)
 }
 
-/// Computes the gradient and the information matrix of the misfit with respect to the first `free` parameters.
+/// Computes the gradient and the information matrix of the misfit with respect to the first `free`
+/// parameters.
 fn linearise(model: &Model<'_>, parameters: &Parameters, free: usize) -> (Vec<f64>, Vec<f64>) {
     let (mut gradient, mut information) = (vec![0.0; free], vec![0.0; free * free]);
     for (observed, terms) in model.observations.iter().zip(&model.terms) {

@@ -1,17 +1,21 @@
-//! Maps whose rows alternate between two scans, trace and retrace, that are displaced against each other along the rows.
+//! Maps whose rows alternate between two scans, trace and retrace, that are displaced against each
+//! other along the rows.
 
-/// Largest number of compared pairs of neighbouring rows, of each order, and the largest displacement searched, in points.
+/// Largest number of compared pairs of neighbouring rows, of each order, and the largest
+/// displacement searched, in points.
 const MOST_PAIRS: usize = 128;
 const REACH: usize = 16;
 
-/// Largest share of the mean square difference of neighbouring rows that may remain after the displacement.
+/// Largest share of the mean square difference of neighbouring rows that may remain after the
+/// displacement.
 const LEFT: f64 = 0.75;
 
-/// Returns the number of points by which the odd rows are displaced against the even rows; `None` unless this is certain.
+/// Returns the number of points by which the odd rows are displaced against the even rows; `None`
+/// unless this is certain.
 ///
-/// Neighbouring rows of a surface are most alike without a displacement, or with the same displacement from each row to the next.
-/// The latter results from a lay askew to the rows or from a drift. A displacement whose sign alternates from row to row comes
-/// from two scans.
+/// Neighbouring rows of a surface are most alike without a displacement, or with the same
+/// displacement from each row to the next. The latter results from a lay askew to the rows or from
+/// a drift. A displacement whose sign alternates from row to row comes from two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
     let rows = heights.len() / columns;
     let reach = REACH.min(columns / 8);

@@ -13,8 +13,8 @@ pub(super) use tests::known;
 /// Separates this use of the random generator from other uses.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
-/// The positive nodes of Gauss-Legendre quadrature on (−1, 1) with six nodes, and their weights. Errors are below 1e-9 for the
-/// pieces used here.
+/// The positive nodes of Gauss-Legendre quadrature on (−1, 1) with six nodes, and their weights.
+/// Errors are below 1e-9 for the pieces used here.
 const GAUSS: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
@@ -32,8 +32,8 @@ pub(super) fn gauss(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The spectrum ends at the wave number
-/// `end` in rad/m.
+/// Computes C_cut(k) = (1/π) ∫ C2D(√(k² + t²)) dt in m³ by the substitution t = k sinh u. The
+/// spectrum ends at the wave number `end` in rad/m.
 pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     let last = (end / wave_number).max(1.0).acosh();
     let pieces = (CUT_PIECES * last).ceil();
@@ -43,13 +43,15 @@ pub(super) fn cut(c2d: impl Fn(f64) -> f64, wave_number: f64, end: f64) -> f64 {
     terms.sum::<f64>() * wave_number / PI
 }
 
-/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured points resolve.
+/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured
+/// points resolve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum End {
     /// The surface has no waves shorter than the last resolved one.
     #[default]
     Ends,
-    /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the last two [nodes](Node).
+    /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the
+    /// last two [nodes](Node).
     Continues(f64),
 }
 
@@ -62,7 +64,8 @@ pub struct ValueWithError {
     pub error: f64,
 }
 
-/// A moment of a spectrum, such as the rms height, with its errors. All values have the unit of the moment.
+/// A moment of a spectrum, such as the rms height, with its errors. All values have the unit of the
+/// moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Moment {
@@ -74,9 +77,9 @@ pub struct Moment {
     pub statistical: f64,
     /// Standard error that results from the method of estimation.
     pub method: f64,
-    /// Largest change of the value if the surface has shorter waves than the points resolve: a power law down to a quarter
-    /// of the shortest resolved wavelength. The change is zero with [`End::Continues`], and if the spectrum ends before the
-    /// last resolved wave.
+    /// Largest change of the value if the surface has shorter waves than the points resolve: a
+    /// power law down to a quarter of the shortest resolved wavelength. The change is zero with
+    /// [`End::Continues`], and if the spectrum ends before the last resolved wave.
     pub missing_short_waves: f64,
 }
 
@@ -124,7 +127,8 @@ pub struct LineMoments {
     pub rms_gradient: Moment,
     /// Product of the rms height h and the rms gradient ⟨∇z⟩ in m.
     pub height_gradient: Moment,
-    /// Elastic energy per area that flattens the roughness, divided by the effective modulus: e_el/E* in m.
+    /// Elastic energy per area that flattens the roughness, divided by the effective modulus:
+    /// e_el/E* in m.
     pub energy_per_modulus: Moment,
 }
 
@@ -136,12 +140,14 @@ pub(super) struct Nodes {
     /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum in rad/m; beyond the last node for a spectrum that is continued.
+    /// Largest wave number of the spectrum in rad/m; beyond the last node for a spectrum that is
+    /// continued.
     pub end: f64,
 }
 
 impl Nodes {
-    /// Creates nodes between two wave numbers in rad/m, `per_decade` of them in a decade, for a spectrum with this end.
+    /// Creates nodes between two wave numbers in rad/m, `per_decade` of them in a decade, for a
+    /// spectrum with this end.
     pub fn new(low: f64, high: f64, per_decade: f64, end: End) -> Self {
         let decades = (high / low).log10();
         let pieces = (per_decade * decades).ceil().max(2.0);
@@ -163,16 +169,16 @@ impl Nodes {
         (self.first + index as f64 * self.step).exp()
     }
 
-    /// Returns the index of the node below ln q, and the share of the way to the next node. A spectrum is constant below the
-    /// first node and extrapolated beyond the last.
+    /// Returns the index of the node below ln q, and the share of the way to the next node. A
+    /// spectrum is constant below the first node and extrapolated beyond the last.
     pub fn place(&self, ln_q: f64) -> (usize, f64) {
         let place = ((ln_q - self.first) / self.step).max(0.0);
         let index = (place as usize).min(self.count - 2);
         (index, place - index as f64)
     }
 
-    /// Returns the intervals of the wave number in rad/m, from `low` to the end of the spectrum, in each of which it is a power
-    /// law.
+    /// Returns the intervals of the wave number in rad/m, from `low` to the end of the spectrum, in
+    /// each of which it is a power law.
     pub fn pieces_from(self, low: f64) -> impl Iterator<Item = (f64, f64)> {
         let index = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
         // The logarithm of zero is below all nodes.
@@ -236,8 +242,8 @@ pub struct Node {
     pub line: f64,
 }
 
-/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at several wave numbers, the
-/// [nodes](Node). Between them ln C2D is linear in ln q.
+/// Isotropic two-dimensional power spectral density C2D(q) of a surface in m⁴. It is given at
+/// several wave numbers, the [nodes](Node). Between them ln C2D is linear in ln q.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
@@ -252,8 +258,8 @@ pub struct IsotropicSpectrum {
 }
 
 impl IsotropicSpectrum {
-    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is constant below the first node
-    /// and zero beyond the last wave number of the spectrum.
+    /// Returns the two-dimensional spectral density C2D in m⁴ at a wave number in rad/m. It is
+    /// constant below the first node and zero beyond the last wave number of the spectrum.
     pub fn c2d(&self, wave_number: f64) -> f64 {
         if wave_number > self.nodes.end {
             0.0
@@ -262,17 +268,20 @@ impl IsotropicSpectrum {
         }
     }
 
-    /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q in rad/m.
+    /// Returns the power spectral density of the equivalent line, q C2D/2 in m³, at a wave number q
+    /// in rad/m.
     pub fn line(&self, wave_number: f64) -> f64 {
         0.5 * wave_number * self.c2d(wave_number)
     }
 
-    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave number in rad/m.
+    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
+    /// number in rad/m.
     pub fn cut(&self, wave_number: f64) -> f64 {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the wave number in rad/m of the last node: that of the shortest wave that the measured points resolve.
+    /// Returns the wave number in rad/m of the last node: that of the shortest wave that the
+    /// measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
     }
@@ -308,8 +317,8 @@ impl IsotropicSpectrum {
         })
     }
 
-    /// Changes ln C2D at the nodes by `share` of a random step, drawn from the normal distribution of the errors of the fit.
-    /// `number` selects the step: equal numbers give equal steps.
+    /// Changes ln C2D at the nodes by `share` of a random step, drawn from the normal distribution
+    /// of the errors of the fit. `number` selects the step: equal numbers give equal steps.
     pub(crate) fn drawn(&self, number: u64, share: f64) -> IsotropicSpectrum {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&number.to_le_bytes());
@@ -340,8 +349,8 @@ impl IsotropicSpectrum {
         ((1.0 - share) * self.values[index] + share * self.values[index + 1]).exp()
     }
 
-    /// Computes ∫ q^power C2D dq over the waves from a wave number (rad/m) on, and its derivatives with respect to the values at
-    /// the nodes.
+    /// Computes ∫ q^power C2D dq over the waves from a wave number (rad/m) on, and its derivatives
+    /// with respect to the values at the nodes.
     pub(super) fn moment(&self, power: i32, from: f64) -> (f64, Vec<f64>) {
         let (mut sum, mut gradient) = (0.0, vec![0.0; self.values.len()]);
         for (low, high) in self.nodes.pieces_from(from) {
@@ -367,9 +376,10 @@ impl IsotropicSpectrum {
         [0, 1, 2].map(|index| there[index] / here[index] - 1.0)
     }
 
-    /// Adds to the errors of the method the departure of the rms height of the line from the measured height, if this is known.
-    /// Also adds the departure of its rms gradient from the gradient of the measured points beyond three standard errors, as
-    /// after a spike that the window hides.
+    /// Adds to the errors of the method the departure of the rms height of the line from the
+    /// measured height, if this is known. Also adds the departure of its rms gradient from the
+    /// gradient of the measured points beyond three standard errors, as after a spike that the
+    /// window hides.
     pub(super) fn check_identities(&mut self, height: Option<f64>, measured: &PointStatistics) {
         let resolved = line_moments(std::slice::from_ref(self));
         let gradient = measured.rms_gradient.unwrap_or(SQRT_2 * measured.rms_slope);
@@ -395,8 +405,9 @@ impl IsotropicSpectrum {
     }
 }
 
-/// Computes the moments of the equivalent line of faces with independent spectra, whose sum is its spectrum. Its waves begin at
-/// half the first wave number known for all faces, because wave 1 of a length represents the range from ½ to 1½.
+/// Computes the moments of the equivalent line of faces with independent spectra, whose sum is its
+/// spectrum. Its waves begin at half the first wave number known for all faces, because wave 1 of a
+/// length represents the range from ½ to 1½.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let from = faces
         .iter()
@@ -478,7 +489,8 @@ mod tests {
         );
         let expected = ((15.0 / 64.0 + 99.0) / (2.0 * PI)).sqrt();
         assert!((moments.rms_gradient.value / expected - 1.0).abs() < 1e-8);
-        // The error of a product is at most the sum of those of its factors, and at least their difference.
+        // The error of a product is at most the sum of those of its factors, and at least their
+        // difference.
         let relative = |moment: Moment| moment.error / moment.value;
         let (height, gradient) = (relative(moments.rms_height), relative(moments.rms_gradient));
         let product = relative(moments.height_gradient);

@@ -1,17 +1,18 @@
-//! Spectrum of a measured surface: the isotropic spectrum C2D(q) that follows from profiles and maps, its equivalent line, and
-//! the uncertainty of both.
+//! Spectrum of a measured surface: the isotropic spectrum C2D(q) that follows from profiles and
+//! maps, its equivalent line, and the uncertainty of both.
 //!
-//! A measured profile is a cut through a surface. It is not the equivalent line, which the method of dimensionality reduction
-//! needs. For an isotropic surface both follow from one spectrum:
+//! A measured profile is a cut through a surface. It is not the equivalent line, which the method
+//! of dimensionality reduction needs. For an isotropic surface both follow from one spectrum:
 //!
 //! C_cut(k) = (1/π) ∫₀^∞ C2D(√(k² + t²)) dt, C_line(q) = q C2D(q)/2.
 //!
-//! So the line has the same rms height as the cut, and √2 times the rms gradient and π/2 times the elastic energy of the cut.
-//! Inverting one periodogram amplifies its noise. The fit therefore maximises the likelihood of the periodograms, over spectra
-//! that are positive and smooth.
+//! So the line has the same rms height as the cut, and √2 times the rms gradient and π/2 times the
+//! elastic energy of the cut. Inverting one periodogram amplifies its noise. The fit therefore
+//! maximises the likelihood of the periodograms, over spectra that are positive and smooth.
 //!
-//! The wave number is q = 2π/wavelength in rad/m. The spectral densities C1D in m³ and C2D in m⁴ give the rms height h by h² =
-//! (1/π) ∫₀^∞ C1D dq = (1/2π) ∫₀^∞ q C2D dq. The steps are described in `docs/surface-estimate.md`.
+//! The wave number is q = 2π/wavelength in rad/m. The spectral densities C1D in m³ and C2D in m⁴
+//! give the rms height h by h² = (1/π) ∫₀^∞ C1D dq = (1/2π) ∫₀^∞ q C2D dq. The steps are described
+//! in `docs/surface-estimate.md`.
 
 pub(crate) mod analysis;
 pub(crate) mod detrend;

@@ -7,14 +7,16 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Number of waves of a profile that are single observations; shorter waves are averaged in bands.
 const SINGLE: usize = 32;
 
-/// Number of bands per decade. Within a band a power law with the exponent −3 departs from its mean by 0.1 %.
+/// Number of bands per decade. Within a band a power law with the exponent −3 departs from its mean
+/// by 0.1 %.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Number of waves under a Hann window that count as one independent wave. Powers at distances of 1 and 2 waves are correlated
-/// with the squares of 2/3 and 1/6.
+/// Number of waves under a Hann window that count as one independent wave. Powers at distances of 1
+/// and 2 waves are correlated with the squares of 2/3 and 1/6.
 const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
-/// Distance of waves, and the share that the power of each has in the mean power of a wave under a Hann window.
+/// Distance of waves, and the share that the power of each has in the mean power of a wave under a
+/// Hann window.
 const HANN_SHARES: [(f64, f64); 3] = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
 
 /// Largest number of aliases of a wave whose powers are added one by one.
@@ -27,14 +29,15 @@ pub(super) struct Observation {
     /// Mean power: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Width of the band in rad/m. Power times width times q^p is the contribution to a moment of the equivalent line.
+    /// Width of the band in rad/m. Power times width times q^p is the contribution to a moment of
+    /// the equivalent line.
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of the observed power, with the wave number of wave 1 (step) and of the sampling in rad/m. Waves that differ by the
-/// latter are aliases.
+/// Kind of the observed power, with the wave number of wave 1 (step) and of the sampling in rad/m.
+/// Waves that differ by the latter are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     /// Power of a cut through the surface: C1D.
@@ -43,8 +46,8 @@ pub(super) enum Kind {
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
-/// Returns the observations of the spectrum of profiles, from wave 1 on, or under a window from wave 2 on. Removing a polynomial
-/// reduces wave 1.
+/// Returns the observations of the spectrum of profiles, from wave 1 on, or under a window from
+/// wave 2 on. Removing a polynomial reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut {
         step: power.step,
@@ -82,8 +85,8 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     observed
 }
 
-/// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a polynomial reduces the waves
-/// around wave 1.
+/// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a
+/// polynomial reduces the waves around wave 1.
 pub(super) fn least_of_map(power: &MapPower) -> f64 {
     if power.windowed {
         2.0 * power.steps[0].max(power.steps[1])
@@ -137,9 +140,10 @@ pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
     observed.collect()
 }
 
-/// Computes the variance of the powers in a band over the square of their mean, averaged over the waves. It is 1 for a surface
-/// that is equal in all directions, and more for an anisotropic one, whose mean powers are less certain. A band is its number of
-/// waves and the sums of their wave numbers, powers and squared powers.
+/// Computes the variance of the powers in a band over the square of their mean, averaged over the
+/// waves. It is 1 for a surface that is equal in all directions, and more for an anisotropic one,
+/// whose mean powers are less certain. A band is its number of waves and the sums of their wave
+/// numbers, powers and squared powers.
 fn dispersion(bands: &[[f64; 4]]) -> f64 {
     let many = bands
         .iter()
@@ -157,8 +161,8 @@ fn dispersion(bands: &[[f64; 4]]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the equivalent line, p = 0, 1, 2. The
-    /// moments of a cut are 1, 2/π and 1/2 times these moments.
+    /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the
+    /// equivalent line, p = 0, 1, 2. The moments of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let (first, second) = if let Kind::Cut { .. } = self.kind {
             (FRAC_PI_2, 2.0)
@@ -169,8 +173,8 @@ impl Observation {
         [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
     }
 
-    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes, including aliases of waves that
-    /// the points do not resolve.
+    /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes,
+    /// including aliases of waves that the points do not resolve.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
         let mut terms = Vec::new();
         let shares: &[(f64, f64)] = if self.windowed {
@@ -222,8 +226,9 @@ impl Observation {
     }
 }
 
-/// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions. They are C2D at the distances
-/// of the reciprocal lattice of the sampling. Distant aliases are replaced by an integral.
+/// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions.
+/// They are C2D at the distances of the reciprocal lattice of the sampling. Distant aliases are
+/// replaced by an integral.
 fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [f64; 2]) {
     let most = f64::from(MOST_ALIASES);
     let mut add = |q: f64, weight: f64| {
@@ -249,8 +254,8 @@ fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [
     }
 }
 
-/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the variable the integrand has no
-/// pole.
+/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the
+/// variable the integrand has no pole.
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     for (low, high) in nodes.pieces_from(k) {
         let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
@@ -309,8 +314,8 @@ mod tests {
         for hurst in [0.3, 0.8] {
             // Roll-off at 10.
             let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
-            // Moments of the cut from its own spectrum; below half the first wave number the line has no waves, but
-            // the cut has the projections of waves across it.
+            // Moments of the cut from its own spectrum; below half the first wave number the line
+            // has no waves, but the cut has the projections of waves across it.
             let mut sums = [0.0; 3];
             let wave_numbers: Vec<f64> = (0..=600)
                 .map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0))

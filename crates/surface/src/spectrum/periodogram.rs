@@ -10,15 +10,17 @@ use std::ops::RangeInclusive;
 /// Number of bins per decade of wave numbers, for display.
 const BINS_PER_DECADE: f64 = 10.0;
 
-/// Direction of the waves of a measured spectrum. Each direction has its own spectral density in m³.
+/// Direction of the waves of a measured spectrum. Each direction has its own spectral density in
+/// m³.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Along {
-    /// Waves along a profile or along the rows of a map. Their spectral density is the one-dimensional density C1D.
+    /// Waves along a profile or along the rows of a map. Their spectral density is the
+    /// one-dimensional density C1D.
     X,
     /// Waves along the columns of a map. Their spectral density is the one-dimensional density C1D.
     Y,
-    /// Waves in all directions of a map. Their spectral density at the wave number q is q C2D/π, where C2D is the
-    /// two-dimensional density.
+    /// Waves in all directions of a map. Their spectral density at the wave number q is q C2D/π,
+    /// where C2D is the two-dimensional density.
     Radial,
 }
 
@@ -43,7 +45,8 @@ pub(super) struct ProfilePower {
     pub profiles: u64,
     /// Wave number of wave 1 in rad/m.
     pub step: f64,
-    /// Wave number in rad/m and summed C1D in m³ of the waves 1, 2, … below half the number of points.
+    /// Wave number in rad/m and summed C1D in m³ of the waves 1, 2, … below half the number of
+    /// points.
     pub waves: Vec<(f64, f64)>,
 }
 
@@ -78,8 +81,9 @@ impl ProfilePower {
     }
 }
 
-/// Computes the one-dimensional power spectral density C1D in m³ of heights (m) at equal distances `spacing` (m), averaged in
-/// bins of the wave number. `windowed` is true for heights that are not periodic; a window function is then applied.
+/// Computes the one-dimensional power spectral density C1D in m³ of heights (m) at equal distances
+/// `spacing` (m), averaged in bins of the wave number. `windowed` is true for heights that are not
+/// periodic; a window function is then applied.
 ///
 /// ```
 /// use asperity_surface::spectra::line_spectrum;
@@ -116,41 +120,48 @@ pub(super) struct MapPower {
     pub steps: [f64; 2],
     /// Wave number of the sampling along and between the rows in rad/m.
     pub sampling: [f64; 2],
-    /// Wave number in rad/m and C2D in m⁴ of the waves in half of the plane, up to the smaller Nyquist wave number, sorted by
-    /// wave number.
+    /// Wave number in rad/m and C2D in m⁴ of the waves in half of the plane, up to the smaller
+    /// Nyquist wave number, sorted by wave number.
     pub waves: Vec<(f64, f64)>,
-    /// True if the waves parallel to one axis are left out, because rows or columns are offset against each other or were
-    /// levelled one by one.
+    /// True if the waves parallel to one axis are left out, because rows or columns are offset
+    /// against each other or were levelled one by one.
     pub offsets: bool,
-    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the squared gradient. Waves that
-    /// are left out do not count.
+    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the
+    /// squared gradient. Waves that are left out do not count.
     pub apart: f64,
 }
 
-/// Smallest number of a wave along an axis that is compared with its neighbours, over the number of points.
+/// Smallest number of a wave along an axis that is compared with its neighbours, over the number of
+/// points.
 const COMPARED: f64 = 1.0 / 8.0;
 
-/// Smallest number of a wave that may be left out, over the number of points. Longer waves have more power than offsets.
+/// Smallest number of a wave that may be left out, over the number of points. Longer waves have
+/// more power than offsets.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Relative difference of the mean power of n waves along an axis from the mean power of their neighbours, times √n, above which
-/// it is not chance: about four standard deviations under a window.
+/// Relative difference of the mean power of n waves along an axis from the mean power of their
+/// neighbours, times √n, above which it is not chance: about four standard deviations under a
+/// window.
 const NO_CHANCE: f64 = 12.0;
 
-/// Distances from the axis, in waves, of the two groups of neighbouring waves. The power is an even function of the distance x,
-/// also on an anisotropic surface. Both groups together therefore extrapolate it to the axis as a + bx².
+/// Distances from the axis, in waves, of the two groups of neighbouring waves. The power is an even
+/// function of the distance x, also on an anisotropic surface. Both groups together therefore
+/// extrapolate it to the axis as a + bx².
 const NEAR: [RangeInclusive<f64>; 2] = [3.0..=5.0, 6.0..=8.0];
 const EXTRAPOLATED: f64 = 0.486;
 
-/// Share of the squared gradient above which the difference matters, and above which it is attributed to the surface itself.
+/// Share of the squared gradient above which the difference matters, and above which it is
+/// attributed to the surface itself.
 const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
 const LARGEST_OFFSETS: f64 = 0.25;
 
-/// Waves parallel to one axis, in which offsets of rows or columns appear, and their neighbours, in which they do not.
+/// Waves parallel to one axis, in which offsets of rows or columns appear, and their neighbours, in
+/// which they do not.
 #[derive(Default)]
 struct AxisPower {
     waves: Vec<(f64, f64)>,
-    /// Squared gradient and number of the short waves parallel to the axis, and of their neighbours in the plane.
+    /// Squared gradient and number of the short waves parallel to the axis, and of their neighbours
+    /// in the plane.
     on: (f64, f64),
     near: [(f64, f64); 2],
 }
@@ -169,8 +180,8 @@ impl AxisPower {
         }
     }
 
-    /// Returns the excess of the squared gradient of the waves parallel to the axis over their neighbours; zero if it may be
-    /// chance.
+    /// Returns the excess of the squared gradient of the waves parallel to the axis over their
+    /// neighbours; zero if it may be chance.
     fn departure(&self) -> f64 {
         let [near, farther] = self.near.map(|(sum, waves)| sum / waves);
         let expected = (near + EXTRAPOLATED * (near - farther)) * self.on.1;
@@ -184,8 +195,8 @@ impl AxisPower {
 }
 
 impl MapPower {
-    /// Computes the power spectrum of heights (m) in rows of `columns` points. If the rows were levelled one by one (`aligned`),
-    /// the waves between the rows are left out.
+    /// Computes the power spectrum of heights (m) in rows of `columns` points. If the rows were
+    /// levelled one by one (`aligned`), the waves between the rows are left out.
     pub fn new(
         heights: &[f64],
         columns: usize,
@@ -314,7 +325,8 @@ fn window(points: usize, windowed: bool) -> Vec<f64> {
     (0..points).map(|index| scale * hann(index)).collect()
 }
 
-/// Averages the powers of waves, given as (wave number, power, number of waves), in 10 bins per decade of the wave number.
+/// Averages the powers of waves, given as (wave number, power, number of waves), in 10 bins per
+/// decade of the wave number.
 pub(super) fn bins(waves: impl Iterator<Item = (f64, f64, u64)>) -> Vec<Bin> {
     let mut bins: std::collections::BTreeMap<i64, (f64, f64, u64)> =
         std::collections::BTreeMap::new();

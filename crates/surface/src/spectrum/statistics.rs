@@ -1,4 +1,5 @@
-//! Moments of the heights and gradients of measured points, and the shortest wavelength that a tip resolves.
+//! Moments of the heights and gradients of measured points, and the shortest wavelength that a tip
+//! resolves.
 
 use serde::Serialize;
 
@@ -8,16 +9,18 @@ use serde::Serialize;
 pub struct PointStatistics {
     /// Number of points of all surfaces together.
     pub points: usize,
-    /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a filter.
+    /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
+    /// filter.
     pub rms_height: f64,
     /// Root mean square slope of the surfaces along their rows, PΔq.
     pub rms_slope: f64,
-    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if any surface is a profile.
+    /// Root mean square gradient of maps, Sdq, from the slopes along and between rows; `None` if
+    /// any surface is a profile.
     pub rms_gradient: Option<f64>,
     /// Skewness: the mean cube of the height over the cube of the rms height.
     pub skewness: f64,
-    /// Kurtosis: the mean fourth power of the height over the fourth power of the rms height. It is 3 for normally distributed
-    /// heights.
+    /// Kurtosis: the mean fourth power of the height over the fourth power of the rms height. It is
+    /// 3 for normally distributed heights.
     pub kurtosis: f64,
 }
 
@@ -33,8 +36,8 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points. The points are at these distances
-    /// (m) along and between the rows.
+    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points. The
+    /// points are at these distances (m) along and between the rows.
     pub fn add(&mut self, heights: &[f64], columns: usize, [along, between]: [f64; 2]) {
         let level = heights[0];
         let mean = level + heights.iter().map(|z| z - level).sum::<f64>() / heights.len() as f64;
@@ -76,15 +79,16 @@ impl Sums {
     }
 }
 
-/// Share of the curvature of the tip above which artefacts appear (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
+/// Share of the curvature of the tip above which artefacts appear (Sanner et al., Appl. Surf. Sci.
+/// Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
-/// Finds the reliability cut-off in m, below which waves may be artefacts of the tip. It is the smallest stencil length 2sΔx (s
-/// whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x + sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in
-/// m.
+/// Finds the reliability cut-off in m, below which waves may be artefacts of the tip. It is the
+/// smallest stencil length 2sΔx (s whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x +
+/// sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in m.
 ///
-/// `None` if the condition already holds at the distance between points. If it holds nowhere, no wave is reliable, and the
-/// cut-off is half the length of a row.
+/// `None` if the condition already holds at the distance between points. If it holds nowhere, no
+/// wave is reliable, and the cut-off is half the length of a row.
 pub(crate) fn reliability_cutoff(
     heights: &[f64],
     columns: usize,

@@ -1,4 +1,5 @@
-//! Bounded reading of binary files: numbers, decompression and ZIP archives in memory, each within limits.
+//! Bounded reading of binary files: numbers, decompression and ZIP archives in memory, each within
+//! limits.
 
 use super::reading::MOST_POINTS;
 use crate::error::{Place, SurfaceError, refused};
@@ -12,8 +13,8 @@ use zip::ZipArchive;
 /// Largest size of a file in bytes.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// Number of decompressed bytes allowed for each byte of the file where no header states their number. Numbers as text expand by
-/// factors of three to six.
+/// Number of decompressed bytes allowed for each byte of the file where no header states their
+/// number. Numbers as text expand by factors of three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
 /// Number of decompressed bytes allowed on top of that.
@@ -32,7 +33,8 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     str::from_utf8(text).map_or_else(other, Cow::Borrowed)
 }
 
-/// Returns the size in bytes of compressed points of `size` bytes from their number in a header. Refuses a size above the limits.
+/// Returns the size in bytes of compressed points of `size` bytes from their number in a header.
+/// Refuses a size above the limits.
 pub(super) fn unpacked_size(
     points: usize,
     size: usize,
@@ -100,7 +102,8 @@ macro_rules! numbers {
 numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
     I64 "i8": i64, F16 "f2": u16 = half, F32 "f4": f32, F64 "f8": f64);
 
-/// Returns the half-precision number of 16 bits: the sign, 5 bits of an exponent, 10 bits of a fraction.
+/// Returns the half-precision number of 16 bits: the sign, 5 bits of an exponent, 10 bits of a
+/// fraction.
 fn half(bits: u16) -> f64 {
     let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
     let size = match exponent {
@@ -216,7 +219,8 @@ pub(super) struct Archive<'a> {
     most: usize,
 }
 
-/// Returns the name of a file in an archive in one spelling: with slashes between folders and without `.`.
+/// Returns the name of a file in an archive in one spelling: with slashes between folders and
+/// without `.`.
 fn plain_name(name: &str) -> String {
     let parts = name
         .split(['/', '\\'])
@@ -243,8 +247,8 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest to the root. Names of other
-    /// files are then relative to its folder.
+    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest
+    /// to the root. Names of other files are then relative to its folder.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let of_path = |path: &String| {
             let (folder, file) = path.rsplit_once('/').unwrap_or(("", path));

@@ -1,4 +1,5 @@
-//! Containers of contact.engineering: archives with an index, in JSON or YAML, that lists surfaces and their measurements.
+//! Containers of contact.engineering: archives with an index, in JSON or YAML, that lists surfaces
+//! and their measurements.
 
 use super::Unit;
 use super::reading::{ReadOptions, Reading};
@@ -60,7 +61,8 @@ struct Radius {
     unit: String,
 }
 
-/// Name of the file as measured, and of the file with the same heights after scaling and detrending.
+/// Name of the file as measured, and of the file with the same heights after scaling and
+/// detrending.
 #[derive(Deserialize)]
 struct Files {
     original: Option<String>,
@@ -77,8 +79,8 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface with this name, or the measurement with this name. Without a name, returns the
-/// measurements of the only surface.
+/// Returns the measurements of the surface with this name, or the measurement with this name.
+/// Without a name, returns the measurements of the only surface.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -139,8 +141,8 @@ pub(super) fn measurements(
 }
 
 impl Measurement {
-    /// Returns the name of the file with the scaled heights, whose format is always the same; if there is none, of the measured
-    /// file.
+    /// Returns the name of the file with the scaled heights, whose format is always the same; if
+    /// there is none, of the measured file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let names = self
             .datafile
@@ -176,7 +178,8 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Returns the polynomial that the container removes from the heights; `None` if it removes only the mean, its default.
+    /// Returns the polynomial that the container removes from the heights; `None` if it removes
+    /// only the mean, its default.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,

@@ -1,4 +1,5 @@
-//! Names of formats that are not read, by their first bytes or the files of an archive. A message can then state the way out.
+//! Names of formats that are not read, by their first bytes or the files of an archive. A message
+//! can then state the way out.
 
 use crate::error::{Place, SurfaceError, refused};
 
@@ -65,7 +66,8 @@ const ARCHIVES: [(&str, &str, &str); 5] = [
     ("header.properties", "an archive of JPK", CURVE),
 ];
 
-/// Returns an error with the name of the format if the content has a format that is known, but not read.
+/// Returns an error with the name of the format if the content has a format that is known, but not
+/// read.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     let known = SIGNATURES
         .iter()

@@ -7,7 +7,8 @@ use asperity_data::{gathered, resized};
 /// Smallest number of positions whose digits show an even grid. Fewer may be uneven by intention.
 const LEAST_PRINTED: usize = 32;
 
-/// Share of the largest distance between positions below which two positions are on the same line of a grid.
+/// Share of the largest distance between positions below which two positions are on the same line
+/// of a grid.
 const SAME_LINE: f64 = 0.05;
 
 /// Largest number of lines of a grid over the number of lines that have points.
@@ -16,14 +17,15 @@ const MOST_LINES: f64 = 1.25;
 /// Largest number of cells of a grid over the number of points: half of the points may be missing.
 const MOST_CELLS: usize = 2;
 
-/// Relative difference between the distance of points and the last printed digit below which a missing point looks like a
-/// rounded distance.
+/// Relative difference between the distance of points and the last printed digit below which a
+/// missing point looks like a rounded distance.
 const LIKE_DIGIT: f64 = 0.1;
 
 /// Limit of the number of cuts in the search for an even grid.
 const MOST_CUTS: usize = 64;
 
-/// Digits with which the numbers of a column are printed: the largest numbers of decimals and of significant digits.
+/// Digits with which the numbers of a column are printed: the largest numbers of decimals and of
+/// significant digits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Digits {
     decimals: i32,
@@ -71,8 +73,9 @@ impl Digits {
     }
 }
 
-/// Returns the first position and the distance of an even grid that agrees with all positions to within half a printed digit.
-/// Positions are given as (number, position) in the order of the numbers.
+/// Returns the first position and the distance of an even grid that agrees with all positions to
+/// within half a printed digit. Positions are given as (number, position) in the order of the
+/// numbers.
 fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     let [(_, first), .., (last_number, last)] = points else {
         return None;
@@ -116,7 +119,8 @@ fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
     None
 }
 
-/// Moves positions onto an even grid if that changes none by more than its printed digits. Otherwise they remain unchanged.
+/// Moves positions onto an even grid if that changes none by more than its printed digits.
+/// Otherwise they remain unchanged.
 pub(super) fn move_to_printed_grid(
     positions: &mut [f64],
     digits: Digits,
@@ -148,14 +152,15 @@ pub(super) fn move_to_printed_grid(
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
     pub first: f64,
-    /// Distance between lines, negative if the first points are in descending order; 0 for a single line.
+    /// Distance between lines, negative if the first points are in descending order; 0 for a single
+    /// line.
     pub distance: f64,
     pub count: usize,
 }
 
 impl Axis {
-    /// Finds the lines through the positions, some of which may be missing. The inner error is a position that lies off the even
-    /// grid.
+    /// Finds the lines through the positions, some of which may be missing. The inner error is a
+    /// position that lies off the even grid.
     pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, SurfaceError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,5 @@
-//! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are read.
+//! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are
+//! read.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -9,8 +10,9 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the channel with number N. Without a number, reads the only channel whose heights are in a
-/// unit of length, or if there is none, the only channel without a unit.
+/// Reads the data field `/N/data` of the channel with number N. Without a number, reads the only
+/// channel whose heights are in a unit of length, or if there is none, the only channel without a
+/// unit.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;

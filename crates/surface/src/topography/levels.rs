@@ -9,11 +9,12 @@ const MOST_LEVELS: usize = 256;
 /// Smallest number of points for each level: fewer points may all be on levels of their own.
 const LEAST_POINTS: usize = 4;
 
-/// Share of the squared differences between neighbours that rounding to levels adds, from which on a message states it.
+/// Share of the squared differences between neighbours that rounding to levels adds, from which on
+/// a message states it.
 const LARGE: f64 = 0.1;
 
-/// Returns a message about heights (m) in rows of `columns` points that have few levels. Rounding to steps s adds errors of mean
-/// square s²/12 to each of two neighbours.
+/// Returns a message about heights (m) in rows of `columns` points that have few levels. Rounding
+/// to steps s adds errors of mean square s²/12 to each of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     let mut found = HashSet::new();
     for height in heights.iter().filter(|height| height.is_finite()) {

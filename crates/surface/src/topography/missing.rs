@@ -1,5 +1,5 @@
-//! Interpolation of missing points from their neighbours, and removal of outliers. Outliers are heights far from the heights
-//! around them, such as spikes of an instrument and grains of dust.
+//! Interpolation of missing points from their neighbours, and removal of outliers. Outliers are
+//! heights far from the heights around them, such as spikes of an instrument and grains of dust.
 
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{OutOfMemory, between, gathered, median};
@@ -12,7 +12,8 @@ pub(super) fn count(heights: &[f64]) -> usize {
     heights.iter().filter(|height| !height.is_finite()).count()
 }
 
-/// Returns the ranges of columns and rows from the first to the last with a measured point; empty if no point is measured.
+/// Returns the ranges of columns and rows from the first to the last with a measured point; empty
+/// if no point is measured.
 pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
     let range = |places: &mut dyn Iterator<Item = usize>| {
         let reach = |(low, high): (usize, usize), place| (low.min(place), high.max(place + 1));
@@ -26,12 +27,12 @@ pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2
     ]
 }
 
-/// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one row. Returns the indices of
-/// the interpolated heights.
+/// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one
+/// row. Returns the indices of the interpolated heights.
 ///
-/// In a profile a missing height lies on the straight line between the nearest measured points on both sides, or equals the
-/// nearest one at an end. In a map it is the mean of its neighbours, like a soap film attached to the measured points: see
-/// [`fill`].
+/// In a profile a missing height lies on the straight line between the nearest measured points on
+/// both sides, or equals the nearest one at an end. In a map it is the mean of its neighbours, like
+/// a soap film attached to the measured points: see [`fill`].
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, SurfaceError> {
     let missing = count(heights);
     let share = 1.0 - missing as f64 / heights.len() as f64;
@@ -85,9 +86,10 @@ fn mean(heights: impl Iterator<Item = f64>) -> f64 {
 /// Number of passes over the missing points at each resolution.
 const PASSES: usize = 12;
 
-/// Fills the missing points at these indices from all sides. It begins with the means of blocks of 2 × 2 points, filled in the
-/// same way. It then replaces each height several times by the mean of its neighbours. This nearly solves Laplace's equation in
-/// the gaps, with zero slope across the borders of the map.
+/// Fills the missing points at these indices from all sides. It begins with the means of blocks of
+/// 2 × 2 points, filled in the same way. It then replaces each height several times by the mean of
+/// its neighbours. This nearly solves Laplace's equation in the gaps, with zero slope across the
+/// borders of the map.
 fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), OutOfMemory> {
     let rows = heights.len() / columns;
     let (half_columns, half_rows) = (columns.div_ceil(2), rows.div_ceil(2));
@@ -134,15 +136,17 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
 /// Number of points on either side, along each axis, with which a point is compared.
 const REACH: usize = 2;
 
-/// Least distance of an outlier from the median around it, in standard deviations of these distances.
+/// Least distance of an outlier from the median around it, in standard deviations of these
+/// distances.
 const FAR: f64 = 4.0;
 
 /// Standard deviation over median absolute deviation of the normal distribution.
 const OF_DEVIATION: f64 = 1.482_602_218_505_602;
 
-/// Marks outliers in rows of `columns` points as missing (NaN), by the identifier of Hampel, and returns their number. The
-/// distance of an outlier from the median of the points around it exceeds [`FAR`] standard deviations, which follow from the
-/// median of all distances. The tilt of the surface is allowed for, also at borders, where one side has fewer points.
+/// Marks outliers in rows of `columns` points as missing (NaN), by the identifier of Hampel, and
+/// returns their number. The distance of an outlier from the median of the points around it exceeds
+/// [`FAR`] standard deviations, which follow from the median of all distances. The tilt of the
+/// surface is allowed for, also at borders, where one side has fewer points.
 pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let rows = heights.len() / columns;
     let slope = |step: usize| {

@@ -1,9 +1,10 @@
 //! Measured surfaces: files of instruments and programs, read into heights in m.
 //!
-//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never guessed: if a file states none,
-//! [`ReadOptions`](crate::ReadOptions) has to state one. Every error names the place in the file and what is allowed there. A
-//! file of n bytes after decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes for
-//! each byte of the file, or at the number of heights that a header states, at most 1 GiB.
+//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never
+//! guessed: if a file states none, [`ReadOptions`](crate::ReadOptions) has to state one. Every
+//! error names the place in the file and what is allowed there. A file of n bytes after
+//! decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes
+//! for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 
 pub(crate) mod bytes;
 pub(crate) mod container;
@@ -28,7 +29,8 @@ use asperity_data::shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// Name, other spellings, and number per metre of each unit. The numbers are exact powers of ten, so that a division rounds once.
+/// Name, other spellings, and number per metre of each unit. The numbers are exact powers of ten,
+/// so that a division rounds once.
 const UNITS: [(&str, &str, f64); 7] = [
     ("m", "meter metre meters metres", 1.0),
     ("cm", "centimeter centimetre", 1e2),
@@ -113,7 +115,8 @@ impl Unit {
 impl FromStr for Unit {
     type Err = SurfaceError;
 
-    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`; words are not.
+    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`; words are
+    /// not.
     fn from_str(text: &str) -> Result<Unit, SurfaceError> {
         Unit::named(text, Place::File)
     }

@@ -1,5 +1,5 @@
-//! The format of Nanoscope (Digital Instruments, Veeco, Bruker): a header of text in sections, then the integer heights of each
-//! channel, from the lowest row up.
+//! The format of Nanoscope (Digital Instruments, Veeco, Bruker): a header of text in sections, then
+//! the integer heights of each channel, from the lowest row up.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
@@ -19,10 +19,12 @@ const MOST_CHANNELS: usize = 256;
 /// Words in the names of channels of heights; other lengths are deflections and amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
-/// Height of a step of the 2¹⁶ of files without a unit of heights, in m over the number in `Z magnify image`.
+/// Height of a step of the 2¹⁶ of files without a unit of heights, in m over the number in
+/// `Z magnify image`.
 const PER_MAGNIFICATION: f64 = 1.0e-7;
 
-/// Relative difference between the distances along and between rows from which on a message states both.
+/// Relative difference between the distances along and between rows from which on a message states
+/// both.
 const DIFFERENT: f64 = 0.01;
 
 /// Reads the channel with this number, from 0. Without a number, reads the only channel of heights.
@@ -100,8 +102,8 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
     ))
 }
 
-/// Returns the value of the first line `\key: value` of a section. Before the key may be `@` and the number of a group, as in
-/// `@2:Z scale`.
+/// Returns the value of the first line `\key: value` of a section. Before the key may be `@` and
+/// the number of a group, as in `@2:Z scale`.
 fn entry<'a>(section: &'a str, key: &str) -> Option<&'a str> {
     section.lines().find_map(|line| {
         let line = line.trim().strip_prefix('\\')?;
@@ -117,14 +119,16 @@ fn entry<'a>(section: &'a str, key: &str) -> Option<&'a str> {
     })
 }
 
-/// Returns the name of the channel of a section: the text in quotation marks, or in brackets, of `S [ZSensor] "Height Sensor"`.
+/// Returns the name of the channel of a section: the text in quotation marks, or in brackets, of
+/// `S [ZSensor] "Height Sensor"`.
 fn title(image: &str) -> &str {
     let name = entry(image, "Image data").unwrap_or_default();
     let quoted = || name.split('"').nth(1).filter(|name| !name.is_empty());
     quoted().or(name.split(['[', ']']).nth(1)).unwrap_or(name)
 }
 
-/// Returns the name of the scale that converts a value, the value and its unit, as in `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
+/// Returns the name of the scale that converts a value, the value and its unit, as in
+/// `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
 fn value(text: &str) -> Option<(Option<&str>, f64, &str)> {
     let mut rest = text.strip_prefix("V ").unwrap_or(text).trim();
     let mut scale = None;
@@ -143,7 +147,8 @@ fn value(text: &str) -> Option<(Option<&str>, f64, &str)> {
     Some((scale, number, words.next().unwrap_or_default()))
 }
 
-/// Returns the unit of length of the heights of a channel, and their range in this unit; `None` if they are no lengths.
+/// Returns the unit of length of the heights of a channel, and their range in this unit; `None` if
+/// they are no lengths.
 fn unit_and_scale(image: &str, sections: &[&str]) -> Option<(Unit, f64)> {
     let (scale, range, unit) = entry(image, "Z scale").and_then(value).unwrap_or_default();
     if let Some(unit) = length_unit(unit) {
@@ -255,7 +260,8 @@ fn reading(
 mod tests {
     use super::*;
 
-    /// A file with the entries of a scan and of its images; each image has the integers of two rows of three points.
+    /// A file with the entries of a scan and of its images; each image has the integers of two rows
+    /// of three points.
     fn file(scan: &str, images: &[&str], numbers: &[u8]) -> Vec<u8> {
         let mut header = format!("\\*File list\r\n\\Version: 0x07200000\r\n{scan}");
         for (index, image) in images.iter().enumerate() {

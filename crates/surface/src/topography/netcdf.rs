@@ -1,5 +1,5 @@
-//! NetCDF in its classic format (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography write it: a variable
-//! `heights` over positions `x`, and for a map also `y`.
+//! NetCDF in its classic format (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography
+//! write it: a variable `heights` over positions `x`, and for a map also `y`.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};

@@ -1,8 +1,9 @@
 //! NumPy arrays: a header in Python's notation, then the numbers.
 //!
-//! An array of n heights is a profile. An array of n × 2 numbers, or of n pairs of fields, holds the columns x and z of a
-//! profile. Any other array with two axes is a map, row by row. The header is parsed here, because the parser of the crate npyz
-//! takes seconds for 20 nested brackets, and twice as long for each further one.
+//! An array of n heights is a profile. An array of n × 2 numbers, or of n pairs of fields, holds
+//! the columns x and z of a profile. Any other array with two axes is a map, row by row. The header
+//! is parsed here, because the parser of the crate npyz takes seconds for 20 nested brackets, and
+//! twice as long for each further one.
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
@@ -42,9 +43,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Parses a NumPy array with at least two columns. Returns the names of the columns, and the numbers of each column. In a
-/// structured array the fields are the columns. In an array with two axes the number of columns is the length of the shorter
-/// axis.
+/// Parses a NumPy array with at least two columns. Returns the names of the columns, and the
+/// numbers of each column. In a structured array the fields are the columns. In an array with two
+/// axes the number of columns is the length of the shorter axis.
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
@@ -57,7 +58,8 @@ pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceErro
 }
 
 struct Header {
-    /// Names and types of the fields of a point; one field without a name in an array of plain numbers.
+    /// Names and types of the fields of a point; one field without a name in an array of plain
+    /// numbers.
     fields: Vec<(String, Number)>,
     order: Order,
     is_column_major: bool,

@@ -14,7 +14,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>;
 
-/// First bytes of the binary formats, with their readers. All other formats except SDF and archives are text.
+/// First bytes of the binary formats, with their readers. All other formats except SDF and archives
+/// are text.
 const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
     (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
@@ -29,8 +30,8 @@ const SIGNATURES: [(&[u8], BinaryReader); 7] = [
     (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
 ];
 
-/// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with several measurements of a
-/// surface, all measurements are read.
+/// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with
+/// several measurements of a surface, all measurements are read.
 ///
 /// # Errors
 /// Returns [`SurfaceError`] if the file cannot be read or holds no surface.
@@ -79,7 +80,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
     }
 }
 
-/// Reads a surface from the content of a file. From a container it reads all measurements of a surface.
+/// Reads a surface from the content of a file. From a container it reads all measurements of a
+/// surface.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     let is_archive = bytes.starts_with(ZIP);
     if let (Some(_), false) = (&options.surface_name, is_archive) {
@@ -162,7 +164,8 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
     )
 }
 
-/// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is compressed by gzip.
+/// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is
+/// compressed by gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());

@@ -1,4 +1,5 @@
-//! Conversion of the numbers of a file to heights in m: units, distances between points, missing points.
+//! Conversion of the numbers of a file to heights in m: units, distances between points, missing
+//! points.
 
 use super::surface::{Cropped, Cut, LARGEST, Layout, Topography};
 use super::{Unit, levels, missing};
@@ -9,8 +10,8 @@ use std::ops::Range;
 /// Largest number of points of a surface: 2 GiB of heights.
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
-/// Options for reading a surface: units and distances that a file may omit, the part of the file to read, and corrections of
-/// the heights.
+/// Options for reading a surface: units and distances that a file may omit, the part of the file to
+/// read, and corrections of the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// Unit of positions and heights if the file states none.
@@ -21,17 +22,21 @@ pub struct ReadOptions {
     pub convention: Option<Unit>,
     /// Distance between neighbouring points in m if the file states none.
     pub spacing: Option<f64>,
-    /// True if missing heights are interpolated from their neighbours. Otherwise a missing height is an error.
+    /// True if missing heights are interpolated from their neighbours. Otherwise a missing height
+    /// is an error.
     pub interpolate: bool,
     /// Number, from 0, of the channel to read from a file with several channels.
     pub channel: Option<u32>,
     /// Row or column of a map that is read as a profile. With `None` the whole map is read.
     pub cut: Option<Cut>,
-    /// True if a profile with uneven distances between points is interpolated at evenly spaced points.
+    /// True if a profile with uneven distances between points is interpolated at evenly spaced
+    /// points.
     pub resample: bool,
-    /// True if the median height of each row of a map is subtracted from the row, which removes offsets between rows.
+    /// True if the median height of each row of a map is subtracted from the row, which removes
+    /// offsets between rows.
     pub align_rows: bool,
-    /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated from their neighbours.
+    /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated
+    /// from their neighbours.
     pub robust: bool,
     /// Name of the surface or of the measurement to read from an archive with several measurements.
     pub surface_name: Option<String>,
@@ -49,7 +54,8 @@ pub(super) struct Reading {
     pub positions: Option<Vec<f64>>,
     /// Distances of evenly spaced points along and between rows, if the file states them.
     pub spacing: Option<[f64; 2]>,
-    /// Units of the positions along and between rows and of the heights, where the file states them.
+    /// Units of the positions along and between rows and of the heights, where the file states
+    /// them.
     pub units: [Option<Unit>; 3],
     /// Place of the first missing point, if the reader can name it better than by its number.
     pub first_missing: Option<Place>,
@@ -58,7 +64,8 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Creates evenly spaced heights in rows of `columns` points. A single row or column is a profile.
+    /// Creates evenly spaced heights in rows of `columns` points. A single row or column is a
+    /// profile.
     pub fn even(
         format: &'static str,
         heights: Vec<f64>,
@@ -86,7 +93,8 @@ impl Reading {
         }
     }
 
-    /// Creates a profile at positions in the order of the file. A profile scanned backwards is reversed.
+    /// Creates a profile at positions in the order of the file. A profile scanned backwards is
+    /// reversed.
     pub fn profile(
         format: &'static str,
         mut positions: Vec<f64>,
@@ -230,7 +238,8 @@ impl Reading {
         surface.checked()
     }
 
-    /// Converts heights and positions to m, and returns the surface or the row or column of it that the options choose.
+    /// Converts heights and positions to m, and returns the surface or the row or column of it that
+    /// the options choose.
     pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let mut surface = self.resolve(options)?;
         if let Some(cut) = options.cut {
@@ -243,7 +252,8 @@ impl Reading {
         }
     }
 
-    /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of a profile.
+    /// Leaves out empty rows and columns at the borders of a map, or missing points at the ends of
+    /// a profile.
     fn crop(&mut self) -> Cropped {
         let (columns, rows) = (self.columns, self.heights.len() / self.columns);
         let [across, down] = missing::measured_part(&self.heights, columns);
@@ -277,7 +287,8 @@ impl Reading {
         }
     }
 
-    /// Returns true if points are missing. Returns an error if they are part of what is read and are not to be interpolated.
+    /// Returns true if points are missing. Returns an error if they are part of what is read and
+    /// are not to be interpolated.
     fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, SurfaceError> {
         let is_missing = |index: &usize| !self.heights[*index].is_finite();
         let is_read = |index: &usize| {
@@ -312,7 +323,8 @@ impl Topography {
     /// Creates a profile from heights in m of points at equal distances of `spacing` in m.
     ///
     /// # Errors
-    /// Returns an error if there are fewer than two points, if a height is not finite, or if the distance is not above 0.
+    /// Returns an error if there are fewer than two points, if a height is not finite, or if the
+    /// distance is not above 0.
     ///
     /// ```
     /// let profile = asperity_surface::Topography::from_profile(&[1e-8, 3e-8, 2e-8], 1e-7)?;
@@ -325,15 +337,20 @@ impl Topography {
         Topography::from_map(heights, heights.len(), [spacing; 2])
     }
 
-    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the distance in m between
-    /// neighbouring points of a row, and the distance in m between neighbouring rows. A map of a single row or a single column
-    /// is a profile.
+    /// Creates a map from heights in m, row by row in rows of `columns` points. `spacing` has the
+    /// distance in m between neighbouring points of a row, and the distance in m between
+    /// neighbouring rows. A map of a single row or a single column is a profile.
     ///
     /// # Errors
-    /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights that is no multiple of `columns`.
+    /// Returns the errors of [`Topography::from_profile`], and an error for a number of heights
+    /// that is no multiple of `columns`.
     ///
     /// ```
-    /// let map = asperity_surface::Topography::from_map(&[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9], 3, [1e-6, 2e-6])?;
+    /// let map = asperity_surface::Topography::from_map(
+    ///     &[0.0, 1e-9, 2e-9, 3e-9, 4e-9, 5e-9],
+    ///     3,
+    ///     [1e-6, 2e-6],
+    /// )?;
     /// assert_eq!((map.rows(), map.spacing()?), (2, [1e-6, 2e-6]));
     /// assert!(asperity_surface::Topography::from_map(&[0.0; 5], 3, [1e-6; 2]).is_err());
     /// # Ok::<(), asperity_surface::SurfaceError>(())
@@ -351,19 +368,29 @@ impl Topography {
         Topography::from_map_with(heights, columns, spacing, &ReadOptions::default())
     }
 
-    /// Creates a map as [`Topography::from_map`] does, with the corrections of [`ReadOptions`] that a file has: a row or a
-    /// column alone, levelled rows, replaced outliers and interpolated points. A height of NaN is a missing point.
+    /// Creates a map as [`Topography::from_map`] does, with the corrections of [`ReadOptions`] that
+    /// a file has: a row or a column alone, levelled rows, replaced outliers and interpolated
+    /// points. A height of NaN is a missing point.
     ///
     /// # Errors
-    /// Returns the errors of [`Topography::from_map`], and an error for missing points that the options do not interpolate.
+    /// Returns the errors of [`Topography::from_map`], and an error for missing points that the
+    /// options do not interpolate.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, Topography};
     ///
     /// let heights = [0.0, f64::NAN, 2e-9, 3e-9];
-    /// let filled = ReadOptions { interpolate: true, ..ReadOptions::default() };
-    /// assert_eq!(Topography::from_map_with(&heights, 4, [1e-6; 2], &filled)?.heights[1], 1e-9);
-    /// assert!(Topography::from_map_with(&heights, 4, [1e-6; 2], &ReadOptions::default()).is_err());
+    /// let filled = ReadOptions {
+    ///     interpolate: true,
+    ///     ..ReadOptions::default()
+    /// };
+    /// assert_eq!(
+    ///     Topography::from_map_with(&heights, 4, [1e-6; 2], &filled)?.heights[1],
+    ///     1e-9
+    /// );
+    /// assert!(
+    ///     Topography::from_map_with(&heights, 4, [1e-6; 2], &ReadOptions::default()).is_err()
+    /// );
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn from_map_with(
@@ -429,8 +456,8 @@ fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     ))
 }
 
-/// Returns the unit of a quantity: as the file states, else as the user states, else by convention. `beside` is a unit that the
-/// file states for the positions alone.
+/// Returns the unit of a quantity: as the file states, else as the user states, else by convention.
+/// `beside` is a unit that the file states for the positions alone.
 fn unit(
     name: &str,
     stated: Option<Unit>,

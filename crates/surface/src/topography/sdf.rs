@@ -1,5 +1,6 @@
-//! Formats with a header of lines `key = value`. SDF of ISO 25178-71 and its predecessor BCR are text or binary, with heights
-//! as integers or real numbers and scales in m. Gwyddion Simple Field has 32-bit heights.
+//! Formats with a header of lines `key = value`. SDF of ISO 25178-71 and its predecessor BCR are
+//! text or binary, with heights as integers or real numbers and scales in m. Gwyddion Simple Field
+//! has 32-bit heights.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order};
@@ -8,8 +9,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use std::ops::RangeInclusive;
 
-/// Types of heights, indexed by their number in the header. Each has its name in BCR, the type, and the smallest and largest
-/// value, for real numbers to the digits that texts have.
+/// Types of heights, indexed by their number in the header. Each has its name in BCR, the type, and
+/// the smallest and largest value, for real numbers to the digits that texts have.
 const TYPES: [(&str, Number, [f64; 2]); 8] = [
     ("UCHAR", Number::U8, [0.0, 255.0]),
     ("UINTEGER", Number::U16, [0.0, 65_535.0]),
@@ -34,7 +35,8 @@ enum Version {
     Iso2,
 }
 
-/// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and the name of a version.
+/// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and the name of a
+/// version.
 pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
     matches!(bytes, [b'a' | b'A' | b'b' | b'B', family @ ..] if family.starts_with(b"ISO-") || family.starts_with(b"BCR-"))
@@ -64,7 +66,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Creates heights in rows of `columns` points, with the distances along and between rows and the unit of the heights in m.
+/// Creates heights in rows of `columns` points, with the distances along and between rows and the
+/// unit of the heights in m.
 fn reading(
     heights: Vec<f64>,
     columns: usize,
@@ -76,8 +79,9 @@ fn reading(
     reading.scaled(|height| missing.contains(&height), unit)
 }
 
-/// Returns the type with this number or name, and the range of heights that mark missing points. The range is around the smallest
-/// value in ISO, around the largest one in BCR and in types without negative values.
+/// Returns the type with this number or name, and the range of heights that mark missing points.
+/// The range is around the smallest value in ISO, around the largest one in BCR and in types
+/// without negative values.
 fn data_type(
     name: &str,
     version: Version,
@@ -109,7 +113,8 @@ fn data_type(
     Ok((number, missing))
 }
 
-/// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and comments after semicolons.
+/// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and
+/// comments after semicolons.
 fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
     let text = String::from_utf8_lossy(bytes);
@@ -266,7 +271,8 @@ impl Entries {
         }
     }
 
-    /// Returns the positive integer of a key. The error for a missing key lists all `required` keys.
+    /// Returns the positive integer of a key. The error for a missing key lists all `required`
+    /// keys.
     pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
         let Some((value, place)) = self.text(key) else {
             return Err(missing(key, required));
@@ -290,7 +296,8 @@ fn missing(key: &str, required: &str) -> SurfaceError {
 
 pub(super) const GSF: &[u8] = b"Gwyddion Simple Field 1.0\n";
 
-/// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of four bytes.
+/// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of
+/// four bytes.
 pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
         refused(

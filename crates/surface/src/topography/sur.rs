@@ -1,4 +1,5 @@
-//! The format SUR of Digital Surf: a header of 512 bytes, comments, and integer heights, plain or compressed.
+//! The format SUR of Digital Surf: a header of 512 bytes, comments, and integer heights, plain or
+//! compressed.
 
 use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
@@ -85,8 +86,8 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
     }
 }
 
-/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code page, which in Windows-1252
-/// reads as æ.
+/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code
+/// page, which in Windows-1252 reads as æ.
 fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, SurfaceError> {
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
     let text = decoded(field);
@@ -100,7 +101,8 @@ fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, SurfaceError> {
     )
 }
 
-/// Decompresses heights: a table with the size of each part before and after compression, then the parts.
+/// Decompresses heights: a table with the size of each part before and after compression, then the
+/// parts.
 fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>, SurfaceError> {
     let place = data.place();
     let expected = unpacked_size(points, number.size(), place.clone())?;

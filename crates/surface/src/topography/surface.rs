@@ -6,14 +6,15 @@ use asperity_data::{between, gathered};
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
-/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them, lengths and mean squares could
-/// overflow.
+/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them,
+/// lengths and mean squares could overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
 /// Share of the spacing by which points of an even grid may be displaced because of rounding.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
-/// Returns the index of the first position that lies off the even grid with this first position (m) and distance (m).
+/// Returns the index of the first position that lies off the even grid with this first position (m)
+/// and distance (m).
 pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
     let is_even = |(index, x): (usize, &f64)| {
         (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs()
@@ -42,8 +43,8 @@ pub(super) enum Layout {
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that have no measured point and are left out. For a profile the numbers
-/// of columns are numbers of points at its ends.
+/// Numbers of columns and rows at the borders of a map that have no measured point and are left
+/// out. For a profile the numbers of columns are numbers of points at its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -51,12 +52,14 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of columns and the number of rows left out, each counted at two opposite borders together.
+    /// Returns the number of columns and the number of rows left out, each counted at two opposite
+    /// borders together.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index in the file of a remaining point. `index` counts the remaining points in rows of `columns` points.
+    /// Returns the index in the file of a remaining point. `index` counts the remaining points in
+    /// rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let (row, column) = (
             index / columns + self.before[1],
@@ -84,9 +87,11 @@ pub struct Topography {
     pub(super) resampled: Vec<f64>,
     /// True if the rows were levelled one by one.
     pub(crate) aligned: bool,
-    /// Name of the measurement in an archive of several measurements; empty for a surface that has a file of its own.
+    /// Name of the measurement in an archive of several measurements; empty for a surface that has
+    /// a file of its own.
     pub name: String,
-    /// Polynomial to remove, and whether the surface is periodic at its borders, as a container states.
+    /// Polynomial to remove, and whether the surface is periodic at its borders, as a container
+    /// states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
     /// Messages for the user, each about something unusual in the file.
@@ -113,7 +118,8 @@ impl Topography {
         Err(refused(place, found, format!("at most {LARGEST:e}")))
     }
 
-    /// Returns the number of points whose heights are interpolated, missing points and replaced outliers together.
+    /// Returns the number of points whose heights are interpolated, missing points and replaced
+    /// outliers together.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -136,9 +142,10 @@ impl Topography {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights in m. With `quarters` above zero the copy differs by an estimate of the error of interpolation. Points
-    /// at this number of quarters of length and width from the interpolated points are then interpolated too. A resampled profile
-    /// gets back what resampling to its former positions and back would take.
+    /// Copies the heights in m. With `quarters` above zero the copy differs by an estimate of the
+    /// error of interpolation. Points at this number of quarters of length and width from the
+    /// interpolated points are then interpolated too. A resampled profile gets back what resampling
+    /// to its former positions and back would take.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
@@ -155,7 +162,8 @@ impl Topography {
                 interpolated(&places, &heights, 0.0, former.iter().copied()),
             )?;
             let smoother = interpolated(former, &there, 0.0, places.iter().copied());
-            // What was lost before is not lost again: the more, the more the distances between points vary.
+            // What was lost before is not lost again: the more, the more the distances between
+            // points vary.
             let squares = former
                 .windows(2)
                 .map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2))
@@ -186,7 +194,8 @@ impl Topography {
         self.heights.len() / self.columns
     }
 
-    /// Returns the positions in m and the heights in m of the points of a profile. Equally spaced points begin at x = 0.
+    /// Returns the positions in m and the heights in m of the points of a profile. Equally spaced
+    /// points begin at x = 0.
     ///
     /// # Errors
     /// Returns an error if the surface is a map.
@@ -194,9 +203,17 @@ impl Topography {
     /// ```
     /// use asperity_surface::Topography;
     ///
-    /// let (positions, heights) = Topography::from_profile(&[3e-9, 1e-9, 2e-9], 1e-6)?.into_profile()?;
-    /// assert_eq!((positions, heights), (vec![0.0, 1e-6, 2e-6], vec![3e-9, 1e-9, 2e-9]));
-    /// assert!(Topography::from_map(&[0.0, 1.0, 2.0, 3.0], 2, [1.0; 2])?.into_profile().is_err());
+    /// let (positions, heights) =
+    ///     Topography::from_profile(&[3e-9, 1e-9, 2e-9], 1e-6)?.into_profile()?;
+    /// assert_eq!(
+    ///     (positions, heights),
+    ///     (vec![0.0, 1e-6, 2e-6], vec![3e-9, 1e-9, 2e-9])
+    /// );
+    /// assert!(
+    ///     Topography::from_map(&[0.0, 1.0, 2.0, 3.0], 2, [1.0; 2])?
+    ///         .into_profile()
+    ///         .is_err()
+    /// );
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), SurfaceError> {
@@ -272,11 +289,12 @@ impl Topography {
         })
     }
 
-    /// Returns the distance between neighbouring points along the rows and the distance between rows, in m. Both are equal for
-    /// a profile.
+    /// Returns the distance between neighbouring points along the rows and the distance between
+    /// rows, in m. Both are equal for a profile.
     ///
     /// # Errors
-    /// Returns an error if a point of a profile is off an even grid by more than 0.1 % of the mean distance.
+    /// Returns an error if a point of a profile is off an even grid by more than 0.1 % of the mean
+    /// distance.
     ///
     /// ```
     /// use asperity_surface::{ReadOptions, parse};
@@ -310,7 +328,8 @@ impl Topography {
         }
     }
 
-    /// Resamples the profile at its mean spacing by linear interpolation. An equally spaced profile and a map remain unchanged.
+    /// Resamples the profile at its mean spacing by linear interpolation. An equally spaced profile
+    /// and a map remain unchanged.
     pub(super) fn resampled(mut self) -> Result<Self, SurfaceError> {
         if self.spacing().is_ok() {
             return Ok(self);
@@ -326,8 +345,9 @@ impl Topography {
     }
 }
 
-/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between at least two points. At a point
-/// it is its own height, bit for bit. Beyond the first and the last point it is the height of that point.
+/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between
+/// at least two points. At a point it is its own height, bit for bit. Beyond the first and the last
+/// point it is the height of that point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],

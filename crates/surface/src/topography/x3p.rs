@@ -1,4 +1,5 @@
-//! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths are in m.
+//! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths
+//! are in m.
 
 use super::Unit;
 use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
@@ -11,8 +12,9 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 const LONGEST_INDEX: usize = 1 << 26;
 
-/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The parser compares each
-/// attribute with all others of its element, and each declaration with all that the element inherits.
+/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The
+/// parser compares each attribute with all others of its element, and each declaration with all
+/// that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
 pub(super) const INDEX: &str = "main.xml";
@@ -129,7 +131,8 @@ impl<'a> Axis<'a> {
     }
 }
 
-/// Reads x, y and z of each point in m, from a binary file or a list in the index. An axis without coordinates remains empty.
+/// Reads x, y and z of each point in m, from a binary file or a list in the index. An axis without
+/// coordinates remains empty.
 fn coordinates(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
@@ -164,8 +167,8 @@ fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
     Ok([x?, y?, heights?])
 }
 
-/// Returns the profile, if the points are in one row with the same y, or else the map of points with positions of their own. A
-/// point without a position is left out.
+/// Returns the profile, if the points are in one row with the same y, or else the map of points
+/// with positions of their own. A point without a position is left out.
 fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == found[2].len();
     let [x, y, _] = &found;
@@ -208,7 +211,8 @@ fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     )
 }
 
-/// Returns an error for an index whose parsing would take far more time or memory than its length suggests.
+/// Returns an error for an index whose parsing would take far more time or memory than its length
+/// suggests.
 fn check_index(index: &str) -> Result<(), SurfaceError> {
     // The parser reserves memory for each of these signs; an element has four characters.
     if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
@@ -230,7 +234,8 @@ fn wrong(fault: impl std::fmt::Display, allowed: &str) -> SurfaceError {
     refused(Place::Part(INDEX.to_owned()), fault, allowed)
 }
 
-/// Reads the coordinates of a binary file of an archive, point by point. Points marked invalid in the bit field are missing.
+/// Reads the coordinates of a binary file of an archive, point by point. Points marked invalid in
+/// the bit field are missing.
 fn linked(
     archive: &mut Archive<'_>,
     root: Node<'_, '_>,
@@ -302,8 +307,8 @@ fn linked(
     Ok(found)
 }
 
-/// Reads the coordinates of a list in the index. The last number of each entry is a height, and an empty entry is a missing
-/// point.
+/// Reads the coordinates of a list in the index. The last number of each entry is a height, and an
+/// empty entry is a missing point.
 fn listed(
     root: Node<'_, '_>,
     points: usize,

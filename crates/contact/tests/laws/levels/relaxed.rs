@@ -1,5 +1,5 @@
-//! The rule on the line that runs straight from spring to spring, step by step along the levels: no tree, no
-//! threshold, no formula of the solver.
+//! The rule on the line that runs straight from spring to spring, step by step along the levels: no
+//! tree, no threshold, no formula of the solver.
 
 use super::super::body::Foundation;
 use crate::body::Body;
@@ -307,7 +307,8 @@ impl<'a> Relaxed<'a> {
         0.5 * self.stiffness * self.integral(|a, b| (a * a + a * b + b * b) / 3.0)
     }
 
-    /// Sum over all cells in contact of a mean along them, given the compressions at their ends, in cells.
+    /// Sum over all cells in contact of a mean along them, given the compressions at their ends, in
+    /// cells.
     fn integral(&self, mean: impl Fn(f64, f64) -> f64) -> f64 {
         let cell = |a: f64, b: f64| mean(self.indentation - a, self.indentation - b);
         let mut sum = 0.0;
@@ -334,7 +335,8 @@ impl<'a> Relaxed<'a> {
     }
 }
 
-/// Two neighbouring numbers between `low`, for which `is_past` is false, and `high`, for which it is true.
+/// Two neighbouring numbers between `low`, for which `is_past` is false, and `high`, for which it
+/// is true.
 fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> (f64, f64) {
     for _ in 0..200 {
         let middle = low + 0.5 * (high - low);

@@ -12,14 +12,15 @@ impl Text {
     /// Returns the text with `value` in place of the value at a path.
     ///
     /// # Errors
-    /// Returns an error if the text has no value at the path, or if `value` is not exactly one value.
+    /// Returns an error if the text has no value at the path, or if `value` is not exactly one
+    /// value.
     pub fn replace(&self, path: &str, value: &str) -> Result<Text, String> {
         let entry = self.span(path).ok_or("there is no such element")?;
         self.spliced(vec![(entry.value.clone(), value.to_string())], path, value)
     }
 
-    /// Returns the text with a new entry `name: value` in the group at a path. An empty path means the whole text. The new
-    /// entry comes after the entries whose names precede `name` in `order`.
+    /// Returns the text with a new entry `name: value` in the group at a path. An empty path means
+    /// the whole text. The new entry comes after the entries whose names precede `name` in `order`.
     ///
     /// # Errors
     /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
@@ -59,9 +60,10 @@ impl Text {
         self.spliced(splices, &path, value)
     }
 
-    /// Returns the text with other elements in the list at a path. An element with an index keeps the text and the comments
-    /// of that element in the present list. An element without an index is new, and the given text is its value. Returns
-    /// `None` if the present list is empty or missing, or if a comment would make the new text unreadable.
+    /// Returns the text with other elements in the list at a path. An element with an index keeps
+    /// the text and the comments of that element in the present list. An element without an index
+    /// is new, and the given text is its value. Returns `None` if the present list is empty or
+    /// missing, or if a comment would make the new text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let (old, mut start) = (self.inside(list), inside.start);
@@ -109,8 +111,8 @@ impl Text {
         Text::new(source).ok()
     }
 
-    /// Returns the text without the entry at a path, and without its line if nothing else is on the line. Without such an
-    /// entry the text stays as it is.
+    /// Returns the text without the entry at a path, and without its line if nothing else is on the
+    /// line. Without such an entry the text stays as it is.
     pub(in crate::scene) fn without_entry(&self, path: &str) -> Text {
         let Some(TextSpan { entry, comma, .. }) = self.span(path) else {
             return self.clone();
@@ -131,7 +133,8 @@ impl Text {
         self.without(removed)
     }
 
-    /// Returns the text without the comments after the entry at a path on the last line of the entry.
+    /// Returns the text without the comments after the entry at a path on the last line of the
+    /// entry.
     pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
         let mut text = self.clone();
         while let Some(range) = text.comment_beside(path) {
@@ -165,8 +168,8 @@ impl Text {
         Text::new(source).unwrap_or_else(|_| self.clone())
     }
 
-    /// Returns the insertions that put an entry after another one in the same style: on its own line, after the comment on
-    /// the line before, or on the same line.
+    /// Returns the insertions that put an entry after another one in the same style: on its own
+    /// line, after the comment on the line before, or on the same line.
     fn splices_after(
         &self,
         anchor: &TextSpan,
@@ -208,8 +211,8 @@ impl Text {
         breaks.find(is_outside)
     }
 
-    /// Returns the text after replacements in ascending order. Returns an error unless the value at the path is then exactly
-    /// `value`; a comment inside it could hide the text behind it.
+    /// Returns the text after replacements in ascending order. Returns an error unless the value at
+    /// the path is then exactly `value`; a comment inside it could hide the text behind it.
     fn spliced(
         &self,
         splices: Vec<(Range<usize>, String)>,
@@ -227,7 +230,8 @@ impl Text {
     }
 }
 
-/// Returns the blanks before an offset in its line; `None` on the first line, or if other characters precede it in the line.
+/// Returns the blanks before an offset in its line; `None` on the first line, or if other
+/// characters precede it in the line.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];

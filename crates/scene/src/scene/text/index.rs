@@ -1,8 +1,9 @@
 //! Places of the values in RON text, as one list.
 //!
-//! A path consists of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`, `roughness.modes.1`. The
-//! whole text has the empty path. Names of structs and variants do not count, and neither does `Some(…)`: in `roughness:
-//! Some(SelfAffine(hurst: 0.7))` the number 0.7 has the path `roughness.hurst`.
+//! A path consists of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`,
+//! `roughness.modes.1`. The whole text has the empty path. Names of structs and variants do not
+//! count, and neither does `Some(…)`: in `roughness: Some(SelfAffine(hurst: 0.7))` the number 0.7
+//! has the path `roughness.hurst`.
 
 use std::ops::Range;
 
@@ -11,8 +12,9 @@ use super::scan::{Kind, Scan, Token, Unreadable, scan};
 /// Length of a path from which on values are not indexed. No scene has a longer path.
 const LONGEST_PATH: usize = 100;
 
-/// RON text and the places of its values. A value is found by its path, which consists of the names of fields and of
-/// positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path means the whole text.
+/// RON text and the places of its values. A value is found by its path, which consists of the names
+/// of fields and of positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path
+/// means the whole text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     pub(super) source: String,
@@ -26,7 +28,8 @@ pub struct Text {
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Bytes of the whole entry `name: value`. For an element of a list, which has no name, they are the same as `value`.
+    /// Bytes of the whole entry `name: value`. For an element of a list, which has no name, they
+    /// are the same as `value`.
     pub entry: Range<usize>,
     /// Bytes of the value alone.
     pub value: Range<usize>,
@@ -49,7 +52,8 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     )
 }
 
-/// Returns the byte offset of a line and column, or of the end of the line or the text if that comes first.
+/// Returns the byte offset of a line and column, or of the end of the line or the text if that
+/// comes first.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
     let start: usize = lines
@@ -104,7 +108,8 @@ impl Text {
         self.spans.iter().find(|span| span.path == path)
     }
 
-    /// Returns the offset of the first byte of the value at a path, or of the nearest group around it.
+    /// Returns the offset of the first byte of the value at a path, or of the nearest group around
+    /// it.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
         let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
@@ -143,7 +148,8 @@ impl Text {
         self.comments.len()
     }
 
-    /// Returns the path of the innermost value whose entry contains a byte offset; empty if there is none.
+    /// Returns the path of the innermost value whose entry contains a byte offset; empty if there
+    /// is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
         let around = self
             .spans
@@ -161,8 +167,8 @@ struct Tokens<'t> {
 }
 
 impl Tokens<'_> {
-    /// Indexes the value that starts at the token `first`, in an entry that starts at the token `start`, and the values
-    /// inside it. Returns the token after the value.
+    /// Indexes the value that starts at the token `first`, in an entry that starts at the token
+    /// `start`, and the values inside it. Returns the token after the value.
     fn add(
         &self,
         path: String,
@@ -214,7 +220,8 @@ impl Tokens<'_> {
         Some(end)
     }
 
-    /// Returns the index of the token with which the whole value starts, after attributes such as `#![enable(…)]`.
+    /// Returns the index of the token with which the whole value starts, after attributes such as
+    /// `#![enable(…)]`.
     fn root(&self) -> Option<usize> {
         let mut index = 0;
         loop {

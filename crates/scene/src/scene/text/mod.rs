@@ -1,4 +1,5 @@
-//! Text in RON: places of values by path, and edits that keep the comments. This module knows no fields of a scene.
+//! Text in RON: places of values by path, and edits that keep the comments. This module knows no
+//! fields of a scene.
 //!
 //! [`Text::span`](index::Text::span) finds a value. [`Text::replace`](index::Text::replace) and
 //! [`Text::insert`](index::Text::insert) return a new text.
@@ -12,8 +13,8 @@ pub(crate) mod edit;
 pub(crate) mod index;
 pub(crate) mod scan;
 
-/// Reads a value from RON text. An optional value needs no `Some`, and a variant that holds one struct needs only one pair of
-/// brackets.
+/// Reads a value from RON text. An optional value needs no `Some`, and a variant that holds one
+/// struct needs only one pair of brackets.
 pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
     let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
     ron::Options::default()
@@ -21,8 +22,8 @@ pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
         .from_str(text)
 }
 
-/// Writes a number in RON with a decimal point, in the shortest text that reads back as the same number. A number much
-/// smaller or larger than one gets an exponent.
+/// Writes a number in RON with a decimal point, in the shortest text that reads back as the same
+/// number. A number much smaller or larger than one gets an exponent.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
@@ -35,7 +36,8 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
-/// Writes text as a RON string in quotes. Only characters that RON does not allow in a string are escaped.
+/// Writes text as a RON string in quotes. Only characters that RON does not allow in a string are
+/// escaped.
 pub fn ron_string(text: &str) -> String {
     let mut string = String::with_capacity(text.len() + 2);
     string.push('"');

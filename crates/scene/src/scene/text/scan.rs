@@ -1,7 +1,7 @@
 //! Tokens of RON text, in no more detail than is needed to find values.
 //!
-//! The package `ron` reports invalid text. This scanner finds the places of values, for messages and for edits that keep
-//! comments. Brackets may be nested to any depth.
+//! The package `ron` reports invalid text. This scanner finds the places of values, for messages
+//! and for edits that keep comments. Brackets may be nested to any depth.
 
 use std::ops::Range;
 
@@ -115,7 +115,8 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// Returns the offset of the first byte from `at` on that is neither blank nor comment, and records the comments before it.
+/// Returns the offset of the first byte from `at` on that is neither blank nor comment, and records
+/// the comments before it.
 fn skip_blank(
     text: &str,
     at: usize,
@@ -135,8 +136,8 @@ fn skip_blank(
     }
 }
 
-/// Returns the end of the comment that starts at this byte: the line break after `//`, the byte after `/* */`. Returns `None`
-/// if no comment starts there. Block comments may be nested.
+/// Returns the end of the comment that starts at this byte: the line break after `//`, the byte
+/// after `/* */`. Returns `None` if no comment starts there. Block comments may be nested.
 fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[at..];
     if rest.starts_with("//") {
@@ -169,7 +170,8 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
     })
 }
 
-/// Returns the end of the string or character that starts at this byte; `None` if none starts there.
+/// Returns the end of the string or character that starts at this byte; `None` if none starts
+/// there.
 fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
     let rest = &text[at..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);

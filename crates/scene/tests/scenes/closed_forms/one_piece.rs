@@ -1,17 +1,19 @@
-//! Closed forms of smooth bodies of revolution that touch in one piece, by the rule of Hess and by JKR, with one or two
-//! works of adhesion: a sphere, a cone, a power law, or a sphere with concentric waves (Guduru 2007), the simplest smooth
-//! body with a hysteresis due to its shape.
+//! Closed forms of smooth bodies of revolution that touch in one piece, by the rule of Hess and by
+//! JKR, with one or two works of adhesion: a sphere, a cone, a power law, or a sphere with
+//! concentric waves (Guduru 2007), the simplest smooth body with a hysteresis due to its shape.
 
 use crate::numerics::{integral, invert};
 use asperity_surface::Form;
 use asperity_surface::lines::{power_law_factor, struve_0};
 use std::f64::consts::PI;
 
-/// A body on a half-space with adhesion. With the equivalent profile g(a), of area G(a) from 0 to a, its contact of radius
-/// a is in equilibrium at the indentation d(a) = g(a) − √(2πaγ/E*), stable where d rises, under F(a) = 2E*(a d − G).
+/// A body on a half-space with adhesion. With the equivalent profile g(a), of area G(a) from 0 to
+/// a, its contact of radius a is in equilibrium at the indentation d(a) = g(a) − √(2πaγ/E*), stable
+/// where d rises, under F(a) = 2E*(a d − G).
 ///
-/// Where the profile does not rise everywhere, for waves with λ²/(AR) < 12.391, an inner spring may be the most stretched
-/// one, and the contact detaches earlier by the rule than by JKR ([`OnePiece::by_rule`]).
+/// Where the profile does not rise everywhere, for waves with λ²/(AR) < 12.391, an inner spring may
+/// be the most stretched one, and the contact detaches earlier by the rule than by JKR
+/// ([`OnePiece::by_rule`]).
 #[derive(Clone, Debug)]
 pub struct OnePiece {
     /// Neither a punch nor a flat face.
@@ -82,7 +84,8 @@ impl OnePiece {
         (2.0 * PI * a * self.work / self.modulus).sqrt()
     }
 
-    /// g at a radius, m: without the derivative of waves, which takes most of the time of [`OnePiece::profile`].
+    /// g at a radius, m: without the derivative of waves, which takes most of the time of
+    /// [`OnePiece::profile`].
     fn depth(&self, a: f64) -> f64 {
         let Form::WavySphere {
             radius,
@@ -171,8 +174,8 @@ impl OnePiece {
         )
     }
 
-    /// The ranges of a loading from one indentation to another: the edge is at the smallest radius at which d first exceeds
-    /// the indentation.
+    /// The ranges of a loading from one indentation to another: the edge is at the smallest radius
+    /// at which d first exceeds the indentation.
     pub fn loading(&self, from: f64, deepest: f64) -> Ranges {
         let (mut path, mut level) = (Vec::new(), from);
         for range in self.stable() {
@@ -186,8 +189,8 @@ impl OnePiece {
         path
     }
 
-    /// The ranges of an unloading from a radius to separation, the largest first: the edge is at the largest radius below
-    /// which d falls under the indentation.
+    /// The ranges of an unloading from a radius to separation, the largest first: the edge is at
+    /// the largest radius below which d falls under the indentation.
     pub fn unloading(&self, turn: f64) -> Ranges {
         let (mut path, mut level) = (Vec::new(), f64::INFINITY);
         let stable = self
@@ -243,7 +246,8 @@ impl OnePiece {
     }
 }
 
-/// A loop from separation to an indentation and back, with its edge pinned at the turn until the opening rule releases it.
+/// A loop from separation to an indentation and back, with its edge pinned at the turn until the
+/// opening rule releases it.
 pub struct Loop {
     pub closing: OnePiece,
     pub opening: OnePiece,
@@ -294,7 +298,8 @@ impl Loop {
         } = self;
         let mut best = (f64::INFINITY, 0.0);
         for &(low, high) in unloading {
-            // dF/da = 2E* (a dd/da − stretch) is zero inside, or the smallest force is at the end before a jump.
+            // dF/da = 2E* (a dd/da − stretch) is zero inside, or the smallest force is at the end
+            // before a jump.
             let steps = opening.radii(high).len() as u32;
             let radius = |k: u32| low + (high - low) * f64::from(k) / f64::from(steps);
             let change = |a: f64| a * opening.slope(a) - opening.stretch(a);

@@ -1,4 +1,5 @@
-//! A sphere with concentric waves, R = 1 m and E* = 1 MPa: jumps over waves, steep waves, and many short waves.
+//! A sphere with concentric waves, R = 1 m and E* = 1 MPa: jumps over waves, steep waves, and many
+//! short waves.
 
 use super::one_piece::{Loop, OnePiece};
 use super::{BOTH, Problem, judge};
@@ -73,7 +74,8 @@ fn wavy_spheres_converge_to_their_closed_form() {
 /// Indentation just above separation, m.
 const BACK: f64 = -0.0385;
 
-/// Back to just above separation and in again, so that an edge jumps over a wave on the way out and on the way in.
+/// Back to just above separation and in again, so that an edge jumps over a wave on the way out and
+/// on the way in.
 #[test]
 fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
     let deepest = 0.06;
@@ -95,7 +97,8 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
         let (mut jumps, mut followed, mut before) = (0, 0, None);
         for point in record.curve.iter().filter(|point| point.springs > 0) {
             let (d, found) = (point.indentation, 0.5 * point.contact_length);
-            // Beside a jump, and just before separation, either side is right to the error of the grid.
+            // Beside a jump, and just before separation, either side is right to the error of the
+            // grid.
             if d < BACK - 1e-9 {
                 continue;
             }
@@ -125,8 +128,8 @@ fn wavy_spheres_follow_both_branches_and_jumps_of_their_closed_form() {
     assert!(end(&history.legs[3]).springs == 0);
 }
 
-/// Where the profile falls behind a crest the rule of Hess detaches earlier than JKR. Both figures are of an independent
-/// computation.
+/// Where the profile falls behind a crest the rule of Hess detaches earlier than JKR. Both figures
+/// are of an independent computation.
 #[test]
 fn steep_waves_detach_by_the_rule_before_jkr() {
     for deepest in [0.02, 0.06, 0.1] {

@@ -4,7 +4,8 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use asperity_data::text_table::{Role, TextColumn};
 
-/// Limit of the number of columns of positions and heights; more columns are rows of a map, unless their names say otherwise.
+/// Limit of the number of columns of positions and heights; more columns are rows of a map, unless
+/// their names say otherwise.
 const MOST_NAMED: usize = 3;
 
 /// Indices of the columns of a list of points.

@@ -31,7 +31,8 @@ const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 
-/// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its second number, in wavelengths.
+/// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its
+/// second number, in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
 /// Unit of lengths in headers of SPIP and Wyko.
@@ -81,8 +82,8 @@ impl TextHeader {
         }
     }
 
-    /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a channel; any other line may
-    /// name columns.
+    /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a
+    /// channel; any other line may name columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
         if line.len() <= LONGEST && self.take_entry(line) {
@@ -196,7 +197,8 @@ impl TextHeader {
         true
     }
 
-    /// Returns the distances in m along and between the rows of a map with these numbers of columns and rows.
+    /// Returns the distances in m along and between the rows of a map with these numbers of columns
+    /// and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
         let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
             let (length, unit) = lengths[axis]?;
@@ -248,8 +250,8 @@ fn entry(line: &str) -> Option<(String, String)> {
     Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
 }
 
-/// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for the unit of all lengths, and
-/// `None` for another key.
+/// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for
+/// the unit of all lengths, and `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
     let words = || {
         key.split(|c: char| !c.is_alphanumeric())

@@ -5,7 +5,8 @@ use super::super::surface::first_uneven;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
-/// Smallest number of evenly spaced numbers that count as positions, if the numbers along the other axis are not evenly spaced.
+/// Smallest number of evenly spaced numbers that count as positions, if the numbers along the other
+/// axis are not evenly spaced.
 const LEAST_STEPS: usize = 8;
 
 /// Returns the first number and the step of numbers that rise or fall in even steps.
@@ -29,9 +30,9 @@ fn even_steps(
         .then_some([first, distance]))
 }
 
-/// Returns the map in rows of `columns` numbers. If the first row and column hold positions, they are removed and give the
-/// distances. If these positions only count from 0 or 1, the distances remain unknown. `digits` are the printed digits of the
-/// first row and column.
+/// Returns the map in rows of `columns` numbers. If the first row and column hold positions, they
+/// are removed and give the distances. If these positions only count from 0 or 1, the distances
+/// remain unknown. `digits` are the printed digits of the first row and column.
 pub(super) fn without_positions(
     mut numbers: Vec<f64>,
     columns: usize,

@@ -1,8 +1,11 @@
-//! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or several.
+//! Surfaces in text: columns of heights, positions and heights, or rows of a map, of one channel or
+//! several.
 //!
-//! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of numbers fixes the separator
-//! ([`Separator::of`](asperity_data::text_table::Separator::of)) and the number of columns ([`table::Table`]), which are heights, positions and heights, or rows
-//! of a map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins another channel.
+//! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of
+//! numbers fixes the separator ([`Separator::of`](asperity_data::text_table::Separator::of)) and
+//! the number of columns ([`table::Table`]), which are heights, positions and heights, or rows of a
+//! map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins
+//! another channel.
 
 pub(crate) mod columns;
 pub(crate) mod header;
@@ -32,8 +35,8 @@ struct Part {
     table: Option<Table>,
 }
 
-/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the only channel whose heights are
-/// lengths.
+/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the
+/// only channel whose heights are lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
     // Tables of results are in SI units.
     let metre = bytes
@@ -93,7 +96,8 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
     table.reading(&header, rows, is_open)
 }
 
-/// Returns true for a line after numbers that begins another header: words, or a comment with the name of a channel.
+/// Returns true for a line after numbers that begins another header: words, or a comment with the
+/// name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
     let Some(Part {
         table: Some(table), ..
@@ -117,8 +121,8 @@ fn no_numbers() -> SurfaceError {
     )
 }
 
-/// Returns the index of the part and the rows of the channel with this number. Without a number, chooses the only channel, or the
-/// only one whose heights are lengths.
+/// Returns the index of the part and the rows of the channel with this number. Without a number,
+/// chooses the only channel, or the only one whose heights are lengths.
 fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
     let with_numbers = parts
         .iter()

@@ -23,7 +23,8 @@ const MOST_COUNTS: usize = 3;
 pub(super) struct Table {
     separator: Separator,
     decimal: Decimal,
-    /// Number of cells of a line, including empty ones at its end, and number of cells up to the last one that is not empty.
+    /// Number of cells of a line, including empty ones at its end, and number of cells up to the
+    /// last one that is not empty.
     cells: usize,
     width: usize,
     values: Vec<f64>,
@@ -41,7 +42,8 @@ pub(super) struct Table {
     counts: Option<(usize, Vec<f64>)>,
 }
 
-/// Returns the number of cells of a line, and the number of cells up to the last one that is not empty.
+/// Returns the number of cells of a line, and the number of cells up to the last one that is not
+/// empty.
 fn widths(separator: Separator, line: &str) -> (usize, usize) {
     let count = |(_, width), (index, cell): (usize, &str)| {
         (index + 1, if cell.is_empty() { width } else { index + 1 })
@@ -66,7 +68,8 @@ fn is_word(cell: &str) -> bool {
     cell.contains(char::is_alphabetic) && !cell.contains(|c: char| c.is_ascii_digit())
 }
 
-/// Returns true for a line before the numbers. Its first cell is no number, another cell is a word, or all cells are empty.
+/// Returns true for a line before the numbers. Its first cell is no number, another cell is a word,
+/// or all cells are empty.
 pub(super) fn is_header(line: &str) -> bool {
     let separator = Separator::of(line);
     let is_none = |cell: &str| Decimal::default().read(cell, separator) == TextCell::NoNumber;
@@ -97,8 +100,8 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers. The line before belongs to the table if it has as many cells, most of them
-    /// numbers: positions after a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers. The line before belongs to the table if it
+    /// has as many cells, most of them numbers: positions after a word, as in `y\x 0 1 2`.
     pub fn new(
         before: Option<(usize, &str)>,
         number: usize,
@@ -170,7 +173,8 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line without white space around it. The first lines may count the rows and columns that follow.
+    /// Reads a line without white space around it. The first lines may count the rows and columns
+    /// that follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         let are_counts = self
             .values
@@ -276,8 +280,8 @@ impl Table {
             .map_or(1, |last| last + 1)
     }
 
-    /// Returns the ranges of rows between empty lines where these separate channels. A single range is returned if each row
-    /// follows an empty line, or the rows hold positions.
+    /// Returns the ranges of rows between empty lines where these separate channels. A single range
+    /// is returned if each row follows an empty line, or the rows hold positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let (rows, columns) = (self.rows(), self.columns());
         let are_apart = (columns == 1 || columns >= FEW_COLUMNS) && self.breaks.len() + 1 < rows;
@@ -463,7 +467,8 @@ impl Table {
         })
     }
 
-    /// Returns the positions in a column. They take the memory of all numbers, which are no longer needed.
+    /// Returns the positions in a column. They take the memory of all numbers, which are no longer
+    /// needed.
     fn take_positions(&mut self, column: usize) -> Result<Vec<f64>, SurfaceError> {
         let (cells, mut index) = (self.cells, 0);
         let mut positions = std::mem::take(&mut self.values);
@@ -492,8 +497,8 @@ impl Table {
         Ok(gathered(self.rows(), values)?)
     }
 
-    /// Returns an error unless the numbers before the first row are the numbers of rows, of distances between them, of columns or
-    /// of points.
+    /// Returns an error unless the numbers before the first row are the numbers of rows, of
+    /// distances between them, of columns or of points.
     fn check_counts(&self, of_map: &[usize]) -> Result<(), SurfaceError> {
         let Some((line, counts)) = &self.counts else {
             return Ok(());

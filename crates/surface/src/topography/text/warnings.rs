@@ -1,20 +1,24 @@
-//! Warnings of heights that are far from all others. They may be marks of missing points or numbers that were cut off.
+//! Warnings of heights that are far from all others. They may be marks of missing points or numbers
+//! that were cut off.
 
 use crate::error::Place;
 use asperity_data::median;
 
-/// Distance of a height from the median, over the median of all such distances, from which on the height is an error of the file.
+/// Distance of a height from the median, over the median of all such distances, from which on the
+/// height is an error of the file.
 const FAR: f64 = 1e6;
 
-/// Distance of one height from the median, over the next largest distance, from which on the height is an error of the file or a
-/// spike. Also the same ratio for the last height if its line has no end.
+/// Distance of one height from the median, over the next largest distance, from which on the height
+/// is an error of the file or a spike. Also the same ratio for the last height if its line has no
+/// end.
 const ALONE: f64 = 30.0;
 const ALONE_AT_OPEN_END: f64 = 10.0;
 
 /// Largest number of heights of which the median is computed.
 const SAMPLE: usize = 4096;
 
-/// Returns warnings for finite heights in the order of the file. `is_open` is true if the last line has no line end.
+/// Returns warnings for finite heights in the order of the file. `is_open` is true if the last line
+/// has no line end.
 pub(super) fn of_heights(
     heights: &[f64],
     is_open: bool,
