@@ -15,8 +15,8 @@ use asperity::scene::Regime;
 use asperity::scene::Simulation;
 use asperity::scene::fields::{FIELDS, Field, LEG_FORCE, Range};
 use asperity::study::{Changes, Ensemble, Found, Plan, Quantity, Question, Statistics};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 

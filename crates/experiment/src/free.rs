@@ -208,8 +208,8 @@ pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// Values of a curve with normal noise of this standard deviation.
     fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {

@@ -9,8 +9,8 @@ use crate::scene::radius_of;
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::Control;
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 use std::path::Path;
 

@@ -18,8 +18,8 @@ use crate::parameter::{Coordinate, Parameter};
 use crate::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
 use crate::space::Space;
 use asperity_contact::ContactError;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::ops::Range;
 
 const SEED: u64 = 29;

@@ -3,8 +3,8 @@
 use super::error::HalfSpaceError;
 use asperity_data::resized;
 use asperity_fourier::{Complex64, plan_inverse};
+use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
 /// Makes the heights of a random isotropic surface on a square of `cells` × `cells` points, row by

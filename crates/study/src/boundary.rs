@@ -13,8 +13,8 @@ use super::quantity::Quantity;
 use super::results::Results;
 use asperity_data::quantile;
 use asperity_scene::RoughnessParameter;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::path::Path;
 

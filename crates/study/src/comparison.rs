@@ -669,8 +669,8 @@ fn largest_residual(squares: &[SquareResult]) -> f64 {
 mod tests {
     use super::*;
     use asperity_scene::open;
+    use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// Returns the lines and squares of a rough square with other fields.
     fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<SquareResult>) {

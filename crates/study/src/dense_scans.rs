@@ -8,8 +8,8 @@ use crate::results::Results;
 use asperity_contact::Move;
 use asperity_data::Control;
 use asperity_scene::{CheckedScene, Document, Simulation, open};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::path::Path;
 
 /// Number of runs of a dense scan.

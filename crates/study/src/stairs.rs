@@ -226,8 +226,8 @@ pub(super) fn step_crossings(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// Stairs with the adhesion force after the last of the steps (preload, adhesion force) up to a
     /// preload.

@@ -316,8 +316,8 @@ impl RegimeCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// A value with about the standard normal distribution.
     fn normal(random: &mut ChaCha8Rng) -> f64 {

@@ -3,8 +3,8 @@
 use super::{cases, plan, tables, undisturbed};
 use asperity::study::Folder;
 use asperity::study::folders::Status;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::fs;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;

@@ -8,8 +8,8 @@ use asperity_contact::motion::{Body, MovingBody};
 use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
 use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{CheckedScene, Simulation};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Number of points of a computed branch, without the points at jumps.
 const SAMPLES: usize = 128;

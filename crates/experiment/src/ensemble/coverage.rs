@@ -6,8 +6,8 @@ use super::result::{EnsembleFit, EnsembleOptions};
 use super::specimens::{curve, document, scene};
 use asperity_data::Control;
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Standard errors that are drawn and stated: of the rms height as a share of it, and of the Hurst
 /// exponent.

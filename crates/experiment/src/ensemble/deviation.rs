@@ -7,8 +7,8 @@ use super::scatter::Scatter;
 use super::summary::{NAMES, SUMMARIES, Summaries};
 use super::table::Table;
 use asperity_data::quantile;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Number of ensembles drawn from the random profiles of the table, and share of them that counts
 /// as described.

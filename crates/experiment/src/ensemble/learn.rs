@@ -136,8 +136,8 @@ impl Learned {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
-    use rand_chacha::ChaCha8Rng;
 
     /// A relation of second degree is learned, by each half from its own lines.
     #[test]

@@ -15,8 +15,8 @@ use asperity_contact::Move;
 use asperity_data::{Control, between, mean, standard_deviation};
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use asperity_surface::Form;
+use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Number of points of each branch of a curve, and of the computed branch between whose points they
 /// are interpolated.

@@ -67,7 +67,7 @@ pub const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "random numbers",
-        lines: Lines::Packages(&["rand_chacha-", "chacha20-", "rand-0.10"]),
+        lines: Lines::Packages(&["chacha20-", "rand-0.10"]),
         called_for: Case::is_rough,
         counted: |work| work.random_phases,
     },

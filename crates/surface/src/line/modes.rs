@@ -4,8 +4,8 @@
 
 use super::spectrum::SelfAffine;
 use asperity_fourier::Complex64;
+use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is
 /// drawn first. So no result depends on the number of threads.

@@ -2,8 +2,8 @@
 
 use super::statistics::PointStatistics;
 use asperity_data::Cholesky;
+use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
