@@ -30,19 +30,6 @@ class Values(dict[str, Any]):
         raise AttributeError(f"no {name!r}; allowed: {', '.join(dict.keys(self))}")
 
 
-def _sentences(warnings: Any, profiles: Any) -> list[str]:
-    """Returns the entry `warnings` of a JSON object as sentences. In an ensemble each one has the number of its profiles."""
-    sentences = []
-    for warning in warnings or []:
-        if not isinstance(warning, Values):
-            sentences.append(str(warning))
-        elif warning.profiles == profiles:
-            sentences.append(warning.text)
-        else:
-            sentences.append(f"On {warning.profiles} of {profiles} profiles: {warning.text}")
-    return sentences
-
-
 class Result:
     """A result of the program. Its attributes are the keys of the JSON object that the command of the same name prints.
 
@@ -65,14 +52,12 @@ class Result:
     def _premises(self) -> list[str]:
         """Returns the premises of the model that the result does not meet, one sentence for each."""
         values = self.to_dict()
-        # Results over preloads list their profiles and do not count them.
-        profiles = values.get("profiles", len(values.get("lines") or []))
-        sentences = _sentences(values.get("warnings"), profiles)
+        sentences = list(values.get("warnings") or [])
         ensemble = values.get("ensemble")
         if isinstance(ensemble, Values):
-            counted = _sentences(ensemble.get("warnings"), ensemble.get("profiles"))
+            # The profile of the scene is one of the ensemble, and its warnings are said once.
             known = " ".join(sentences)
-            sentences += [sentence for sentence in counted if sentence not in known]
+            sentences += [sentence for sentence in ensemble.warnings if sentence not in known]
         return sentences
 
     def __getattr__(self, name: str) -> Any:

@@ -7,7 +7,7 @@ use crate::force_loop::Loop;
 use asperity::data::{Control, parse_quantity};
 use asperity::scene::{CheckedScene, Document, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
-use asperity::study::trust::MeasuredAdhesion;
+use asperity::study::trust::{MeasuredAdhesion, warnings_of_reversals};
 use asperity::study::{
     Axis, Ensemble, Found, Plan, Quantity, Question, Results, Spacing, Staircase, compute,
 };
@@ -184,7 +184,6 @@ pub fn find(
                     title,
                     scene,
                     found,
-                    warnings: &scene.warnings(),
                 },
                 format,
             )
@@ -238,13 +237,14 @@ pub fn reversals(
         let mut simulation = case.simulation().for_one_scene();
         let map =
             simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
+        let warnings = warnings_of_reversals(&map, case.document.scene(), &mut simulation)?;
         Ok(Report::new(move |format| {
             let (title, scene) = (case.document.title(), case.document.scene());
             let report = ReversalReport {
                 title,
                 scene,
                 map: &map,
-                warnings: &scene.warnings(),
+                warnings: &warnings,
                 preloads: None,
                 staircase: None,
             };
@@ -288,7 +288,6 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
                     title,
                     scene,
                     reference,
-                    warnings: &scene.warnings(),
                 },
                 format,
             )

@@ -379,8 +379,8 @@ class Premises(InFolder):
         steep = {"roughness__rms_height": "20 µm", "adhesion": None}
         found, said = self.warned(asp.ensemble, "pressure-sensitive", profiles=3, **steep)
         self.assertTrue(any("The rms gradient" in text for text in said), said)
-        self.assertEqual(len(found.warnings), len(said))
-        self.assertEqual({warning.profiles for warning in found.warnings}, {3})
+        self.assertEqual(found.warnings, said)
+        self.assertFalse([text for text in said if text.startswith("On ")])
         outcome, said = self.warned(asp.run, "pressure-sensitive", profiles=3, **steep)
         self.assertEqual(said[: len(outcome.warnings)], outcome.warnings)
         self.assertEqual(len(said), len(set(said)))
@@ -453,7 +453,7 @@ class Words(InFolder):
         found = asp.find("preload", "pressure-sensitive", "F_a/F_a,max = 20 %", profiles=4)
         self.assertEqual(found.values, found.to_dict()["values"])
         self.assertEqual(len(found.values), 4)
-        self.assertEqual(found.value, found.median)
+        self.assertTrue(found.quartiles[0] <= found.value <= found.quartiles[1])
         self.assertEqual(found.target, 0.2)
         for name in ["items", "keys", "pop", "get", "update"]:
             with self.assertRaisesRegex(AttributeError, f"no '{name}'; allowed: scene, .*field"):

@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, simulation_of, warn};
-use asperity_report::{FindReport, Format};
+use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
+use asperity_report::{FindReport, Format, counted_texts};
 use asperity_scene::Simulation;
 use asperity_study::{Axis, Found, Quantity, Question};
 use clap::Args;
@@ -77,15 +77,13 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
     );
     progress.clear();
     let found = found.map_err(failed)?;
-    let warnings = found.warnings(scene, &mut simulation_of(&document));
     let report = FindReport {
         title: document.title(),
         scene,
         found: &found,
-        warnings: &warnings,
     };
     if !holds_warnings(format) {
-        warn(&document, &warnings);
+        warn(&document, &counted_texts(&found.warnings, profiles));
     }
     arguments
         .output

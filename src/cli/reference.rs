@@ -3,11 +3,10 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, stop_by_signal};
-use super::scene::{ProfileArguments, SceneArguments, holds_warnings, simulation_of, warn};
-use asperity_report::{Format, ReferenceProgress, ReferenceReport};
+use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
+use asperity_report::{Format, ReferenceProgress, ReferenceReport, counted_texts};
 use asperity_scene::{Document, Simulation};
 use asperity_study::half_space::{Reference, ReferenceOptions};
-use asperity_study::trust::warnings_of;
 use clap::Args;
 use std::io::Write;
 use std::sync::atomic::Ordering;
@@ -53,15 +52,14 @@ pub(super) fn reference(
     };
     let found = compared(&document, options, arguments.profiles.threads())?;
     let scene = document.scene();
-    let warnings = warnings_of(scene, &mut simulation_of(&document));
     let report = ReferenceReport {
         title: document.title(),
         scene,
         reference: &found,
-        warnings: &warnings,
     };
     if !holds_warnings(format) {
-        warn(&document, &warnings);
+        let profiles = found.profiles_for_warnings();
+        warn(&document, &counted_texts(&found.warnings, profiles));
     }
     arguments.output.write(
         stdout,

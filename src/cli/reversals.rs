@@ -7,6 +7,7 @@ use asperity_data::AxisScale;
 use asperity_report::{Format, ReversalReport};
 use asperity_scene::RunError;
 use asperity_scene::theory::ReversalMap;
+use asperity_study::trust::warnings_of_reversals;
 use asperity_study::{Axis, Results, Staircase};
 use clap::Args;
 use std::io::Write;
@@ -81,11 +82,7 @@ pub(super) fn reversals(
     let map = simulation
         .reversal_map(scene, ends, count, &never)
         .map_err(failed)?;
-    let mut warnings = Vec::new();
-    if let Some(deepest) = map.reversals.last() {
-        warnings = deepest.warnings(&simulation.profile(scene).map_err(failed)?);
-    }
-    warnings.extend(simulation.warnings(scene).map_err(failed)?);
+    let warnings = warnings_of_reversals(&map, scene, &mut simulation).map_err(failed)?;
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }

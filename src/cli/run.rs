@@ -8,14 +8,14 @@ use super::scene::{
 };
 use asperity_contact::LegRecord;
 use asperity_contact::motion::Leg;
-use asperity_data::{Warning, grouped, wrap};
+use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
     ComparedScene, ContactSets, Format, PreloadReport, Report, RunReport, ScenesReport,
-    check_measured_files,
+    check_measured_files, counted_texts, warning_texts,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
-use asperity_scene::{CheckedScene, Document, Scene, Simulation, estimate};
+use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation, estimate};
 use asperity_study::trust::MeasuredAdhesion;
 use asperity_study::{Axis, Ensemble, Results, Staircase, StudyError};
 use clap::{Args, ValueEnum};
@@ -327,7 +327,7 @@ fn run_loadings(
                 arguments.ensemble(one, format)?,
             );
             if !holds_warnings(format) {
-                warn(one.document, &outcome.warnings);
+                warn(one.document, &outcome_warnings(&outcome, ensemble.as_ref()));
             }
             scenes.push(ComparedScene {
                 document: one.document,
@@ -350,7 +350,7 @@ fn run_loadings(
     let outcome = compute(document, scene)?;
     let ensemble = arguments.ensemble(one, format)?;
     if !holds_warnings(format) {
-        warn(document, &outcome.warnings);
+        warn(document, &outcome_warnings(&outcome, ensemble.as_ref()));
     }
     if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
         return write(ensemble);
@@ -381,6 +381,15 @@ fn run_loadings(
     })
 }
 
+/// The warnings of a result: of an ensemble with the number of its profiles, of a single outcome as
+/// they are.
+fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
+    match ensemble {
+        Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
+        None => warning_texts(&outcome.warnings),
+    }
+}
+
 fn run_preloads(
     arguments: &RunArguments,
     preloads: &Axis,
@@ -392,11 +401,7 @@ fn run_preloads(
     if let [one] = chosen {
         let (results, staircase) = report(one, format.is_picture())?;
         if !holds_warnings(format) {
-            let warnings: Vec<Warning> = results
-                .all_warnings()
-                .into_iter()
-                .map(|one| one.warning)
-                .collect();
+            let warnings = counted_texts(&results.all_warnings(), results.plan().lines);
             warn(one.document, &warnings);
         }
         let (title, choice) = (one.document.title(), one.choice.as_ref());

@@ -2,12 +2,13 @@
 
 use super::error::CliError;
 use crate::explorer::recognition::no_scene;
-use asperity_data::{Warning, parallel, printable};
+use asperity_data::{parallel, printable};
 use asperity_report::Format;
 use asperity_scene::library::open_argument;
 use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation};
 use asperity_study::Ensemble;
 use clap::Args;
+use std::fmt::Display;
 use std::io;
 use std::io::Write;
 use std::path::Path;
@@ -73,7 +74,7 @@ impl SceneArguments {
 
 /// Writes on standard error the premises that a scene does not meet, for results that do not say it
 /// themselves: tables, figures and times.
-pub(super) fn warn(document: &Document, warnings: &[Warning]) {
+pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     for warning in warnings {
         // The command continues even if standard error is closed.
         let _ = writeln!(

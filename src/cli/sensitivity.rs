@@ -3,11 +3,10 @@
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
 use super::progress::ProgressLine;
-use super::scene::{SceneArguments, holds_warnings, simulation_of, threads, warn};
-use asperity_report::{Format, SensitivityReport};
+use super::scene::{SceneArguments, holds_warnings, threads, warn};
+use asperity_report::{Format, SensitivityReport, counted_texts};
 use asperity_scene::Simulation;
 use asperity_study::Sensitivity;
-use asperity_study::trust::warnings_of;
 use clap::Args;
 use std::io::Write;
 
@@ -48,15 +47,13 @@ pub(super) fn sensitivity(
     let found = Sensitivity::of(scene, simulation, &|| false, &mut report);
     progress.clear();
     let found = found.map_err(|error| CliError::named(document.name(), error))?;
-    let warnings = warnings_of(scene, &mut simulation_of(&document));
     let report = SensitivityReport {
         title: document.title(),
         scene,
         sensitivity: &found,
-        warnings: &warnings,
     };
     if !holds_warnings(format) {
-        warn(&document, &warnings);
+        warn(&document, &counted_texts(&found.warnings, found.profiles));
     }
     arguments
         .output

@@ -3,7 +3,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::counted_values;
+use crate::warnings::counted_texts;
 use asperity_data::{Kind, Table, format_range, format_rounded, grouped, object, one_unit};
 use asperity_plot::Label;
 use asperity_scene::Regime;
@@ -138,7 +138,7 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
         "first_touch_adhesion_force": touch,
         "zero_force_adhesion_force": zero_force,
         "dissipated_energy": energy,
-        "warnings": counted_values(&ensemble.warnings()),
+        "warnings": counted_texts(&ensemble.warnings(), ensemble.profiles()),
         "regimes": from_touch,
         "regimes_after_zero_force": after_zero_force,
         "lines": ensemble.table(),

@@ -4,9 +4,9 @@ use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
 use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{counted_section, counted_texts};
 use asperity_data::{
-    Kind, Table, Warning, format_quantity, format_range, format_rounded, grouped, object, one_unit,
+    Kind, Table, format_quantity, format_range, format_rounded, grouped, object, one_unit,
 };
 use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found};
@@ -24,8 +24,6 @@ pub struct FindReport<'a> {
     pub scene: &'a Scene,
     /// Values of the number at which the result reaches the wanted value, on each profile.
     pub found: &'a Found,
-    /// Premises of the model that the scene with the median answer does not meet.
-    pub warnings: &'a [Warning],
 }
 
 /// Returns the answer of a search in one or two sentences. They have the median and the quartiles,
@@ -296,7 +294,11 @@ impl Report for FindReport<'_> {
         self.exceptions()
             .iter()
             .for_each(|sentence| sheet.paragraph(sentence));
-        warnings_section(&mut sheet, self.warnings);
+        counted_section(
+            &mut sheet,
+            &self.found.warnings,
+            self.found.question.profiles(),
+        );
         let several = self.several();
         if !several.is_empty() {
             sheet.heading("Several crossings, of which the first counts");
@@ -349,7 +351,7 @@ impl Report for FindReport<'_> {
         let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share));
         Some(Box::new(object! {
             "scene": self.scene,
-            "warnings": warning_texts(self.warnings),
+            "warnings": counted_texts(&self.found.warnings, self.found.question.profiles()),
             "field": &question.axis.path,
             "unit": question.axis.unit,
             "quantity": question.quantity,
@@ -357,7 +359,6 @@ impl Report for FindReport<'_> {
             "value": median,
             "profiles": question.profiles(),
             "unreached": found.unreached(),
-            "median": median,
             "quartiles": [low, high],
             "range": found.range(),
             "values": found.values(),

@@ -2,7 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
-use crate::warnings::{counted_section, counted_values};
+use crate::warnings::{counted_section, counted_texts};
 use asperity_data::{
     AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, object,
 };
@@ -141,7 +141,7 @@ impl Report for PreloadReport<'_> {
             }
         });
         Some(Box::new(object! {
-            "warnings": counted_values(&self.results.all_warnings()),
+            "warnings": counted_texts(&self.results.all_warnings(), plan.lines),
             "scene": &plan.scene,
             "mean": self.is_mean().then(spread),
             "lines": (0..plan.lines).map(line).collect::<Vec<_>>(),

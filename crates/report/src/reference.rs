@@ -3,10 +3,10 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::status::duration;
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{counted_section, counted_texts};
 use asperity_contact::Move;
 use asperity_data::{
-    AxisScale, Table, Warning, format_quantity, format_rounded, grouped, memory_size, object,
+    AxisScale, Table, format_quantity, format_rounded, grouped, memory_size, object,
 };
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
@@ -27,8 +27,6 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
-    /// Premises of the model that the scene does not meet.
-    pub warnings: &'a [Warning],
 }
 
 /// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
@@ -492,7 +490,11 @@ impl Report for ReferenceReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
-        warnings_section(&mut sheet, self.warnings);
+        counted_section(
+            &mut sheet,
+            &self.reference.warnings,
+            self.reference.profiles_for_warnings(),
+        );
         let loading = self.loading_sentences();
         if !loading.is_empty() {
             sheet.paragraph(&loading);
@@ -582,7 +584,7 @@ impl Report for ReferenceReport<'_> {
         let half_space = roughness.map(|roughness| roughness.half_space);
         Some(Box::new(object! {
             "scene": self.scene,
-            "warnings": warning_texts(self.warnings),
+            "warnings": counted_texts(&self.reference.warnings, self.reference.profiles_for_warnings()),
             "cells": reference.options.cells,
             "maps": reference.options.maps,
             "lines": reference.options.lines,
@@ -731,7 +733,6 @@ mod tests {
             title: "A sphere",
             scene: document.scene(),
             reference: &found,
-            warnings: &[],
         };
         let figure = report.figure().unwrap();
         assert_eq!(figure.size, Figure::WIDE);
@@ -774,7 +775,6 @@ mod tests {
             title: "Rough",
             scene: document.scene(),
             reference: &found,
-            warnings: &[],
         };
         let waves = ", of waves 4 to 8 of 4 to 512";
         let (rows, _) = report.errors();
@@ -833,7 +833,6 @@ mod tests {
             title: "A sphere",
             scene: document.scene(),
             reference: &found,
-            warnings: &[],
         };
         let (rows, largest) = report.errors();
         assert!(largest.starts_with("The largest is the grid"), "{largest}");

@@ -2,9 +2,9 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use crate::warnings::{warning_texts, warnings_section};
+use crate::warnings::{counted_section, counted_texts};
 use asperity_data::{
-    AxisScale, Kind, Table, Warning, format_quantity, format_rounded, grouped, object, one_unit,
+    AxisScale, Kind, Table, format_quantity, format_rounded, grouped, object, one_unit,
 };
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
@@ -28,8 +28,6 @@ pub struct SensitivityReport<'a> {
     pub scene: &'a Scene,
     /// Changes of the results, such as the adhesion force, for each changed number.
     pub sensitivity: &'a Sensitivity,
-    /// Premises of the model that the scene does not meet.
-    pub warnings: &'a [Warning],
 }
 
 /// Writes a relative change: `+12 %`, `×4.2`.
@@ -310,7 +308,11 @@ impl Report for SensitivityReport<'_> {
             sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
-        warnings_section(&mut sheet, self.warnings);
+        counted_section(
+            &mut sheet,
+            &self.sensitivity.warnings,
+            self.sensitivity.profiles,
+        );
         Some(sheet.into_text())
     }
 
@@ -341,7 +343,7 @@ impl Report for SensitivityReport<'_> {
         let range = self.sensitivity.range;
         Some(Box::new(object! {
             "scene": self.scene,
-            "warnings": warning_texts(self.warnings),
+            "warnings": counted_texts(&self.sensitivity.warnings, self.sensitivity.profiles),
             "step": Sensitivity::STEP,
             "profiles": self.sensitivity.profiles,
             "results": values(self.sensitivity.present),
@@ -442,6 +444,7 @@ mod tests {
             ],
             profiles: 16,
             range: Some([[Some(1e-6), None, Some(1.0)], [Some(8e-6), None, Some(1.0)]]),
+            warnings: Vec::new(),
         };
         let rows = sensitivity_table(&sensitivity, 9)
             .into_iter()
@@ -488,7 +491,6 @@ mod tests {
             title: "None",
             scene: &scene,
             sensitivity: &none,
-            warnings: &[],
         };
         assert!(report.text().unwrap().contains("no pull-off"));
     }

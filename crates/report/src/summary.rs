@@ -5,7 +5,7 @@ use crate::sheet::Sheet;
 use crate::trust::trust;
 use crate::warnings::{counted_section, warnings_section};
 use asperity_contact::{Move, Work};
-use asperity_data::{format_quantity, grouped};
+use asperity_data::{Warning, format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
 use asperity_scene::stages::Timings;
@@ -47,7 +47,11 @@ pub(crate) fn summary(
     contact(&mut sheet, outcome);
     cost(&mut sheet, &outcome.history.work, &outcome.timings);
     if let Some(choice) = choice {
-        sheet.heading(&choice.sentence());
+        let mut sentence = choice.sentence();
+        if outcome.warnings.iter().any(Warning::leaves_errors_unknown) {
+            sentence += " It does not include what follows from the warnings above.";
+        }
+        sheet.heading(&sentence);
     }
     sheet.into_text()
 }

@@ -3,7 +3,6 @@
 use crate::sheet::Sheet;
 use asperity_data::{Warning, grouped};
 use asperity_study::trust::CountedWarning;
-use serde::Serialize;
 
 /// Adds a section with the premises that a result does not meet. Without warnings it adds nothing.
 pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
@@ -32,32 +31,6 @@ pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> 
         texts.push(if is_everywhere { text } else { share + &text });
     }
     texts
-}
-
-/// Returns the entry `warnings` of the JSON object of an ensemble: for each premise its name, the
-/// number of profiles that do not meet it, and the text of the first of them.
-pub(crate) fn counted_values(warnings: &[CountedWarning]) -> Vec<CountedValue> {
-    let mut values = Vec::with_capacity(warnings.len());
-    for CountedWarning {
-        warning, profiles, ..
-    } in warnings
-    {
-        let text = warning.to_string();
-        values.push(CountedValue {
-            name: warning.name(),
-            profiles: *profiles,
-            text,
-        });
-    }
-    values
-}
-
-/// A premise that some profiles do not meet, as a JSON object.
-#[derive(Serialize)]
-pub(crate) struct CountedValue {
-    name: &'static str,
-    profiles: u64,
-    text: String,
 }
 
 /// Adds a section with warnings that are already sentences. Without sentences it adds nothing.

@@ -1,61 +1,99 @@
-//! Premises of the model that a scene, or the answer of a search, does not meet.
+//! Premises of the model that a scene, the answer of a search, or the unloading from several
+//! turning points does not meet.
 
 use super::axis::Axis;
+use super::error::StudyError;
 use super::find::Found;
 use super::plan::Plan;
+use super::profiles::Stop;
+use super::quantity::Quantity;
+use super::results::{CountedWarning, Results};
 use asperity_contact::Move;
 use asperity_data::Warning;
-use asperity_scene::{CheckedScene, Simulation};
+use asperity_scene::theory::ReversalMap;
+use asperity_scene::{CheckedScene, RunError, Simulation};
 
-/// Returns the premises of the model that a scene and its loading do not meet on its own profile.
-/// If the scene cannot be computed, these are the premises that are known from its fields.
+/// Computes a scene on `profiles` random profiles, and returns the premises of the model that these
+/// profiles do not meet, each with the number of these profiles. If the scene cannot be computed on
+/// any of them, the premises are those that are known from its fields.
+///
+/// `workers` is a pair: the simulation with which the first thread computes, and the number of
+/// threads, which does not change the result.
+///
+/// # Errors
+/// Returns an error if several profiles are requested and the profile of the scene is fixed, if the
+/// memory does not suffice, or if `stop` returned true.
 ///
 /// ```
 /// use asperity_scene::Simulation;
+/// use asperity_study::trust::warnings_on_profiles;
 ///
 /// let narrow = asperity_scene::open("jkr-sphere")?.set("length", "20 µm")?;
-/// let warnings = asperity_study::trust::warnings_of(narrow.scene(), &mut Simulation::default());
-/// assert_eq!(warnings[0].name(), "contact_at_ends");
-/// # Ok::<(), asperity_scene::Error>(())
+/// let workers = (Simulation::default(), 1);
+/// let warnings = warnings_on_profiles(narrow.scene(), 1, workers, &|| false)?;
+/// assert_eq!(warnings[0].warning.name(), "contact_at_ends");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn warnings_of(scene: &CheckedScene, simulation: &mut Simulation) -> Vec<Warning> {
-    let computed = simulation.compute(&scene.stripped());
-    computed.map_or_else(|_| scene.warnings(), |outcome| outcome.warnings)
+pub fn warnings_on_profiles(
+    scene: &CheckedScene,
+    profiles: u64,
+    workers: (Simulation, usize),
+    stop: &Stop<'_>,
+) -> Result<Vec<CountedWarning>, StudyError> {
+    let mut results = Results::begin(scene, &[Quantity::Warnings], profiles, None)?;
+    results.extend_each(workers, stop, &mut |_| ())?;
+    if results.failure_of(0).is_none() {
+        return Ok(results.warnings(0));
+    }
+    let mut counted = Vec::new();
+    for warning in scene.warnings() {
+        counted.push(CountedWarning { warning, profiles });
+    }
+    Ok(counted)
+}
+
+/// Returns the premises of the model that the unloading from the deepest turning point of a map
+/// does not meet, and those that the scene does not meet on its own profile.
+///
+/// # Errors
+/// Returns an error if the profile of the scene cannot be made.
+pub fn warnings_of_reversals(
+    map: &ReversalMap,
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+) -> Result<Vec<Warning>, RunError> {
+    let mut warnings = Vec::new();
+    if let Some(deepest) = map.reversals.last() {
+        warnings = deepest.warnings(&simulation.profile(scene)?);
+    }
+    warnings.extend(simulation.warnings(scene)?);
+    Ok(warnings)
 }
 
 impl Found {
-    /// Returns the premises of the model that the scene does not meet at the median answer, on its
-    /// own profile. `scene` is the scene of the question, whose premises are returned if there is
-    /// no median answer.
-    pub fn warnings(&self, scene: &CheckedScene, simulation: &mut Simulation) -> Vec<Warning> {
-        let answer = self.quantile(0.5).and_then(|value| self.scene_at(value));
-        warnings_of(answer.as_ref().unwrap_or(scene), simulation)
-    }
-
-    /// Returns the scene of the question with this value of the number that is sought; `None` if
-    /// the scene does not allow it.
-    fn scene_at(&self, value: f64) -> Option<CheckedScene> {
-        let question = &self.question;
-        if question.is_of_preload() {
-            let loading = vec![Move::ToForce(value), Move::ToSeparation];
-            return question
-                .plan
-                .scene
-                .clone()
-                .checked()
-                .ok()?
-                .with(|scene| scene.loading = loading)
-                .ok();
-        }
-        let axis = Axis {
-            values: vec![value],
-            ..question.axis.clone()
+    /// Returns the scene of the question with its median answer. Without a median answer, and if
+    /// the scene does not allow this answer, it is the scene of the question itself; `None` if this
+    /// scene is not allowed either.
+    pub(super) fn answered_scene(&self) -> Option<CheckedScene> {
+        let plan = &self.question.plan;
+        let asked = plan.scene.clone().checked().ok()?;
+        let Some(value) = self.quantile(0.5) else {
+            return Some(asked);
         };
-        Plan {
-            axes: vec![axis],
-            ..question.plan.clone()
-        }
-        .scene_of(0)
-        .ok()
+        let answered = if self.question.is_of_preload() {
+            let loading = vec![Move::ToForce(value), Move::ToSeparation];
+            asked.with(|scene| scene.loading = loading)
+        } else {
+            let axis = Axis {
+                values: vec![value],
+                ..self.question.axis.clone()
+            };
+            let plan_of_answer = Plan {
+                axes: vec![axis],
+                ..plan.clone()
+            };
+            plan_of_answer.scene_of(0)
+        };
+        Some(answered.unwrap_or(asked))
     }
 }

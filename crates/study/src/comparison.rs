@@ -1,5 +1,6 @@
 //! The computation of a comparison: profiles first, then squares, both pressed alike.
 
+use super::answer_warnings::warnings_on_profiles;
 use super::compared::{Compared, Values};
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};
@@ -48,6 +49,7 @@ impl Reference {
         if options.maps == 0 || options.lines == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
+        let simulation_for_warnings = simulation.another();
         let mut simulation = simulation;
         let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
         let seed = scene.seed();
@@ -59,13 +61,17 @@ impl Reference {
                 ..options
             },
         };
-        Comparison {
+        let comparison = Comparison {
             resolved,
             options,
             seed: seed.unwrap_or(0),
             stop,
-        }
-        .run(jobs, report)
+        };
+        let mut reference = comparison.run(jobs, report)?;
+        let profiles = reference.profiles_for_warnings();
+        let workers = (simulation_for_warnings, jobs);
+        reference.warnings = warnings_on_profiles(scene, profiles, workers, stop)?;
+        Ok(reference)
     }
 }
 
@@ -472,6 +478,7 @@ impl Comparison<'_> {
             seconds,
             seconds_of_square: seconds_of_squares / squares.len() as f64,
             options: self.options,
+            warnings: Vec::new(),
         })
     }
 

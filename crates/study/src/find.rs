@@ -5,10 +5,12 @@
 //! preloads bracket its only crossing. Any other quantity is first computed at several numbers over
 //! the searched range.
 
+use super::answer_warnings::warnings_on_profiles;
 use super::error::StudyError;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::question::{Answer, Question};
+use super::results::CountedWarning;
 use asperity_data::{Control, format_quantity, format_range, quantile};
 use asperity_scene::{Document, Simulation};
 
@@ -27,6 +29,10 @@ pub struct Found {
     /// Reason why the scene could not be computed with one of the searched values of the number;
     /// `None` if it could be computed with all of them.
     pub refused: Option<String>,
+    /// Premises of the model that the scene does not meet at the median answer, each with the
+    /// number of these profiles. Without a median answer these are the premises of the scene of the
+    /// question.
+    pub warnings: Vec<CountedWarning>,
 }
 
 /// Finds the value of a number of a scene at which a quantity has a given value, on each of
@@ -85,6 +91,7 @@ impl Found {
         report: &mut dyn FnMut(u64),
     ) -> Result<Found, StudyError> {
         question.check()?;
+        let simulation_for_warnings = simulation.another();
         let plan = &question.plan;
         let lines: Vec<u64> = (0..plan.lines).collect();
         let solve = |simulation: &mut Simulation, line| question.answer(simulation, line, stop);
@@ -102,12 +109,18 @@ impl Found {
         )?;
         let (answers, reasons): (Vec<Answer>, Vec<Option<String>>) = each.into_iter().unzip();
         let refused = reasons.into_iter().flatten().next();
-        let found = Found {
+        let mut found = Found {
             question,
             answers,
             refused,
+            warnings: Vec::new(),
         };
         found.check()?;
+        if let Some(scene) = found.answered_scene() {
+            let profiles = found.question.profiles();
+            let workers = (simulation_for_warnings, jobs);
+            found.warnings = warnings_on_profiles(&scene, profiles, workers, stop)?;
+        }
         Ok(found)
     }
 

@@ -136,7 +136,7 @@ pub mod half_space {
 /// Errors of an adhesion force, one for each source, and criteria by which other theories decide
 /// whether bodies adhere.
 pub mod trust {
-    pub use crate::answer_warnings::warnings_of;
+    pub use crate::answer_warnings::{warnings_of_reversals, warnings_on_profiles};
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
     pub use crate::criterion::Criterion;

@@ -6,7 +6,9 @@
 //! the line has 1.1 to 4.2 times the area of contact in three dimensions.
 
 use super::compared::Compared;
+use super::ensemble::Ensemble;
 use super::reference_budget::ReferenceBudget;
+use super::results::CountedWarning;
 use super::shells::ComparedRoughness;
 use asperity_contact::Move;
 use asperity_scene::Scene;
@@ -140,6 +142,10 @@ pub struct Reference {
     /// Errors of the comparison of adhesion forces, or of indentations for a scene without
     /// adhesion, one for each source.
     pub budget: ReferenceBudget,
+    /// Premises of the model that profiles of the scene do not meet, each with the number of these
+    /// profiles among the first [`Reference::profiles_for_warnings`].
+    #[serde(skip)]
+    pub warnings: Vec<CountedWarning>,
     /// Number of convolutions over the grid of a square that the solver computed for all squares
     /// together, a measure of the computing work.
     pub convolutions: u64,
@@ -192,6 +198,12 @@ pub enum ReferenceEvent {
 }
 
 impl Reference {
+    /// Returns the number of profiles on which the premises of the model were checked: the profiles
+    /// of the comparison, but not more than [`Ensemble::PROFILES`].
+    pub fn profiles_for_warnings(&self) -> u64 {
+        self.options.lines.min(Ensemble::PROFILES)
+    }
+
     /// Returns the comparison of the adhesion force, or of the indentation at the preload if the
     /// scene has no adhesion.
     pub fn headline(&self) -> Option<&Compared> {

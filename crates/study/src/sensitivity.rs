@@ -1,6 +1,7 @@
 //! The sensitivity of the results of a scene: how the medians over random profiles change when each
 //! number of the scene changes by a tenth.
 
+use super::answer_warnings::warnings_on_profiles;
 use super::axis::{Axis, Shapes, Spacing};
 use super::cells::Streak;
 use super::coordinates::Allowed;
@@ -11,6 +12,7 @@ use super::plan::Plan;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::recorder::with_recorder;
+use super::results::CountedWarning;
 use asperity_data::median;
 use asperity_scene::{CheckedScene, Scene, SceneErrors, Simulation};
 use std::cmp::Reverse;
@@ -68,6 +70,9 @@ pub struct Sensitivity {
     /// Results for changes of each number of the scene. Zeros and counts, such as the number of
     /// springs, are left out.
     pub influences: Vec<Influence>,
+    /// Premises of the model that the unchanged scene does not meet, each with the number of
+    /// profiles that do not meet it. The list is empty until all profiles are computed.
+    pub warnings: Vec<CountedWarning>,
 }
 
 /// Results on one profile for the scene and for each changed scene; NaN for a missing result.
@@ -120,11 +125,12 @@ impl Sensitivity {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(
-        scene: &Scene,
+        scene: &CheckedScene,
         (simulation, jobs): (Simulation, usize),
         stop: &Stop<'_>,
         report: &mut dyn FnMut(&Sensitivity),
     ) -> Result<Sensitivity, StudyError> {
+        let simulation_for_warnings = simulation.another();
         let lines = Ensemble::profiles_of(scene);
         // The scene itself, then each changed scene that is allowed.
         let mut plans = vec![(Shapes::Passes, Plan::of_scene(scene, lines, &Self::RESULTS))];
@@ -176,6 +182,7 @@ impl Sensitivity {
             present: [None; 3],
             range: None,
             influences,
+            warnings: Vec::new(),
         };
         let every: Vec<u64> = (0..lines).collect();
         on_profiles(
@@ -189,6 +196,8 @@ impl Sensitivity {
                 report(&all);
             },
         )?;
+        let workers = (simulation_for_warnings, jobs);
+        all.warnings = warnings_on_profiles(scene, lines, workers, stop)?;
         Ok(all)
     }
 

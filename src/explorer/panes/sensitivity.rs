@@ -55,14 +55,10 @@ fn report(app: &App) -> Exported<'_> {
         .studies
         .value()
         .filter(|_| app.studies.is_done::<Sensitivity>())?;
-    let warnings = app
-        .current()
-        .map_or(&[][..], |computed| &computed.outcome.warnings);
     let report = SensitivityReport {
         title,
         scene,
         sensitivity,
-        warnings,
     };
     Some(("asperity sensitivity".into(), Box::new(report)))
 }

@@ -310,10 +310,10 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
                 let largest = per_cent(largest);
                 parts.push(vec![
                     sign,
-                    Text::raw(format!("{largest}{time}, at half to twice the load")),
+                    Text::raw(format!(
+                        "{error} at this load, up to {largest} at half to twice the load,{time}"
+                    )),
                 ]);
-                let own = error.strip_prefix("error ").unwrap_or(&error);
-                parts.push(vec![Text::raw(format!("at this load: {own}"))]);
             }
             None => parts.push(vec![sign, Text::raw(format!("{error}{time}"))]),
         }
