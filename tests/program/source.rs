@@ -1,4 +1,4 @@
-//! The source as a whole: directions of imports, circles of files, words.
+//! The source as a whole: circles of files, names that two crates publish, words.
 
 use super::generated::root;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,16 +17,6 @@ const CRATES: [&str; 10] = [
     "experiment",
     "study",
     "report",
-];
-
-/// Rooms of crates from the ground up: each imports only earlier rooms.
-const ROOMS: [(&str, &str); 3] = [
-    ("surface", "error topography spectrum line"),
-    (
-        "scene",
-        "scene analysis reference simulation error front profile_builder accuracy",
-    ),
-    ("program", "explorer cli"),
 ];
 
 /// Path of a module behind its crate, as `["contact", "adhesive"]`; the program is the crate
@@ -229,33 +219,6 @@ impl Source {
 }
 
 #[test]
-fn rooms_import_in_one_direction() {
-    let source = Source::new();
-    let mut seen = 0;
-    for (name, rooms) in ROOMS {
-        let place = |module: &Module| {
-            let room = &module[1];
-            let found = rooms.split(' ').position(|one| one == room);
-            found.unwrap_or_else(|| panic!("{room} is not in the list of rooms of {name}"))
-        };
-        let is_inside =
-            |module: &Module| module[0] == name && module.len() > 1 && module[1] != "main";
-        for here in source.modules.keys().filter(|here| is_inside(here)) {
-            for there in source.imports(here).iter().filter(|there| is_inside(there)) {
-                seen += 1;
-                assert!(
-                    place(there) <= place(here),
-                    "{} imports {}",
-                    here.join("::"),
-                    there.join("::")
-                );
-            }
-        }
-    }
-    assert!(seen > 300, "{seen} imports");
-}
-
-#[test]
 fn files_are_in_no_circle() {
     let source = Source::new();
     let imports: BTreeMap<&Module, BTreeSet<Module>> = source
@@ -292,36 +255,6 @@ fn files_are_in_no_circle() {
         .filter(|circle| !circle.is_empty())
         .collect();
     assert!(found.is_empty(), "circles of files: {found:?}");
-}
-
-/// Words behind a keyword at the start of a line, as names of types behind `struct`.
-fn names_behind<'c>(code: &'c str, keyword: &str) -> BTreeSet<&'c str> {
-    let words = code.lines().filter_map(|line| line.split_once(keyword));
-    let words = words.filter(|(before, _)| before.is_empty() || before.starts_with("pub"));
-    words
-        .map(|(_, rest)| {
-            rest.split(|c| !is_part_of_name(c))
-                .next()
-                .unwrap_or_default()
-        })
-        .collect()
-}
-
-/// A re-export ties its users to all that it names.
-#[test]
-fn crates_have_no_reexports_below_their_roots() {
-    for (module, code) in modules().iter().filter(|(module, _)| module.len() > 1) {
-        // A function of tests that other tests use is none of the crate.
-        let is_reexport = |line: &&str| {
-            line.starts_with("pub") && line.contains(" use ") && !line.contains("use tests::")
-        };
-        assert_eq!(
-            code.lines().find(is_reexport),
-            None,
-            "{}",
-            module.join("::")
-        );
-    }
 }
 
 /// Names that a crate publishes, with their public module, if they are in one: re-exports, modules
@@ -372,118 +305,6 @@ fn each_published_name_is_of_one_crate() {
     crates_of.retain(|name, crates| crates.len() > 1 && !PUBLISHED_AGAIN.contains(&name.as_str()));
     let twice: Vec<_> = crates_of.iter().collect();
     assert!(twice.is_empty(), "{twice:?}");
-}
-
-/// The page of a front crate opens on the names that each of its users needs, and a few modules by
-/// task for others.
-#[test]
-fn roots_of_front_crates_are_small() {
-    let modules = modules();
-    for name in ["contact", "surface", "scene", "study", "experiment"] {
-        let published = published(&modules[&vec![name.to_owned()]]);
-        let inner: BTreeSet<&String> = published
-            .iter()
-            .filter_map(|(module, _)| module.as_ref())
-            .collect();
-        let root: Vec<&String> = published
-            .iter()
-            .filter(|(module, name)| module.is_none() && !inner.contains(name))
-            .map(|(_, name)| name)
-            .collect();
-        assert!(
-            (15..=30).contains(&root.len()),
-            "{name} publishes {} names at its root: {root:?}",
-            root.len()
-        );
-        assert!(
-            inner.len() <= 8,
-            "{name} has {} public modules: {inner:?}",
-            inner.len()
-        );
-    }
-}
-
-/// A method that is defined beside another type ties files that import nothing from each other.
-#[test]
-fn the_explorer_has_methods_beside_their_types() {
-    let modules = modules();
-    let files = modules
-        .iter()
-        .filter(|(module, _)| module.get(1).is_some_and(|room| room == "explorer"));
-    let mut seen = 0;
-    for (module, code) in files {
-        let types: BTreeSet<&str> = ["struct ", "enum "]
-            .iter()
-            .flat_map(|keyword| names_behind(code, keyword))
-            .collect();
-        let impls = code
-            .lines()
-            .filter_map(|line| line.strip_prefix("impl"))
-            .filter(|line| !line.contains(" for "));
-        for line in impls {
-            seen += 1;
-            // Behind the generic parameters of the block.
-            let name = if line.starts_with('<') {
-                line.split_once("> ").map_or("", |(_, name)| name)
-            } else {
-                line
-            };
-            let name = name
-                .trim_start()
-                .split(|c| !is_part_of_name(c))
-                .next()
-                .unwrap_or_default();
-            assert!(
-                types.contains(name),
-                "{}: methods of {name}",
-                module.join("::")
-            );
-        }
-    }
-    assert!(seen > 30, "{seen} blocks of methods");
-}
-
-/// Files with this name as a whole, in order.
-fn files_that_name(name: &str) -> Vec<String> {
-    let is_whole = |code: &str, at: usize| !code[at + name.len()..].starts_with(is_part_of_name);
-    let names = |code: &str| code.match_indices(name).any(|(at, _)| is_whole(code, at));
-    modules()
-        .iter()
-        .filter(|(_, code)| names(code))
-        .map(|(module, _)| module.join("::"))
-        .collect()
-}
-
-/// docs/design.md states how many files an extension touches.
-#[test]
-fn few_files_name_a_pane_a_form_or_an_effect() {
-    for pane in ["Trust", "Spectrum", "Preloads", "Sensitivity"] {
-        // The file of the pane, the table of panes, that of keys, and the data or the demo.
-        let files = files_that_name(&format!("Pane::{pane}"));
-        assert!(!files.is_empty() && files.len() <= 4, "{pane}: {files:?}");
-    }
-    for form in [
-        "Form::Paraboloid",
-        "Form::Cone",
-        "Form::Power",
-        "Form::Punch",
-    ] {
-        // The profile of a sphere, the form of a flat body and the specimens of a test are only
-        // constructed.
-        let mut files = files_that_name(form);
-        let constructing = [
-            "scene::profile_builder",
-            "scene::scene::effects",
-            "experiment::ensemble::other_bodies",
-        ];
-        files.retain(|file| !constructing.contains(&file.as_str()));
-        assert_eq!(files, ["surface::line::form"], "{form}");
-    }
-    let files = files_that_name("closing_work");
-    assert!(
-        files.len() <= 10,
-        "a second work of adhesion is named in {files:?}"
-    );
 }
 
 /// Words that docs/design.md replaces.
