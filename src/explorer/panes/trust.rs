@@ -310,10 +310,11 @@ fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
                 let largest = per_cent(largest);
                 parts.push(vec![
                     sign,
-                    Text::raw(format!(
-                        "{error} at this load, up to {largest} at half to twice the load,{time}"
-                    )),
+                    Text::raw(format!("{error} at this load{time}")),
                 ]);
+                parts.push(vec![Text::raw(format!(
+                    "up to {largest} at half to twice the load"
+                ))]);
             }
             None => parts.push(vec![sign, Text::raw(format!("{error}{time}"))]),
         }
