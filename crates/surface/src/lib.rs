@@ -29,8 +29,8 @@ pub use line::form::Form;
 pub use line::spectrum::{Amplitude, SelfAffine};
 pub use line::table::FormTable;
 pub use spectrum::analysis::{Analysis, AnalysisOptions, analyse};
-pub use spectrum::fit::SelfAffineFit;
-pub use spectrum::isotropic::{LineMoments, Moment, ValueWithError};
+pub use spectrum::moments::{LineMoments, Moment, ValueWithError};
+pub use spectrum::self_affine_fit::SelfAffineFit;
 pub use spectrum::statistics::PointStatistics;
 pub use topography::Unit;
 pub use topography::open::{parse, read};
@@ -59,6 +59,7 @@ pub mod lines {
 
 /// Spectra of measured surfaces over the wave number, for charts.
 pub mod spectra {
-    pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
+    pub use crate::spectrum::isotropic::{IsotropicSpectrum, Node};
+    pub use crate::spectrum::nodes::End;
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};
 }

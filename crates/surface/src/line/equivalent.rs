@@ -5,7 +5,8 @@ use super::roughness::Synthesizer;
 use super::spectrum::Amplitude;
 use crate::error::{Place, SurfaceError, refused};
 use crate::spectrum::analysis::Analysis;
-use crate::spectrum::isotropic::{IsotropicSpectrum, LineMoments, line_moments};
+use crate::spectrum::isotropic::IsotropicSpectrum;
+use crate::spectrum::moments::{LineMoments, line_moments};
 use asperity_data::check_room;
 use std::f64::consts::TAU;
 
@@ -220,7 +221,8 @@ impl MeasuredRoughness {
 mod tests {
     use super::*;
     use crate::spectrum::analysis::AnalysisOptions;
-    use crate::spectrum::isotropic::{End, Moment};
+    use crate::spectrum::moments::Moment;
+    use crate::spectrum::nodes::End;
     use std::path::PathBuf;
 
     fn face() -> Face {
