@@ -32,10 +32,11 @@ pub use spectrum::analysis::{Analysis, AnalysisOptions, analyse};
 pub use spectrum::moments::{LineMoments, Moment, ValueWithError};
 pub use spectrum::self_affine_fit::SelfAffineFit;
 pub use spectrum::statistics::PointStatistics;
-pub use topography::Unit;
+pub use topography::cut::Cut;
 pub use topography::open::{parse, read};
-pub use topography::reading::ReadOptions;
-pub use topography::surface::{Cropped, Cut, Detrend, Topography};
+pub use topography::options::ReadOptions;
+pub use topography::surface::{Cropped, Detrend, Topography};
+pub use topography::unit::Unit;
 
 /// Functions for programs that read files of other data, such as measured force curves. They read
 /// the bytes of a file, decompress gzip and parse columns of NumPy arrays.

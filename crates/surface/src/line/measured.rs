@@ -5,8 +5,9 @@ use super::spectrum::Amplitude;
 use crate::error::{Place, SurfaceError, refused};
 use crate::spectrum::analysis::{Analysis, AnalysisOptions, analyse};
 use crate::topography::open::{content, parse, parse_all};
-use crate::topography::reading::ReadOptions;
-use crate::topography::surface::{Detrend, UNEVEN, first_uneven, interpolated};
+use crate::topography::options::ReadOptions;
+use crate::topography::positions::{UNEVEN, first_uneven, interpolated};
+use crate::topography::surface::Detrend;
 use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
@@ -282,8 +283,8 @@ impl MeasuredOptions {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topography::Unit;
-    use crate::topography::reading::ReadOptions;
+    use crate::topography::options::ReadOptions;
+    use crate::topography::unit::Unit;
     use std::f64::consts::TAU;
 
     fn parsed(text: &str) -> Result<MeasuredProfile, SurfaceError> {

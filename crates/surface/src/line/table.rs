@@ -5,9 +5,9 @@
 //! over the intervals between rows.
 
 use crate::error::{Place, SurfaceError, refused};
-use crate::topography::Unit;
 use crate::topography::open::{content, parse};
-use crate::topography::reading::ReadOptions;
+use crate::topography::options::ReadOptions;
+use crate::topography::unit::Unit;
 use asperity_data::{OutOfMemory, emptied, gauss_nodes_on_quarter_circle};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
