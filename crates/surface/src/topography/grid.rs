@@ -121,11 +121,11 @@ fn lines(sorted: &[f64]) -> Result<Vec<f64>, SurfaceError> {
 
 /// Numbers lines of which none is missing.
 fn numbered(lines: &[f64]) -> Vec<GridPoint> {
-    let point = |(index, position): (usize, &f64)| GridPoint {
+    let points = (0..lines.len()).map(|index| GridPoint {
         number: index as f64,
-        position: *position,
-    };
-    lines.iter().enumerate().map(point).collect()
+        position: lines[index],
+    });
+    points.collect()
 }
 
 /// Numbers lines of which some are missing, in steps of the mean of the smaller distances.

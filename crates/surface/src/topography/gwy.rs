@@ -19,12 +19,12 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
     let names = channels.iter().map(Channel::name).collect::<Vec<_>>();
     let names = names.join(", ");
     let has_length = channels.iter().any(Channel::is_length);
-    let is_chosen = |candidate: &Channel| match channel {
+    let mut chosen = channels;
+    chosen.retain(|candidate| match channel {
         Some(number) => candidate.number == number,
         None if has_length => candidate.is_length(),
         None => candidate.field.unit_z.is_empty(),
-    };
-    let mut chosen: Vec<Channel> = channels.into_iter().filter(is_chosen).collect();
+    });
     if chosen.len() == 1 {
         return chosen.swap_remove(0).into_reading();
     }

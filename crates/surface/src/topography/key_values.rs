@@ -43,8 +43,8 @@ impl KeyValues {
     }
 
     pub fn value(&self, key: &str) -> Option<Value<'_>> {
-        let is_key = |entry: &&Entry| entry.key.eq_ignore_ascii_case(key);
-        let entry = self.entries.iter().find(is_key)?;
+        let mut entries = self.entries.iter();
+        let entry = entries.find(|entry| entry.key.eq_ignore_ascii_case(key))?;
         Some(Value {
             text: &entry.value,
             place: Place::Line(entry.line),

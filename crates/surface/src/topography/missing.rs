@@ -23,21 +23,26 @@ fn missing_places(heights: &[f64]) -> Result<Vec<usize>, OutOfMemory> {
 /// Returns the ranges of columns and rows from the first to the last with a measured point; empty
 /// if no point is measured.
 pub(super) fn measured_part(heights: &[f64], columns: usize) -> [Range<usize>; 2] {
-    let mut across = usize::MAX..0;
-    let mut down = usize::MAX..0;
+    let mut across = 0..0;
+    let mut down = 0..0;
     for (index, height) in heights.iter().enumerate() {
         if height.is_finite() {
             extend(&mut across, index % columns);
             extend(&mut down, index / columns);
         }
     }
-    [across, down].map(|range| range.start.min(range.end)..range.end)
+    [across, down]
 }
 
 /// Extends a range so that it contains a place.
 fn extend(range: &mut Range<usize>, place: usize) {
-    range.start = range.start.min(place);
-    range.end = range.end.max(place + 1);
+    let is_empty = range.start == range.end;
+    if is_empty {
+        *range = place..place + 1;
+    } else {
+        range.start = range.start.min(place);
+        range.end = range.end.max(place + 1);
+    }
 }
 
 /// Interpolates the missing heights of a map with `columns` columns, or of a profile, which is one
@@ -116,23 +121,28 @@ fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), Out
 fn halved(heights: &[f64], columns: usize) -> Result<Vec<f64>, OutOfMemory> {
     let rows = heights.len() / columns;
     let half_columns = columns.div_ceil(2);
-    let half_rows = rows.div_ceil(2);
-    let block = |index: usize| {
-        let first_row = 2 * (index / half_columns);
-        let first_column = 2 * (index % half_columns);
-        let mut mean = Mean::default();
-        for row in first_row..rows.min(first_row + 2) {
-            for column in first_column..columns.min(first_column + 2) {
-                let height = heights[row * columns + column];
-                if height.is_finite() {
-                    mean.add(height);
-                }
+    let blocks = half_columns * rows.div_ceil(2);
+    let means = (0..blocks).map(|block| {
+        let row = 2 * (block / half_columns);
+        let column = 2 * (block % half_columns);
+        mean_of_block(heights, columns, row, column)
+    });
+    gathered(blocks, means)
+}
+
+/// Returns the mean of the measured points in the block with this first row and column.
+fn mean_of_block(heights: &[f64], columns: usize, row: usize, column: usize) -> f64 {
+    let rows = heights.len() / columns;
+    let mut mean = Mean::default();
+    for row in row..rows.min(row + 2) {
+        for column in column..columns.min(column + 2) {
+            let height = heights[row * columns + column];
+            if height.is_finite() {
+                mean.add(height);
             }
         }
-        mean.value()
-    };
-    let blocks = half_columns * half_rows;
-    gathered(blocks, (0..blocks).map(block))
+    }
+    mean.value()
 }
 
 fn mean_of_neighbours(heights: &[f64], columns: usize, index: usize) -> f64 {

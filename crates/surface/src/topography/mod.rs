@@ -33,5 +33,6 @@ mod stated_units;
 mod sur;
 pub(crate) mod surface;
 mod text;
+mod transpose;
 pub(crate) mod unit;
 mod x3p;

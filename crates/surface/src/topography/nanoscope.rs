@@ -48,11 +48,11 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
             sections: &sections,
         })
         .collect();
-    let is_chosen = |image: &&Image| match channel {
+    let mut chosen: Vec<&Image> = images.iter().collect();
+    chosen.retain(|image| match channel {
         Some(number) => image.number == number as usize,
         None => image.has_heights(),
-    };
-    let chosen: Vec<&Image> = images.iter().filter(is_chosen).collect();
+    });
     let (fault, allowed) = match (&chosen[..], channel) {
         ([image], _) => return image.reading(bytes),
         ([], Some(number)) => (

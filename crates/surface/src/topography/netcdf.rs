@@ -5,9 +5,9 @@ use super::bytes::{Bytes, Number, Order, decoded};
 use super::positions::first_uneven;
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
+use super::transpose::transposed;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
 
 /// First bytes of a file, before the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
@@ -117,8 +117,7 @@ fn map(
         return Ok(Reading::even("NetCDF", values, fast_count, spacing, units));
     }
     // Rows are along x.
-    let column = |number: usize| values.iter().skip(number).step_by(fast_count).copied();
-    let turned = gathered(values.len(), (0..fast_count).flat_map(column))?;
+    let turned = transposed(&values, fast_count)?;
     let columns = dataset.length(slow)?;
     let units = StatedUnits {
         along: slow_unit,

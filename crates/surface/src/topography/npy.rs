@@ -8,8 +8,9 @@
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
+use super::transpose::transposed;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{SIGNATURE, emptied, gathered, shown};
+use asperity_data::{SIGNATURE, emptied, shown};
 
 const FORMAT: &str = "NumPy array";
 
@@ -37,8 +38,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
             if !header.is_column_major {
                 return Ok(even(values, columns));
             }
-            let row = |row: usize| values.iter().skip(row).step_by(rows).copied();
-            let by_rows = gathered(values.len(), (0..rows).flat_map(row))?;
+            let by_rows = transposed(&values, rows)?;
             Ok(even(by_rows, columns))
         }
         _ => Err(header.wrong_axes("1 or 2 axes")),
@@ -137,12 +137,13 @@ impl Header {
             std::mem::swap(&mut row_step, &mut column_step);
         }
         let points = rows.max(columns);
-        let column = |column: usize| -> Vec<f64> {
-            (0..points)
-                .map(|point| values[point * row_step + column * column_step])
-                .collect()
-        };
-        Ok((0..rows.min(columns)).map(column).collect())
+        let mut numbers = Vec::new();
+        for column in 0..rows.min(columns) {
+            let first = column * column_step;
+            let of_column = (0..points).map(|point| values[first + point * row_step]);
+            numbers.push(of_column.collect());
+        }
+        Ok(numbers)
     }
 
     fn columns_of_fields(

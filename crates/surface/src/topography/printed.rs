@@ -104,6 +104,17 @@ struct Bound {
     position: f64,
 }
 
+impl Bound {
+    /// Creates a bound that no point gives.
+    fn unknown(first: f64) -> Self {
+        Bound {
+            first,
+            number: 0.0,
+            position: 0.0,
+        }
+    }
+}
+
 /// The range of first positions with which a grid of a given distance agrees with all points.
 struct Bounds {
     lower: Bound,
@@ -112,14 +123,9 @@ struct Bounds {
 
 impl Bounds {
     fn new(points: &[GridPoint], digits: Digits, distance: f64) -> Self {
-        let bound = |first: f64| Bound {
-            first,
-            number: 0.0,
-            position: 0.0,
-        };
         let mut bounds = Bounds {
-            lower: bound(f64::NEG_INFINITY),
-            upper: bound(f64::INFINITY),
+            lower: Bound::unknown(f64::NEG_INFINITY),
+            upper: Bound::unknown(f64::INFINITY),
         };
         for point in points {
             let half = digits.half(point.position);

@@ -122,17 +122,8 @@ impl Reading {
         if missing == 0 || options.interpolate {
             return Ok(missing > 0);
         }
-        let is_read = |index: usize| {
-            let [columns_before, rows_before] = cropped.before;
-            let column = index % self.columns + columns_before + 1;
-            let row = index / self.columns + rows_before + 1;
-            match options.cut {
-                None => true,
-                Some(Cut::Row(number)) => row as u64 == number,
-                Some(Cut::Column(number)) => column as u64 == number,
-            }
-        };
-        let first = (0..points).find(|index| !self.heights[*index].is_finite() && is_read(*index));
+        let mut missing_points = (0..points).filter(|index| !self.heights[*index].is_finite());
+        let first = missing_points.find(|index| self.is_read(*index, cropped, options.cut));
         let Some(first) = first else {
             return Ok(true);
         };
@@ -147,6 +138,18 @@ impl Reading {
             found,
             allowed,
         ))
+    }
+
+    /// Returns true for a point of the row or column that is read.
+    fn is_read(&self, index: usize, cropped: &Cropped, cut: Option<Cut>) -> bool {
+        let [columns_before, rows_before] = cropped.before;
+        let column = index % self.columns + columns_before + 1;
+        let row = index / self.columns + rows_before + 1;
+        match cut {
+            None => true,
+            Some(Cut::Row(number)) => row as u64 == number,
+            Some(Cut::Column(number)) => column as u64 == number,
+        }
     }
 
     /// Returns the positions of the points in m.

@@ -157,9 +157,8 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
         text: line.split(';').next().unwrap_or_default().trim(),
     });
     let entries = entries(&mut lines)?;
-    let scale = |key: &str| entries.number(key)?.ok_or_else(|| missing(key, REQUIRED));
-    let spacing = [scale("Xscale")?, scale("Yscale")?];
-    let unit = scale("Zscale")?;
+    let spacing = [scale(&entries, "Xscale")?, scale(&entries, "Yscale")?];
+    let unit = scale(&entries, "Zscale")?;
     let layout = Layout {
         columns: entries.count("NumPoints", REQUIRED)?,
         rows: entries.count("NumProfiles", REQUIRED)?,
@@ -175,6 +174,11 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let mut reading = layout.reading(heights.values, &missing);
     reading.first_missing = heights.first_missing;
     Ok(reading)
+}
+
+fn scale(entries: &KeyValues, key: &str) -> Result<f64, SurfaceError> {
+    let scale = entries.number(key)?;
+    scale.ok_or_else(|| missing(key, REQUIRED))
 }
 
 /// Reads the header, from the second line up to `*`.

@@ -117,8 +117,8 @@ impl<'a> Units<'a> {
     }
 }
 
-/// Returns the error of a quantity without a unit. `of_positions` is a unit that the file states for
-/// the positions alone.
+/// Returns the error of a quantity without a unit. `of_positions` is a unit that the file states
+/// for the positions alone.
 fn no_unit(name: &str, of_positions: Option<Unit>) -> SurfaceError {
     let found = format!("no unit of {name} is stated");
     let ways = match of_positions {

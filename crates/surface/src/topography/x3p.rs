@@ -130,10 +130,7 @@ struct Surface<'a, 'input> {
 
 impl<'a, 'input> Surface<'a, 'input> {
     fn new(root: Node<'a, 'input>) -> Result<Self, SurfaceError> {
-        let axis = |name: &str| {
-            find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
-        };
-        let nodes = [axis("CX")?, axis("CY")?, axis("CZ")?];
+        let nodes = [axis(root, "CX")?, axis(root, "CY")?, axis(root, "CZ")?];
         let [x, y, z] = nodes.map(Axis::new);
         Ok(Surface {
             root,
@@ -300,6 +297,10 @@ impl<'a, 'input> Surface<'a, 'input> {
         }
         Ok(coordinates)
     }
+}
+
+fn axis<'a, 'input>(root: Node<'a, 'input>, name: &str) -> Result<Node<'a, 'input>, SurfaceError> {
+    find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
 }
 
 /// A coordinate that a binary file has for each point.

@@ -70,6 +70,13 @@ struct Length {
 }
 
 impl Length {
+    fn millimetres(value: f64) -> Self {
+        Length {
+            value,
+            unit: MILLIMETRE.parse().ok(),
+        }
+    }
+
     fn bare(value: f64) -> Self {
         Length { value, unit: None }
     }
@@ -221,10 +228,6 @@ impl TextHeader {
             return None;
         }
         let number = number(value.rsplit(' ').next()?)?;
-        let millimetres = |value: f64| Length {
-            value,
-            unit: MILLIMETRE.parse().ok(),
-        };
         let stated = self.spacing[0].map_or(1.0, |spacing| spacing.value);
         let factor = self.factor.unwrap_or(1.0);
         match key {
@@ -232,10 +235,10 @@ impl TextHeader {
             "y size" => self.counts[0] = Some(number as usize),
             // The aspect may be stated before the size of a pixel, or after it.
             "pixel_size" => {
-                let along = millimetres(number * stated);
-                self.spacing = [Some(along), Some(millimetres(number))];
+                let along = Length::millimetres(number * stated);
+                self.spacing = [Some(along), Some(Length::millimetres(number))];
             }
-            "aspect" => self.spacing[0] = Some(millimetres(number * stated)),
+            "aspect" => self.spacing[0] = Some(Length::millimetres(number * stated)),
             "wavelength" if self.is_in_wavelengths => self.factor = Some(factor * number),
             "mult" if self.is_in_wavelengths => self.factor = Some(factor / number),
             _ => return None,

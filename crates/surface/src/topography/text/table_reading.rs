@@ -4,6 +4,7 @@ use super::super::grid::PointList;
 use super::super::printed::{Digits, move_to_printed_grid};
 use super::super::reading::Reading;
 use super::super::stated_units::StatedUnits;
+use super::super::transpose::transposed;
 use super::super::unit::Unit;
 use super::columns::{List, list_of};
 use super::header::{TextHeader, X, Y, Z};
@@ -49,9 +50,9 @@ impl Table {
     ) -> Result<Reading, SurfaceError> {
         self.check_counts(self.rows(), self.columns())?;
         let heights = self.heights(columns, list)?;
-        let place = |row: usize| Place::Line(self.line(row));
-        let first_missing = heights.iter().position(|height| height.is_nan()).map(place);
-        let warnings = warnings::of_heights(&heights, is_open, place);
+        let missing = heights.iter().position(|height| height.is_nan());
+        let first_missing = missing.map(|row| self.place(row));
+        let warnings = warnings::of_heights(&heights, is_open, |row| self.place(row));
         let units = ColumnUnits::new(header, columns, list);
         let reading = match (list.x, list.y) {
             (Some(x), Some(y)) => self.points(x, y, heights, units)?,
@@ -79,7 +80,7 @@ impl Table {
                 let name = shown(&columns[valid].name);
                 let found = format!("{mark:e} in the column {name:?}");
                 let allowed = "1 for a measured point, or 0";
-                return Err(refused(Place::Line(self.line(row)), found, allowed));
+                return Err(refused(self.place(row), found, allowed));
             }
         }
         Ok(heights)
@@ -102,7 +103,7 @@ impl Table {
             y: &y_positions,
             heights: &heights,
             digits: [self.digits_of(x), self.digits_of(y)],
-            place: |row: usize| Place::Line(self.line(row)),
+            place: |row: usize| self.place(row),
         };
         let map = list.map()?;
         let units = StatedUnits {
@@ -141,7 +142,7 @@ impl Table {
         self.keep_columns(columns_with_positions);
         let values = std::mem::take(&mut self.values);
         let digits = [self.first_line, self.digits[0]];
-        let place = |row: usize| Place::Line(self.line(row));
+        let place = |row: usize| self.place(row);
         let map = matrix::without_positions(values, columns_with_positions, digits, place)?;
         let columns = map.columns;
         let rows = map.heights.len() / columns;
@@ -170,7 +171,7 @@ impl Table {
             check_both(units)?;
         }
         let reading = if header.is_along_y {
-            let heights = turned(&map.heights, columns)?;
+            let heights = transposed(&map.heights, columns)?;
             let stated = stated.map(|[along, between]| [between, along]);
             Reading::even(MATRIX, heights, rows, stated.or(map.distances), units)
         } else {
@@ -182,6 +183,10 @@ impl Table {
             warnings,
             ..reading
         })
+    }
+
+    fn place(&self, row: usize) -> Place {
+        Place::Line(self.line(row))
     }
 
     fn column(&self, column: usize) -> Result<Vec<f64>, SurfaceError> {
@@ -197,7 +202,7 @@ impl Table {
         let Some(row) = positions.iter().position(|x| x.is_nan()) else {
             return Ok(());
         };
-        let place = Place::Line(self.line(row));
+        let place = self.place(row);
         Err(refused(
             place,
             "a position is missing",
@@ -245,7 +250,7 @@ impl Table {
                 "another position than before"
             };
             let found = format!("x = {:e} after {:e}", pair[1], pair[0]);
-            return Err(refused(Place::Line(self.line(row + 1)), found, allowed));
+            return Err(refused(self.place(row + 1), found, allowed));
         }
         Ok(())
     }
@@ -286,13 +291,6 @@ fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     let points = heights.len();
     let units = StatedUnits::new(header.unit(X, None), units.heights);
     Reading::even(COLUMNS, heights, points, None, units)
-}
-
-/// Returns the heights row by row of a map whose heights are column by column, in columns of this
-/// many points.
-fn turned(heights: &[f64], points: usize) -> Result<Vec<f64>, SurfaceError> {
-    let row = |row: usize| heights.iter().skip(row).step_by(points).copied();
-    Ok(gathered(heights.len(), (0..points).flat_map(row))?)
 }
 
 /// Returns an error if one of the two axes of positions has a unit and the other has none.
