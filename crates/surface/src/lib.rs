@@ -29,13 +29,14 @@ pub use line::form::Form;
 pub use line::spectrum::{Amplitude, SelfAffine};
 pub use line::table::FormTable;
 pub use spectrum::analysis::{Analysis, AnalysisOptions, analyse};
-pub use spectrum::fit::SelfAffineFit;
-pub use spectrum::isotropic::{LineMoments, Moment, ValueWithError};
+pub use spectrum::moments::{LineMoments, Moment, ValueWithError};
+pub use spectrum::self_affine_fit::SelfAffineFit;
 pub use spectrum::statistics::PointStatistics;
-pub use topography::Unit;
+pub use topography::cut::Cut;
 pub use topography::open::{parse, read};
-pub use topography::reading::ReadOptions;
-pub use topography::surface::{Cropped, Cut, Detrend, Topography};
+pub use topography::options::ReadOptions;
+pub use topography::surface::{Cropped, Detrend, Topography};
+pub use topography::unit::Unit;
 
 /// Functions for programs that read files of other data, such as measured force curves. They read
 /// the bytes of a file, decompress gzip and parse columns of NumPy arrays.
@@ -54,11 +55,13 @@ pub mod lines {
     pub use crate::line::modes::phases;
     pub use crate::line::rigid_line::{Histogram, Line};
     pub use crate::line::roughness::Synthesizer;
+    pub use crate::line::spectrum::ModeRange;
     pub use crate::line::table::Rows;
 }
 
 /// Spectra of measured surfaces over the wave number, for charts.
 pub mod spectra {
-    pub use crate::spectrum::isotropic::{End, IsotropicSpectrum, Node};
+    pub use crate::spectrum::isotropic::{IsotropicSpectrum, Node};
+    pub use crate::spectrum::nodes::End;
     pub use crate::spectrum::periodogram::{Along, Bin, line_spectrum};
 }

@@ -15,12 +15,26 @@
 //! in `docs/surface-estimate.md`.
 
 pub(crate) mod analysis;
-pub(crate) mod detrend;
-pub(crate) mod fit;
-pub(crate) mod interlaced;
+mod axis_power;
+mod detrend;
+mod fits;
+mod identities;
+mod interlaced;
 pub(crate) mod isotropic;
-pub(crate) mod observation;
+mod isotropic_fit;
+mod last_wave;
+mod levelled;
+mod likelihood;
+mod map_power;
+pub(crate) mod moments;
+pub(crate) mod nodes;
+mod observation;
 pub(crate) mod periodogram;
+mod point_results;
+mod powers;
+mod quadrature;
+mod scoring;
+pub(crate) mod self_affine_fit;
 pub(crate) mod statistics;
 
 use crate::error::{Place, SurfaceError, refused};

@@ -1,7 +1,9 @@
 //! Observed powers of waves, and their expected means as integrals of the isotropic spectrum.
 
-use super::isotropic::{Nodes, Term, gauss};
-use super::periodogram::{MapPower, ProfilePower};
+use super::map_power::MapPower;
+use super::nodes::{Nodes, Term};
+use super::periodogram::{ProfilePower, Wave};
+use super::quadrature::gauss;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Number of waves of a profile that are single observations; shorter waves are averaged in bands.
@@ -15,12 +17,41 @@ const BANDS_PER_DECADE: f64 = 60.0;
 /// and 2 waves are correlated with the squares of 2/3 and 1/6.
 const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
-/// Distance of waves, and the share that the power of each has in the mean power of a wave under a
-/// Hann window.
-const HANN_SHARES: [(f64, f64); 3] = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
+/// A wave that contributes to the observed power of a wave.
+struct Contribution {
+    /// Distance of the contributing wave, in waves.
+    distance: f64,
+    /// Share of its power in the mean of the observed power.
+    share: f64,
+}
+
+/// Contributions to the power of a wave under a Hann window.
+const HANN_CONTRIBUTIONS: [Contribution; 3] = [
+    Contribution {
+        distance: -1.0,
+        share: 1.0 / 6.0,
+    },
+    Contribution {
+        distance: 0.0,
+        share: 2.0 / 3.0,
+    },
+    Contribution {
+        distance: 1.0,
+        share: 1.0 / 6.0,
+    },
+];
+
+/// The only contribution to the power of a wave without a window: the wave itself.
+const OWN_CONTRIBUTION: [Contribution; 1] = [Contribution {
+    distance: 0.0,
+    share: 1.0,
+}];
 
 /// Largest number of aliases of a wave whose powers are added one by one.
 const MOST_ALIASES: u32 = 4;
+
+/// Number of waves up to which a band says nothing about the dispersion of its powers.
+const LEAST_DISPERSED: f64 = 8.0;
 
 /// Mean power of the waves in a band of wave numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,35 +85,37 @@ pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
         sampling: TAU / power.spacing,
     };
     let correlated = if power.windowed { HANN_CORRELATED } else { 1.0 };
-    let first = if power.windowed { 2 } else { 1 };
     let profiles = power.profiles as f64;
-    let mut observed = Vec::new();
-    let mut low = first;
     let count = power.waves.len().min((last / power.step) as usize);
-    while low <= count {
-        let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
-        let next = if low <= SINGLE {
-            low + 1
-        } else {
-            ((low as f64 * ratio) as usize).max(low + 1)
-        };
-        let next = next.min(count + 1);
-        let waves = (next - low) as f64;
-        let sum: f64 = power.waves[low - 1..next - 1]
+    let mut observations = Vec::new();
+    let mut first = if power.windowed { 2 } else { 1 };
+    while first <= count {
+        let next = first_of_next_band(first).min(count + 1);
+        let waves = (next - first) as f64;
+        let sum: f64 = power.waves[first - 1..next - 1]
             .iter()
-            .map(|(_, power)| power)
+            .map(|wave| wave.power)
             .sum();
-        observed.push(Observation {
-            wave_number: 0.5 * (low + next - 1) as f64 * power.step,
+        observations.push(Observation {
+            wave_number: 0.5 * (first + next - 1) as f64 * power.step,
             power: sum / (waves * profiles),
             waves: waves * profiles / correlated,
             range: waves * power.step / PI,
             windowed: power.windowed,
             kind,
         });
-        low = next;
+        first = next;
     }
-    observed
+    observations
+}
+
+/// Returns the number of the wave of a profile with which the next band begins.
+fn first_of_next_band(first: usize) -> usize {
+    if first <= SINGLE {
+        return first + 1;
+    }
+    let ratio = 10.0_f64.powf(1.0 / BANDS_PER_DECADE);
+    ((first as f64 * ratio) as usize).max(first + 1)
 }
 
 /// Returns the smallest wave number of a map that is used, in rad/m. Under a window, removing a
@@ -95,64 +128,82 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
     }
 }
 
-pub(super) fn of_map(power: &MapPower, last: f64) -> Vec<Observation> {
-    let MapPower {
-        windowed,
-        steps,
-        sampling,
-        ref waves,
-        ..
-    } = *power;
-    let correlated = if windowed {
+/// Sums over the waves of a map in a band of wave numbers.
+#[derive(Default)]
+struct BandSums {
+    waves: f64,
+    wave_number: f64,
+    power: f64,
+    squared_power: f64,
+}
+
+impl BandSums {
+    fn new(band: &[Wave]) -> Self {
+        let mut sums = BandSums::default();
+        for wave in band {
+            sums.waves += 1.0;
+            sums.wave_number += wave.wave_number;
+            sums.power += wave.power;
+            sums.squared_power += wave.power * wave.power;
+        }
+        sums
+    }
+}
+
+fn band_number(wave: &Wave) -> f64 {
+    (BANDS_PER_DECADE * wave.wave_number.log10()).floor()
+}
+
+/// Returns the observations of the spectrum of a map up to a wave number in rad/m.
+pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
+    let least = least_of_map(map) * (1.0 - 1e-9);
+    let first = map.waves.partition_point(|wave| wave.wave_number < least);
+    let end = map.waves.partition_point(|wave| wave.wave_number <= last);
+    let bands: Vec<BandSums> = map.waves[first..end.max(first)]
+        .chunk_by(|wave, next| band_number(wave) == band_number(next))
+        .map(BandSums::new)
+        .collect();
+
+    let correlated = if map.windowed {
         HANN_CORRELATED * HANN_CORRELATED
     } else {
         1.0
     };
-    let least = least_of_map(power) * (1.0 - 1e-9);
-    let (first, end) = (
-        waves.partition_point(|(q, _)| *q < least),
-        waves.partition_point(|(q, _)| *q <= last),
-    );
-    let number = |wave: &(f64, f64)| (BANDS_PER_DECADE * wave.0.log10()).floor();
-    let bands = waves[first..end.max(first)].chunk_by(|one, next| number(one) == number(next));
-    let sums = bands.map(|band| {
-        let sum = |of: fn(&(f64, f64)) -> f64| band.iter().map(of).sum::<f64>();
-        [
-            band.len() as f64,
-            sum(|(q, _)| *q),
-            sum(|(_, power)| *power),
-            sum(|(_, power)| power * power),
-        ]
+    let dispersion = dispersion(&bands);
+    let [along, between] = map.steps;
+    let observations = bands.into_iter().map(|band| Observation {
+        wave_number: band.wave_number / band.waves,
+        power: band.power / band.waves,
+        // Of a wave and its mirror image one is counted.
+        range: 2.0 * band.waves * along * between / (4.0 * PI * PI),
+        waves: band.waves / (correlated * dispersion),
+        windowed: map.windowed,
+        kind: Kind::Plane {
+            steps: map.steps,
+            sampling: map.sampling,
+        },
     });
-    let sums: Vec<[f64; 4]> = sums.collect();
-    let dispersion = dispersion(&sums);
-    let observed = sums
-        .into_iter()
-        .map(|[count, wave_number, power, _]| Observation {
-            wave_number: wave_number / count,
-            power: power / count,
-            // Of a wave and its mirror image one is counted.
-            range: 2.0 * count * steps[0] * steps[1] / (4.0 * PI * PI),
-            waves: count / (correlated * dispersion),
-            windowed,
-            kind: Kind::Plane { steps, sampling },
-        });
-    observed.collect()
+    observations.collect()
 }
 
 /// Computes the variance of the powers in a band over the square of their mean, averaged over the
 /// waves. It is 1 for a surface that is equal in all directions, and more for an anisotropic one,
-/// whose mean powers are less certain. A band is its number of waves and the sums of their wave
-/// numbers, powers and squared powers.
-fn dispersion(bands: &[[f64; 4]]) -> f64 {
-    let many = bands
-        .iter()
-        .filter(|[count, _, power, _]| *count > 8.0 && *power > 0.0);
-    let (sum, waves) = many.fold((0.0, 0.0), |(sum, waves), [n, _, power, squares]| {
+/// whose mean powers are less certain.
+fn dispersion(bands: &[BandSums]) -> f64 {
+    let mut sum = 0.0;
+    let mut waves = 0.0;
+    for band in bands {
+        let is_counted = band.waves > LEAST_DISPERSED && band.power > 0.0;
+        if !is_counted {
+            continue;
+        }
+        let n = band.waves;
+        let square = n * band.squared_power / (band.power * band.power);
         // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
-        let variance = (n * squares / (power * power) - 1.0) * (n + 1.0) / (n - 1.0);
-        (sum + n * variance, waves + n)
-    });
+        let variance = (square - 1.0) * (n + 1.0) / (n - 1.0);
+        sum += n * variance;
+        waves += n;
+    }
     if waves > 0.0 {
         (sum / waves).max(1.0)
     } else {
@@ -164,60 +215,69 @@ impl Observation {
     /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the
     /// equivalent line, p = 0, 1, 2. The moments of a cut are 1, 2/π and 1/2 times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
-        let (first, second) = if let Kind::Cut { .. } = self.kind {
-            (FRAC_PI_2, 2.0)
-        } else {
-            (1.0, 1.0)
-        };
         let q = self.wave_number;
-        [1.0, first * q, second * q * q].map(|factor| factor * self.range * power)
+        let factors = match self.kind {
+            Kind::Cut { .. } => [1.0, FRAC_PI_2 * q, 2.0 * q * q],
+            Kind::Plane { .. } => [1.0, q, q * q],
+        };
+        factors.map(|factor| factor * self.range * power)
     }
 
     /// Returns the terms whose sum is the expected mean power for a spectrum with these nodes,
     /// including aliases of waves that the points do not resolve.
     pub fn terms(&self, nodes: &Nodes) -> Vec<Term> {
-        let mut terms = Vec::new();
-        let shares: &[(f64, f64)] = if self.windowed {
-            &HANN_SHARES
-        } else {
-            &[(0.0, 1.0)]
-        };
         match self.kind {
-            Kind::Cut { step, sampling } => {
-                for (waves, share) in shares {
-                    let q = self.wave_number + waves * step;
-                    add_cut(&mut terms, nodes, q.abs(), *share);
-                    if nodes.end > 0.5 * sampling {
-                        for alias in 1..=MOST_ALIASES {
-                            let period = sampling * f64::from(alias);
-                            add_cut(&mut terms, nodes, period - q, *share);
-                            add_cut(&mut terms, nodes, period + q, *share);
-                        }
-                    }
+            Kind::Cut { step, sampling } => self.terms_of_cut(nodes, step, sampling),
+            Kind::Plane { steps, sampling } => self.terms_of_plane(nodes, steps, sampling),
+        }
+    }
+
+    /// Returns the waves whose power is observed together with the power of this wave.
+    fn contributions(&self) -> &'static [Contribution] {
+        if self.windowed {
+            &HANN_CONTRIBUTIONS
+        } else {
+            &OWN_CONTRIBUTION
+        }
+    }
+
+    fn terms_of_cut(&self, nodes: &Nodes, step: f64, sampling: f64) -> Vec<Term> {
+        let mut terms = Vec::new();
+        for contribution in self.contributions() {
+            let q = self.wave_number + contribution.distance * step;
+            add_cut(&mut terms, nodes, q.abs(), contribution.share);
+            if nodes.end > 0.5 * sampling {
+                for alias in 1..=MOST_ALIASES {
+                    let period = sampling * f64::from(alias);
+                    add_cut(&mut terms, nodes, period - q, contribution.share);
+                    add_cut(&mut terms, nodes, period + q, contribution.share);
                 }
             }
-            Kind::Plane { steps, sampling } => {
-                if nodes.end > 0.5 * sampling[0].min(sampling[1]) {
-                    add_aliases(&mut terms, nodes, self.wave_number, sampling);
-                }
-                // Waves between rows have their neighbours at the distances along them.
-                let turned = [steps[1], steps[0]];
-                let ways = if steps == turned {
-                    vec![steps]
-                } else {
-                    vec![steps, turned]
-                };
-                for [ahead, aside] in &ways {
-                    for ((along, x), (between, y)) in shares
-                        .iter()
-                        .flat_map(|x| shares.iter().map(move |y| (x, y)))
-                    {
-                        let q = (self.wave_number + along * ahead)
-                            .hypot(between * aside)
-                            .max(f64::MIN_POSITIVE);
-                        if q <= nodes.end {
-                            terms.push(nodes.term(q, x * y / ways.len() as f64));
-                        }
+        }
+        terms
+    }
+
+    fn terms_of_plane(&self, nodes: &Nodes, steps: [f64; 2], sampling: [f64; 2]) -> Vec<Term> {
+        let mut terms = Vec::new();
+        if nodes.end > 0.5 * sampling[0].min(sampling[1]) {
+            add_aliases(&mut terms, nodes, self.wave_number, sampling);
+        }
+        // Waves between rows have their neighbours at the distances along them.
+        let turned = [steps[1], steps[0]];
+        let directions = if steps == turned {
+            vec![steps]
+        } else {
+            vec![steps, turned]
+        };
+        for [ahead, aside] in &directions {
+            for along in self.contributions() {
+                for between in self.contributions() {
+                    let q = (self.wave_number + along.distance * ahead)
+                        .hypot(between.distance * aside)
+                        .max(f64::MIN_POSITIVE);
+                    if q <= nodes.end {
+                        let share = along.share * between.share / directions.len() as f64;
+                        terms.push(nodes.term(q, share));
                     }
                 }
             }
@@ -229,53 +289,60 @@ impl Observation {
 /// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions.
 /// They are C2D at the distances of the reciprocal lattice of the sampling. Distant aliases are
 /// replaced by an integral.
-fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, [x, y]: [f64; 2]) {
-    let most = f64::from(MOST_ALIASES);
-    let mut add = |q: f64, weight: f64| {
-        if q <= nodes.end {
-            terms.push(nodes.term(q, weight));
-        }
-    };
-    let orders = || (0..=2 * MOST_ALIASES).map(|order| f64::from(order) - most);
-    for (angle, weight) in gauss(0.0, FRAC_PI_2) {
-        let (along, between) = (wave_number * angle.cos(), wave_number * angle.sin());
-        for (i, j) in orders()
-            .flat_map(|i| orders().map(move |j| (i, j)))
-            .filter(|order| *order != (0.0, 0.0))
-        {
-            add((along + i * x).hypot(between + j * y), weight / FRAC_PI_2);
+fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, sampling: [f64; 2]) {
+    let [x, y] = sampling;
+    let most = MOST_ALIASES as i32;
+    for direction in gauss(0.0, FRAC_PI_2) {
+        let along = wave_number * direction.place.cos();
+        let between = wave_number * direction.place.sin();
+        for i in -most..=most {
+            for j in -most..=most {
+                if i == 0 && j == 0 {
+                    continue;
+                }
+                let q = (along + f64::from(i) * x).hypot(between + f64::from(j) * y);
+                add_term(terms, nodes, q, direction.weight / FRAC_PI_2);
+            }
         }
     }
-    let beyond = (2.0 * most + 1.0) * (x * y / PI).sqrt();
-    for (low, high) in nodes.pieces_from(beyond) {
-        for (ln_q, weight) in gauss(low.ln(), high.ln()) {
-            add(ln_q.exp(), TAU * (2.0 * ln_q).exp() * weight / (x * y));
+
+    let beyond = (2.0 * f64::from(MOST_ALIASES) + 1.0) * (x * y / PI).sqrt();
+    for piece in nodes.pieces_from(beyond) {
+        for point in piece.logarithms() {
+            let ln_q = point.place;
+            let weight = TAU * (2.0 * ln_q).exp() * point.weight / (x * y);
+            add_term(terms, nodes, ln_q.exp(), weight);
         }
+    }
+}
+
+/// Adds a term unless its wave lies beyond the end of the spectrum.
+fn add_term(terms: &mut Vec<Term>, nodes: &Nodes, q: f64, weight: f64) {
+    if q <= nodes.end {
+        terms.push(nodes.term(q, weight));
     }
 }
 
 /// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the
 /// variable the integrand has no pole.
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
-    for (low, high) in nodes.pieces_from(k) {
-        let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
-        let points = gauss(along(low), along(high));
-        terms.extend(points.map(|(t, weight)| nodes.term(k.hypot(t), factor * weight / PI)));
+    let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
+    for piece in nodes.pieces_from(k) {
+        for point in gauss(along(piece.low), along(piece.high)) {
+            terms.push(nodes.term(k.hypot(point.place), factor * point.weight / PI));
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::isotropic::{End, known, line_moments};
+    use super::super::isotropic::known;
+    use super::super::moments::line_moments;
+    use super::super::nodes::{End, WaveRange};
     use super::*;
 
     fn mean(terms: &[Term], values: &[f64]) -> f64 {
-        let term = |term: &Term| {
-            let value =
-                (1.0 - term.share) * values[term.index] + term.share * values[term.index + 1];
-            term.weight * value.exp()
-        };
-        terms.iter().map(term).sum()
+        terms.iter().map(|term| term.value(values)).sum()
     }
 
     #[test]
@@ -288,16 +355,15 @@ mod tests {
                 .collect()
         };
         let found = |factor: f64| {
-            let waves = powers(factor)
-                .into_iter()
-                .map(|power| (1.0, power))
-                .collect();
-            let (steps, sampling) = ([0.1; 2], [10.0; 2]);
+            let waves = powers(factor).into_iter().map(|power| Wave {
+                wave_number: 1.0,
+                power,
+            });
             let map = MapPower {
                 windowed: false,
-                steps,
-                sampling,
-                waves,
+                steps: [0.1; 2],
+                sampling: [10.0; 2],
+                waves: waves.collect(),
                 offsets: false,
                 apart: 0.0,
             };
@@ -310,7 +376,11 @@ mod tests {
 
     #[test]
     fn line_and_cut_of_a_surface_differ_as_the_identities_say() {
-        let nodes = Nodes::new(1.0, 300.0, 12.0, End::Ends);
+        let range = WaveRange {
+            first: 1.0,
+            last: 300.0,
+        };
+        let nodes = Nodes::new(range, 12.0, End::Ends);
         for hurst in [0.3, 0.8] {
             // Roll-off at 10.
             let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
@@ -321,11 +391,11 @@ mod tests {
                 .map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0))
                 .collect();
             for piece in wave_numbers.windows(2) {
-                for (ln_k, weight) in gauss(piece[0].ln(), piece[1].ln()) {
-                    let k = ln_k.exp();
+                for point in gauss(piece[0].ln(), piece[1].ln()) {
+                    let k = point.place.exp();
                     let mut terms = Vec::new();
                     add_cut(&mut terms, &nodes, k, 1.0);
-                    let power = weight * k * mean(&terms, &spectrum.values);
+                    let power = point.weight * k * mean(&terms, &spectrum.values);
                     for (sum, factor) in sums.iter_mut().zip([1.0, k * k, k]) {
                         *sum += factor * power;
                     }

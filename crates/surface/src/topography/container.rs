@@ -1,13 +1,15 @@
 //! Containers of contact.engineering: archives with an index, in JSON or YAML, that lists surfaces
 //! and their measurements.
 
-use super::Unit;
-use super::reading::{ReadOptions, Reading};
+use super::options::ReadOptions;
+use super::reading::Reading;
 use super::surface::Detrend;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use serde::Deserialize;
 
+/// Names of the index, in JSON and in YAML.
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
@@ -86,94 +88,91 @@ pub(super) fn measurements(
     content: &[u8],
     name: Option<&str>,
 ) -> Result<Vec<Measurement>, SurfaceError> {
-    let wrong = |error: String| {
-        let first = error.lines().next().unwrap_or_default();
-        refused(
-            Place::Part(index.to_owned()),
-            first,
-            "surfaces with their topographies and datafile",
-        )
-    };
-    let read: Result<Index, String> = if index == INDICES[0] {
+    let surfaces = surfaces(index, content)?;
+    let found = chosen(surfaces, name)?;
+    if (1..=MOST_MEASUREMENTS).contains(&found.len()) {
+        return Ok(found);
+    }
+    let found = format!("{} measurements of the surface", found.len());
+    let allowed = format!("from 1 to {MOST_MEASUREMENTS}");
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Parses the index.
+fn surfaces(index: &str, content: &[u8]) -> Result<Vec<Surface>, SurfaceError> {
+    let parsed: Result<Index, String> = if index == INDICES[0] {
         serde_json::from_slice(content).map_err(|error| error.to_string())
     } else {
         serde_saphyr::from_slice(content).map_err(|error| error.to_string())
     };
-    let mut surfaces = read.map_err(wrong)?.surfaces;
-    let names = surfaces
-        .iter()
-        .map(|surface| format!("{:?}", shown(&surface.name)));
-    let names = names.collect::<Vec<_>>().join(", ");
-    let which = |fault: String| {
-        let allowed = "--channel with one of them or of their measurements, in a scene roughness.surface_name";
-        refused(
-            Place::File,
-            format!("{fault} in the container: {names}"),
-            allowed,
-        )
-    };
-    let found = match (
-        name,
-        surfaces
-            .iter()
-            .position(|surface| Some(surface.name.as_str()) == name),
-    ) {
-        (_, Some(place)) => surfaces.swap_remove(place).topographies,
-        (None, None) if surfaces.len() == 1 => surfaces.remove(0).topographies,
-        (None, None) => return Err(which(format!("{} surfaces", surfaces.len()))),
-        (Some(name), None) => {
-            let mut all = surfaces
-                .into_iter()
-                .flat_map(|surface| surface.topographies);
-            let one = all.find(|measurement| measurement.name == name);
-            vec![one.ok_or_else(|| which(format!("no surface {:?}", shown(name))))?]
+    match parsed {
+        Ok(index) => Ok(index.surfaces),
+        Err(error) => {
+            let first_line = error.lines().next().unwrap_or_default();
+            let allowed = "surfaces with their topographies and datafile";
+            Err(refused(Place::Part(index.to_owned()), first_line, allowed))
         }
-    };
-    if !(1..=MOST_MEASUREMENTS).contains(&found.len()) {
-        let fault = format!("{} measurements of the surface", found.len());
-        return Err(refused(
-            Place::File,
-            fault,
-            format!("from 1 to {MOST_MEASUREMENTS}"),
-        ));
     }
-    Ok(found)
+}
+
+fn chosen(
+    mut surfaces: Vec<Surface>,
+    name: Option<&str>,
+) -> Result<Vec<Measurement>, SurfaceError> {
+    let names: Vec<String> = surfaces
+        .iter()
+        .map(|surface| format!("{:?}", shown(&surface.name)))
+        .collect();
+    let undecided = |fault: String| {
+        let found = format!("{fault} in the container: {}", names.join(", "));
+        let allowed = "--channel with one of them or of their measurements, in a scene roughness.surface_name";
+        refused(Place::File, found, allowed)
+    };
+    let Some(name) = name else {
+        if surfaces.len() == 1 {
+            return Ok(surfaces.swap_remove(0).topographies);
+        }
+        return Err(undecided(format!("{} surfaces", surfaces.len())));
+    };
+    if let Some(place) = surfaces.iter().position(|surface| surface.name == name) {
+        return Ok(surfaces.swap_remove(place).topographies);
+    }
+    let mut measurements = surfaces
+        .into_iter()
+        .flat_map(|surface| surface.topographies);
+    match measurements.find(|measurement| measurement.name == name) {
+        Some(measurement) => Ok(vec![measurement]),
+        None => Err(undecided(format!("no surface {:?}", shown(name)))),
+    }
 }
 
 impl Measurement {
     /// Returns the name of the file with the scaled heights, whose format is always the same; if
     /// there is none, of the measured file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
-        let names = self
-            .datafile
-            .squeezed
-            .as_deref()
-            .or(self.datafile.original.as_deref());
-        names.ok_or_else(|| {
-            let place = Place::Part(format!("topography {}", self.name));
-            refused(
-                place,
-                "no file",
-                "a datafile with original or squeezed-netcdf",
-            )
+        let name = self.datafile.squeezed.as_deref();
+        name.or(self.datafile.original.as_deref()).ok_or_else(|| {
+            let allowed = "a datafile with original or squeezed-netcdf";
+            refused(self.place(), "no file", allowed)
         })
+    }
+
+    fn place(&self) -> Place {
+        Place::Part(format!("topography {}", self.name))
     }
 
     /// Returns a message about the radius of the tip that the index states.
     pub fn tip_radius(&self) -> Option<String> {
-        let Radius { value, unit } = self
-            .instrument
-            .as_ref()?
-            .parameters
-            .as_ref()?
-            .tip_radius
-            .as_ref()?;
-        let unit = unit.parse::<Unit>().ok()?;
+        let parameters = self.instrument.as_ref()?.parameters.as_ref()?;
+        let radius = parameters.tip_radius.as_ref()?;
+        let value = radius.value;
+        let unit = radius.unit.parse::<Unit>().ok()?;
         Some(format!(
             "the radius of the tip is {value} {unit}, which --tip-radius {value}{unit} uses"
         ))
     }
 
+    /// Returns true if the file holds the heights as measured, before scaling.
     fn is_original(&self) -> bool {
         self.datafile.squeezed.is_none()
     }
@@ -188,18 +187,22 @@ impl Measurement {
         }
     }
 
+    /// Returns the options for reading the file of the measurement.
     pub fn options(&self, options: &ReadOptions) -> Result<ReadOptions, SurfaceError> {
         let unit = self.unit.as_deref().unwrap_or_default();
-        let stated = Unit::stated(unit, Place::Part(format!("topography {}", self.name)))?;
-        let is_filled = self
-            .fill_undefined_data_mode
-            .as_deref()
-            .is_some_and(|mode| mode != "do-not-fill");
+        let stated = Unit::stated(unit, self.place())?;
+        let is_filled = match self.fill_undefined_data_mode.as_deref() {
+            Some(mode) => mode != "do-not-fill",
+            None => false,
+        };
+        let channel = if self.is_original() {
+            options.channel.or(self.data_source)
+        } else {
+            options.channel
+        };
         Ok(ReadOptions {
             convention: stated.or(options.convention),
-            channel: options
-                .channel
-                .or(self.data_source.filter(|_| self.is_original())),
+            channel,
             interpolate: options.interpolate || is_filled,
             ..options.clone()
         })
@@ -207,28 +210,29 @@ impl Measurement {
 
     /// Fills in what the file of the measurement omits.
     pub fn completed(&self, mut reading: Reading) -> Reading {
-        if let (None, None, Some(&width)) = (&reading.positions, reading.spacing, self.size.first())
+        if reading.positions.is_none()
+            && reading.spacing.is_none()
+            && let Some(&width) = self.size.first()
         {
-            let rows = (reading.heights.len() / reading.columns.max(1)) as f64;
+            let rows = reading.heights.len() / reading.columns.max(1);
             let height = self.size.get(1).copied().unwrap_or(width);
-            reading.spacing = Some([width / reading.columns as f64, height / rows]);
+            reading.spacing = Some([width / reading.columns as f64, height / rows as f64]);
         }
-        // A file with a unit of its heights has their scale.
-        match self
-            .height_scale
-            .filter(|_| self.is_original() && reading.units[2].is_none())
-        {
-            Some(scale) => reading.scaled(|_| false, scale),
-            None => reading,
+        match self.height_scale {
+            // A file with a unit of its heights has their scale.
+            Some(scale) if self.is_original() && reading.units.heights.is_none() => {
+                reading.scaled(|_| false, scale)
+            }
+            _ => reading,
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::bytes::tests::archive;
+    use super::super::archive::tests::archive;
     use super::super::open::{parse, parse_all};
-    use super::super::reading::ReadOptions;
+    use super::super::options::ReadOptions;
     use super::super::surface::Topography;
     use super::*;
 

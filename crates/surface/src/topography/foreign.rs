@@ -11,93 +11,139 @@ const ARRAYS: &str =
 const MOUNTAINS: &str = "the same exported as SUR or X3P in MountainsMap";
 const SHEET: &str = "the same saved as CSV";
 
-/// First bytes, name of the format, and what is allowed in its place.
-const SIGNATURES: [(&[u8], &str, &str); 30] = [
-    (
+/// A format that is not read.
+struct Foreign {
+    name: &'static str,
+    /// What is allowed in its place.
+    allowed: &'static str,
+}
+
+/// A format that is known by its first bytes.
+struct KnownStart {
+    start: &'static [u8],
+    format: Foreign,
+}
+
+const fn starting(start: &'static [u8], name: &'static str, allowed: &'static str) -> KnownStart {
+    KnownStart {
+        start,
+        format: Foreign { name, allowed },
+    }
+}
+
+const KNOWN_STARTS: [KnownStart; 30] = [
+    starting(
         b"\\*Force file list",
         "a file of force curves of Nanoscope",
         CURVE,
     ),
-    (b"?*File list", "Nanoscope as text", GWYDDION),
-    (b"Data_File_Type", "Nanoscope of version 2", GWYDDION),
-    (b"AliconaImaging", "AL3D of Alicona", GWYDDION),
-    (
+    starting(b"?*File list", "Nanoscope as text", GWYDDION),
+    starting(b"Data_File_Type", "Nanoscope of version 2", GWYDDION),
+    starting(b"AliconaImaging", "AL3D of Alicona", GWYDDION),
+    starting(
         b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1",
         "a document of MountainsMap (MNT) or of Office",
         MOUNTAINS,
     ),
-    (
+    starting(
         b"\x89HDF\r\n\x1a\n",
         "HDF5, as DATX, H5 and NetCDF-4 are",
         ARRAYS,
     ),
-    (b"\x01\0Directory", "OPD of Wyko", GWYDDION),
-    (b"VCA DATA", "OPDx of Dektak and Vision64", GWYDDION),
-    (b"\x88\x1b\x03", "DAT of Zygo MetroPro", GWYDDION),
-    (b"VK3", "VK3 of Keyence", GWYDDION),
-    (b"VK4", "VK4 of Keyence", GWYDDION),
-    (b"VK6", "VK6 of Keyence", GWYDDION),
-    (b"KPK", "ZON of Keyence", GWYDDION),
-    (b"FRTM_GL", "FRT of FormFactor", GWYDDION),
-    (b"fileType      Image", "MI of Agilent", GWYDDION),
-    (b"[DataSet]", "NID of Nanosurf", GWYDDION),
-    (b"WSxM file", "STP or TOP of WSxM", GWYDDION),
-    (b"Binary TrueMap", "TMD of TrueMap", GWYDDION),
-    (b":NANONIS_VERSION:", "SXM of Nanonis", GWYDDION),
-    (b"\x01\xb0\x93\xff", "MDT of NT-MDT", GWYDDION),
-    (b"fileformat = bcr", "BCR of SPIP", GWYDDION),
-    (b"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0", "BCR of SPIP", GWYDDION),
-    (b"II*\0", "TIFF, also of JPK and Park", GWYDDION),
-    (b"MM\0*", "TIFF, also of JPK and Park", GWYDDION),
-    (b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", ARRAYS),
-    (b"\x05\0\x94", "IBW of Igor and Asylum", GWYDDION),
-    (b"\x89PNG", "a picture (PNG)", PICTURE),
-    (b"\xff\xd8\xff", "a picture (JPEG)", PICTURE),
-    (b"GIF8", "a picture (GIF)", PICTURE),
-    (b"%PDF", "a document (PDF)", PICTURE),
+    starting(b"\x01\0Directory", "OPD of Wyko", GWYDDION),
+    starting(b"VCA DATA", "OPDx of Dektak and Vision64", GWYDDION),
+    starting(b"\x88\x1b\x03", "DAT of Zygo MetroPro", GWYDDION),
+    starting(b"VK3", "VK3 of Keyence", GWYDDION),
+    starting(b"VK4", "VK4 of Keyence", GWYDDION),
+    starting(b"VK6", "VK6 of Keyence", GWYDDION),
+    starting(b"KPK", "ZON of Keyence", GWYDDION),
+    starting(b"FRTM_GL", "FRT of FormFactor", GWYDDION),
+    starting(b"fileType      Image", "MI of Agilent", GWYDDION),
+    starting(b"[DataSet]", "NID of Nanosurf", GWYDDION),
+    starting(b"WSxM file", "STP or TOP of WSxM", GWYDDION),
+    starting(b"Binary TrueMap", "TMD of TrueMap", GWYDDION),
+    starting(b":NANONIS_VERSION:", "SXM of Nanonis", GWYDDION),
+    starting(b"\x01\xb0\x93\xff", "MDT of NT-MDT", GWYDDION),
+    starting(b"fileformat = bcr", "BCR of SPIP", GWYDDION),
+    starting(b"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0", "BCR of SPIP", GWYDDION),
+    starting(b"II*\0", "TIFF, also of JPK and Park", GWYDDION),
+    starting(b"MM\0*", "TIFF, also of JPK and Park", GWYDDION),
+    starting(b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", ARRAYS),
+    starting(b"\x05\0\x94", "IBW of Igor and Asylum", GWYDDION),
+    starting(b"\x89PNG", "a picture (PNG)", PICTURE),
+    starting(b"\xff\xd8\xff", "a picture (JPEG)", PICTURE),
+    starting(b"GIF8", "a picture (GIF)", PICTURE),
+    starting(b"%PDF", "a document (PDF)", PICTURE),
 ];
 
-/// Ends of the names of files in an archive, name of its format, and what is allowed in its place.
-const ARCHIVES: [(&str, &str, &str); 5] = [
-    (".npy", "NPZ of NumPy", ARRAYS),
-    ("xl/workbook.xml", "a workbook (XLSX)", SHEET),
-    ("recipe.txt", "PLUX of Sensofar", GWYDDION),
-    ("word/document.xml", "a document (DOCX)", PICTURE),
-    ("header.properties", "an archive of JPK", CURVE),
+/// A format that is an archive, known by the end of the name of one of its files.
+struct KnownArchive {
+    file_end: &'static str,
+    format: Foreign,
+}
+
+const fn archive_with(
+    file_end: &'static str,
+    name: &'static str,
+    allowed: &'static str,
+) -> KnownArchive {
+    KnownArchive {
+        file_end,
+        format: Foreign { name, allowed },
+    }
+}
+
+const KNOWN_ARCHIVES: [KnownArchive; 5] = [
+    archive_with(".npy", "NPZ of NumPy", ARRAYS),
+    archive_with("xl/workbook.xml", "a workbook (XLSX)", SHEET),
+    archive_with("recipe.txt", "PLUX of Sensofar", GWYDDION),
+    archive_with("word/document.xml", "a document (DOCX)", PICTURE),
+    archive_with("header.properties", "an archive of JPK", CURVE),
 ];
+
+const PLU: Foreign = Foreign {
+    name: "PLU of Sensofar",
+    allowed: GWYDDION,
+};
 
 /// Returns an error with the name of the format if the content has a format that is known, but not
 /// read.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
-    let known = SIGNATURES
-        .iter()
-        .find(|(signature, ..)| bytes.starts_with(signature));
-    // A date of 24 letters, then zeros.
-    let is_plu = bytes
-        .get(..25)
-        .is_some_and(|head| head[24] == 0 && head[13] == b':' && head[16] == b':');
-    let plu = is_plu.then_some(("PLU of Sensofar", GWYDDION));
-    let known = known.map(|(_, name, allowed)| (*name, *allowed));
-    known
-        .or(plu)
-        .map_or(Ok(()), |(name, allowed)| Err(unread(name, allowed)))
+    for known in &KNOWN_STARTS {
+        if bytes.starts_with(known.start) {
+            return Err(unread(&known.format));
+        }
+    }
+    if is_plu(bytes) {
+        return Err(unread(&PLU));
+    }
+    Ok(())
 }
 
-fn unread(name: &str, allowed: &str) -> SurfaceError {
-    refused(Place::File, format!("{name} is not read"), allowed)
+/// Returns true for a date of 24 letters, then a zero.
+fn is_plu(bytes: &[u8]) -> bool {
+    match bytes.get(..25) {
+        Some(head) => head[24] == 0 && head[13] == b':' && head[16] == b':',
+        None => false,
+    }
+}
+
+fn unread(format: &Foreign) -> SurfaceError {
+    let found = format!("{} is not read", format.name);
+    refused(Place::File, found, format.allowed)
 }
 
 /// Returns the error for an archive with files of these names, none of which is an index.
 pub(super) fn archive<'a>(
     names: impl Iterator<Item = &'a str> + Clone,
-    [x3p, in_json, in_yaml]: [&str; 3],
+    indices: [&str; 3],
 ) -> SurfaceError {
-    let found = ARCHIVES
-        .iter()
-        .find(|(end, ..)| names.clone().any(|name| name.ends_with(end)));
-    if let Some((_, name, allowed)) = found {
-        return unread(name, allowed);
+    for known in &KNOWN_ARCHIVES {
+        if names.clone().any(|name| name.ends_with(known.file_end)) {
+            return unread(&known.format);
+        }
     }
+    let [x3p, in_json, in_yaml] = indices;
     let allowed = format!(
         "{x3p} of X3P, or {in_json} or {in_yaml} of a container; others saved as GWY or X3P in Gwyddion"
     );
@@ -106,9 +152,9 @@ pub(super) fn archive<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::bytes::tests::archive;
+    use super::super::archive::tests::archive;
     use super::super::open::parse;
-    use super::super::reading::ReadOptions;
+    use super::super::options::ReadOptions;
 
     #[test]
     fn known_formats_that_are_not_read_are_named_with_a_way_out() {

@@ -1,11 +1,9 @@
-//! Even grids whose positions are printed with few digits, and maps from lists of points.
+//! Maps from lists of points in any order.
 
-use super::surface::{UNEVEN, first_uneven};
+use super::positions::{UNEVEN, first_uneven};
+use super::printed::{Digits, Grid, GridPoint, printed_grid};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
-
-/// Smallest number of positions whose digits show an even grid. Fewer may be uneven by intention.
-const LEAST_PRINTED: usize = 32;
 
 /// Share of the largest distance between positions below which two positions are on the same line
 /// of a grid.
@@ -14,219 +12,85 @@ const SAME_LINE: f64 = 0.05;
 /// Largest number of lines of a grid over the number of lines that have points.
 const MOST_LINES: f64 = 1.25;
 
+/// Ratio to the smallest distance between lines below which no line is missing between two lines.
+const SMALL_GAP: f64 = 1.5;
+
 /// Largest number of cells of a grid over the number of points: half of the points may be missing.
 const MOST_CELLS: usize = 2;
 
-/// Relative difference between the distance of points and the last printed digit below which a
-/// missing point looks like a rounded distance.
-const LIKE_DIGIT: f64 = 0.1;
-
-/// Limit of the number of cuts in the search for an even grid.
-const MOST_CUTS: usize = 64;
-
-/// Digits with which the numbers of a column are printed: the largest numbers of decimals and of
-/// significant digits.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Digits {
-    decimals: i32,
-    significant: i32,
-}
-
-impl Digits {
-    pub const EXACT: Digits = Digits {
-        decimals: 400,
-        significant: 15,
-    };
-
-    pub fn take(&mut self, cell: &str) {
-        let (mut decimals, mut significant, mut is_behind) = (0, 0, false);
-        for (index, byte) in cell.bytes().enumerate() {
-            match byte {
-                b'0'..=b'9' => {
-                    decimals += i32::from(is_behind);
-                    significant += i32::from(byte != b'0' || significant > 0);
-                }
-                // The last one: others separate thousands.
-                b'.' | b',' => (is_behind, decimals) = (true, 0),
-                b'e' | b'E' => {
-                    decimals -= cell[index + 1..]
-                        .parse::<i32>()
-                        .map_or(0, |power| power.clamp(-400, 400));
-                    break;
-                }
-                _ => {}
-            }
-        }
-        self.decimals = self.decimals.max(decimals);
-        self.significant = self.significant.max(significant);
-    }
-
-    /// Returns half of the last printed digit of a number, plus some rounding errors.
-    fn half(self, value: f64) -> f64 {
-        let before = if value == 0.0 {
-            i32::MIN / 2
-        } else {
-            value.abs().log10().floor() as i32 + 1
-        };
-        let digit = (before - self.significant).max(-self.decimals);
-        0.500_001 * 10.0_f64.powi(digit)
-    }
-}
-
-/// Returns the first position and the distance of an even grid that agrees with all positions to
-/// within half a printed digit. Positions are given as (number, position) in the order of the
-/// numbers.
-fn printed_grid(points: &[(f64, f64)], digits: Digits) -> Option<[f64; 2]> {
-    let [(_, first), .., (last_number, last)] = points else {
-        return None;
-    };
-    if points.len() < LEAST_PRINTED {
-        return None;
-    }
-    let of_ends = (digits.half(*first) + digits.half(*last)) / last_number;
-    let mean = (last - first) / last_number;
-    let digit = 2.0 * digits.half(*first).max(digits.half(*last));
-    if (mean.abs() / digit - 1.0).abs() < LIKE_DIGIT {
-        return None;
-    }
-    let [mut low, mut high] = [mean - of_ends, mean + of_ends];
-    for _ in 0..MOST_CUTS {
-        let distance = f64::midpoint(low, high);
-        // The largest lower bound and the least upper bound of the first position.
-        let (mut least, mut most) = ((f64::NEG_INFINITY, 0.0, 0.0), (f64::INFINITY, 0.0, 0.0));
-        for (number, position) in points {
-            let (half, before) = (digits.half(*position), number * distance);
-            if position - half - before > least.0 {
-                least = (position - half - before, *number, position - half);
-            }
-            if position + half - before < most.0 {
-                most = (position + half - before, *number, position + half);
-            }
-        }
-        if least.0 <= most.0 {
-            return Some([f64::midpoint(least.0, most.0), distance]);
-        }
-        let bound = (least.2 - most.2) / (least.1 - most.1);
-        if least.1 > most.1 {
-            low = low.max(bound)
-        } else {
-            high = high.min(bound)
-        }
-        if low > high {
-            return None;
-        }
-    }
-    None
-}
-
-/// Moves positions onto an even grid if that changes none by more than its printed digits.
-/// Otherwise they remain unchanged.
-pub(super) fn move_to_printed_grid(
-    positions: &mut [f64],
-    digits: Digits,
-) -> Result<(), SurfaceError> {
-    let [first, .., last] = positions else {
-        return Ok(());
-    };
-    let (first, distance) = (*first, (*last - *first) / (positions.len() - 1) as f64);
-    if distance == 0.0 || first_uneven(positions, first, distance).is_none() {
-        return Ok(());
-    }
-    let points = gathered(
-        positions.len(),
-        positions
-            .iter()
-            .enumerate()
-            .map(|(number, x)| (number as f64, *x)),
-    )?;
-    if let Some([first, distance]) = printed_grid(&points, digits) {
-        positions
-            .iter_mut()
-            .enumerate()
-            .for_each(|(number, x)| *x = first + number as f64 * distance);
-    }
-    Ok(())
-}
-
 /// Evenly spaced lines of a grid along one axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axis {
-    pub first: f64,
+#[derive(Clone, Copy)]
+struct Axis {
+    first: f64,
     /// Distance between lines, negative if the first points are in descending order; 0 for a single
     /// line.
-    pub distance: f64,
-    pub count: usize,
+    distance: f64,
+    count: usize,
+}
+
+/// Result of the search for the lines of a grid.
+enum AxisSearch {
+    Found(Axis),
+    /// A position that lies off the even grid.
+    Uneven(f64),
 }
 
 impl Axis {
-    /// Finds the lines through the positions, some of which may be missing. The inner error is a
-    /// position that lies off the even grid.
-    pub fn of(positions: &[f64], digits: Digits) -> Result<Result<Axis, f64>, SurfaceError> {
+    /// Finds the lines through the positions, some of which may be missing.
+    fn search(positions: &[f64], digits: Digits) -> Result<AxisSearch, SurfaceError> {
         let mut sorted = gathered(positions.len(), positions.iter().copied())?;
         sorted.sort_unstable_by(f64::total_cmp);
         sorted.dedup();
-        let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
-        let gap = |pair: &[f64]| pair[1] - pair[0];
-        let widest = sorted.windows(2).map(gap).fold(0.0, f64::max);
-        let lines = sorted.chunk_by(|one, next| next - one < SAME_LINE * widest);
-        let lines = lines.map(|line| f64::midpoint(line[0], line[line.len() - 1]));
-        let lines = gathered(sorted.len(), lines)?;
+        let first = sorted[0];
+        let last = sorted[sorted.len() - 1];
+        let lines = lines(&sorted)?;
         if lines.len() < 2 {
-            return Ok(Ok(Axis {
+            return Ok(AxisSearch::Found(Axis {
                 first,
                 distance: 0.0,
                 count: 1,
             }));
         }
-        // Without missing lines, or at the mean of the smaller distances.
-        let least = lines.windows(2).map(gap).fold(f64::INFINITY, f64::min);
-        let small = || lines.windows(2).map(gap).filter(|gap| *gap < 1.5 * least);
-        let step = small().sum::<f64>() / small().count() as f64;
-        let mut number = 0.0;
-        let sparse = lines.windows(2).map(|pair| {
-            number += (gap(pair) / step).round();
-            (number, pair[1])
-        });
-        let sparse: Vec<_> = std::iter::once((0.0, lines[0])).chain(sparse).collect();
-        let full: Vec<_> = (0..lines.len())
-            .map(|number| (number as f64, lines[number]))
-            .collect();
-        let found = [&full, &sparse].into_iter().find_map(|points| {
-            let (last_number, last) = *points.last()?;
-            if last_number + 1.0 > MOST_LINES * points.len() as f64 {
-                return None;
-            }
-            let [first, distance] = [lines[0], (last - lines[0]) / last_number];
-            let is_even = |(number, x): &(f64, f64)| {
-                (x - first - number * distance).abs() <= UNEVEN * distance
-            };
-            let even = points.iter().all(is_even).then_some([first, distance]);
-            Some((
-                even.or_else(|| printed_grid(points, digits))?,
-                last_number as usize + 1,
-            ))
-        });
-        let Some(([first, distance], count)) = found else {
+        // Without missing lines, or with some.
+        let found = Axis::through(&numbered(&lines), digits)
+            .or_else(|| Axis::through(&numbered_by_distance(&lines), digits));
+        let Some(mut axis) = found else {
             let mean = (last - first) / (lines.len() - 1) as f64;
             let off = first_uneven(&lines, first, mean).unwrap_or(0);
-            return Ok(Err(lines[off]));
+            return Ok(AxisSearch::Uneven(lines[off]));
         };
-        let turn = positions
+        let second = positions
             .iter()
-            .find(|x| (**x - positions[0]).abs() > 0.5 * distance);
-        if turn.is_some_and(|x| *x < positions[0]) {
-            let last = first + (count - 1) as f64 * distance;
-            return Ok(Ok(Axis {
-                first: last,
-                distance: -distance,
-                count,
-            }));
+            .find(|x| (**x - positions[0]).abs() > 0.5 * axis.distance);
+        if second.is_some_and(|second| *second < positions[0]) {
+            axis.first += (axis.count - 1) as f64 * axis.distance;
+            axis.distance = -axis.distance;
         }
-        Ok(Ok(Axis {
-            first,
-            distance,
-            count,
-        }))
+        Ok(AxisSearch::Found(axis))
+    }
+
+    /// Returns the even grid through numbered lines; `None` if they are uneven, or if too many
+    /// lines are missing.
+    fn through(lines: &[GridPoint], digits: Digits) -> Option<Axis> {
+        let first = lines.first()?.position;
+        let last = lines.last()?;
+        if last.number + 1.0 > MOST_LINES * lines.len() as f64 {
+            return None;
+        }
+        let distance = (last.position - first) / last.number;
+        let is_even = |line: &GridPoint| {
+            (line.position - first - line.number * distance).abs() <= UNEVEN * distance
+        };
+        let grid = if lines.iter().all(is_even) {
+            Grid { first, distance }
+        } else {
+            printed_grid(lines, digits)?
+        };
+        Some(Axis {
+            first: grid.first,
+            distance: grid.distance,
+            count: last.number as usize + 1,
+        })
     }
 
     /// Returns the number of the line through a position; `None` if it lies off the grid.
@@ -238,9 +102,52 @@ impl Axis {
         let off = (position - self.first - number * self.distance).abs();
         // Printed digits and errors within a line may add.
         let most = 2.0 * UNEVEN * self.distance.abs() + digits.half(position);
-        let number = (off <= most && number >= 0.0).then_some(number as usize);
-        number.filter(|number| *number < self.count)
+        let is_on_grid = off <= most && number >= 0.0 && (number as usize) < self.count;
+        is_on_grid.then_some(number as usize)
     }
+}
+
+/// Returns the positions of the lines through sorted positions.
+fn lines(sorted: &[f64]) -> Result<Vec<f64>, SurfaceError> {
+    let widest = sorted
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .fold(0.0, f64::max);
+    let lines = sorted
+        .chunk_by(|position, next| next - position < SAME_LINE * widest)
+        .map(|line| f64::midpoint(line[0], line[line.len() - 1]));
+    Ok(gathered(sorted.len(), lines)?)
+}
+
+/// Numbers lines of which none is missing.
+fn numbered(lines: &[f64]) -> Vec<GridPoint> {
+    let points = (0..lines.len()).map(|index| GridPoint {
+        number: index as f64,
+        position: lines[index],
+    });
+    points.collect()
+}
+
+/// Numbers lines of which some are missing, in steps of the mean of the smaller distances.
+fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
+    let gaps = || lines.windows(2).map(|pair| pair[1] - pair[0]);
+    let least = gaps().fold(f64::INFINITY, f64::min);
+    let small = || gaps().filter(|gap| *gap < SMALL_GAP * least);
+    let step = small().sum::<f64>() / small().count() as f64;
+
+    let mut number = 0.0;
+    let mut points = vec![GridPoint {
+        number,
+        position: lines[0],
+    }];
+    for pair in lines.windows(2) {
+        number += ((pair[1] - pair[0]) / step).round();
+        points.push(GridPoint {
+            number,
+            position: pair[1],
+        });
+    }
+    points
 }
 
 /// Heights of a map, row by row along x.
@@ -252,163 +159,113 @@ pub(super) struct Map {
     pub distances: Option<[f64; 2]>,
 }
 
-/// Makes the map of points in any order. Points of the grid that are not listed are missing.
-pub(super) fn map_of(
-    [x, y]: [&[f64]; 2],
-    heights: &[f64],
-    digits: [Digits; 2],
-    place: impl Fn(usize) -> Place,
-) -> Result<Map, SurfaceError> {
-    let points = heights.len();
-    if points < 2 {
-        return Err(refused(
-            Place::File,
-            format!("{points} points"),
-            "at least 2",
-        ));
+/// A list of points, in the order of the file.
+pub(super) struct PointList<'a, P> {
+    pub x: &'a [f64],
+    pub y: &'a [f64],
+    pub heights: &'a [f64],
+    /// Digits with which x and y are printed.
+    pub digits: [Digits; 2],
+    /// Place in the file of the point with an index.
+    pub place: P,
+}
+
+impl<P: Fn(usize) -> Place> PointList<'_, P> {
+    /// Makes the map of the points. Points of the grid that are not listed are missing.
+    pub fn map(&self) -> Result<Map, SurfaceError> {
+        let points = self.heights.len();
+        if points < 2 {
+            return Err(refused(
+                Place::File,
+                format!("{points} points"),
+                "at least 2",
+            ));
+        }
+        let along = self.axis(self.x, self.digits[0])?;
+        let between = self.axis(self.y, self.digits[1])?;
+        let columns = along.count;
+        let rows = between.count;
+        let cells = match columns.checked_mul(rows) {
+            Some(cells) if cells <= MOST_CELLS * points => cells,
+            _ => {
+                let found =
+                    format!("{points} points at {columns} positions x and {rows} positions y");
+                let allowed = "points of a grid, at least half of it";
+                return Err(refused(Place::File, found, allowed));
+            }
+        };
+        let mut heights = resized(Vec::new(), cells, f64::NAN)?;
+        let mut is_taken = resized(Vec::new(), cells, false)?;
+        for index in 0..points {
+            let column = along.line(self.x[index], self.digits[0]);
+            let row = between.line(self.y[index], self.digits[1]);
+            let (Some(column), Some(row)) = (column, row) else {
+                return Err(self.off_grid(index));
+            };
+            let cell = row * columns + column;
+            if is_taken[cell] {
+                let position = self.position(index);
+                let found = format!("{position} is the position of a point before");
+                let allowed = "one height for each position";
+                return Err(refused((self.place)(index), found, allowed));
+            }
+            is_taken[cell] = true;
+            heights[cell] = self.heights[index];
+        }
+        Ok(Map {
+            heights,
+            columns,
+            distances: Some(distances(along, between)),
+        })
     }
-    let off_grid = |index: usize| {
-        let fault = format!("({:e}, {:e}) is off the even grid", x[index], y[index]);
+
+    fn axis(&self, positions: &[f64], digits: Digits) -> Result<Axis, SurfaceError> {
+        match Axis::search(positions, digits)? {
+            AxisSearch::Found(axis) => Ok(axis),
+            AxisSearch::Uneven(line) => {
+                let index = positions.iter().position(|position| *position >= line);
+                Err(self.off_grid(index.unwrap_or(0)))
+            }
+        }
+    }
+
+    fn off_grid(&self, index: usize) -> SurfaceError {
+        let found = format!("{} is off the even grid", self.position(index));
         let allowed =
             format!("points of a grid, within {UNEVEN} of their distance or half a printed digit");
-        refused(place(index), fault, allowed)
-    };
-    let axis = |positions: &[f64], digits: Digits| {
-        let at = |found: f64| {
-            positions
-                .iter()
-                .position(|position| *position >= found)
-                .unwrap_or(0)
-        };
-        Axis::of(positions, digits)?.map_err(|found| off_grid(at(found)))
-    };
-    let (along, between) = (axis(x, digits[0])?, axis(y, digits[1])?);
-    let (columns, rows) = (along.count, between.count);
-    let cells = columns
-        .checked_mul(rows)
-        .filter(|cells| *cells <= MOST_CELLS * points)
-        .ok_or_else(|| {
-            let fault = format!("{points} points at {columns} positions x and {rows} positions y");
-            refused(Place::File, fault, "points of a grid, at least half of it")
-        })?;
-    let mut map = resized(Vec::new(), cells, f64::NAN)?;
-    let mut is_taken = resized(Vec::new(), cells, false)?;
-    for index in 0..points {
-        let lines = along
-            .line(x[index], digits[0])
-            .zip(between.line(y[index], digits[1]));
-        let (column, row) = lines.ok_or_else(|| off_grid(index))?;
-        let cell = row * columns + column;
-        if std::mem::replace(&mut is_taken[cell], true) {
-            let fault = format!(
-                "({:e}, {:e}) is the position of a point before",
-                x[index], y[index]
-            );
-            return Err(refused(place(index), fault, "one height for each position"));
-        }
-        map[cell] = heights[index];
+        refused((self.place)(index), found, allowed)
     }
-    let [along, between] = [along, between].map(|axis| axis.distance.abs());
-    let other = |one: f64, other: f64| if one > 0.0 { one } else { other };
-    let distances = Some([other(along, between), other(between, along)]);
-    Ok(Map {
-        heights: map,
-        columns,
-        distances,
-    })
+
+    fn position(&self, index: usize) -> String {
+        format!("({:e}, {:e})", self.x[index], self.y[index])
+    }
+}
+
+/// Returns the distances along and between rows. A single row or column has the distance of the
+/// other axis.
+fn distances(along: Axis, between: Axis) -> [f64; 2] {
+    let along = along.distance.abs();
+    let between = between.distance.abs();
+    let known = |distance: f64, other: f64| if distance > 0.0 { distance } else { other };
+    [known(along, between), known(between, along)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn digits(cells: &[&str]) -> Digits {
-        let mut digits = Digits::default();
-        cells.iter().for_each(|cell| digits.take(cell));
-        digits
-    }
-
-    #[test]
-    fn the_last_printed_digit_is_that_of_decimals_or_of_significant_digits() {
-        for (cells, value, half) in [
-            (&["0.00", "13.33"][..], 13.33, 0.005),
-            (&["0.00", "13.33"], 0.33, 0.005),
-            (&["0", "0.5", "10.5"], 10.0, 0.05),
-            (&["0.333", "12.3"], 12.3, 0.05),
-            (&["0.333", "12.3"], 0.333, 0.0005),
-            (&["1.338e+01", "9.5e0"], 13.38, 0.005),
-            (&["-0,33"], -0.33, 0.005),
-            (&["10", "20"], 10.0, 0.5),
-        ] {
-            assert!(
-                (digits(cells).half(value) / half - 1.0).abs() < 1e-5,
-                "{cells:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn positions_rounded_in_print_are_even() {
-        let printed = |of: &dyn Fn(u32) -> f64, decimals: usize| {
-            let cells: Vec<String> = (0..200).map(|i| format!("{:.decimals$}", of(i))).collect();
-            let digits = digits(&cells.iter().map(String::as_str).collect::<Vec<_>>());
-            (
-                cells
-                    .iter()
-                    .map(|cell| cell.parse().unwrap())
-                    .collect::<Vec<f64>>(),
-                digits,
-            )
-        };
-        for (first, distance, decimals) in [
-            (0.0, 0.156, 1),
-            (-3.0, 1.0 / 3.0, 2),
-            (100.0, -0.0333, 2),
-            (0.0, 0.07, 1),
-        ] {
-            let (mut positions, digits) = printed(&|i| first + distance * f64::from(i), decimals);
-            let before = positions.clone();
-            move_to_printed_grid(&mut positions, digits).unwrap();
-            let step = (positions[199] - positions[0]) / 199.0;
-            assert!((step / distance - 1.0).abs() < 0.01, "{step}");
-            assert_eq!(first_uneven(&positions, positions[0], step), None);
-            let half = 0.5000001 * 10_f64.powi(-(decimals as i32));
-            assert!(
-                positions
-                    .iter()
-                    .zip(&before)
-                    .all(|(one, other)| (one - other).abs() <= half)
-            );
-        }
-        // Really uneven, or few.
-        let (before, digits) = printed(&|i| f64::from(i) + f64::from(i * i % 7) * 0.03, 2);
-        let mut positions = before.clone();
-        move_to_printed_grid(&mut positions, digits).unwrap();
-        assert_eq!(positions, before);
-        // A point is missing.
-        let (before, digits) = printed(&|i| f64::from(i + u32::from(i > 70)), 0);
-        let mut positions = before.clone();
-        move_to_printed_grid(&mut positions, digits).unwrap();
-        assert_eq!(positions, before);
-        let mut few = [0.0, 1.0, 3.0, 4.0, 6.0];
-        move_to_printed_grid(&mut few, Digits::default()).unwrap();
-        assert_eq!(few, [0.0, 1.0, 3.0, 4.0, 6.0]);
-    }
-
     fn map(points: &[(f64, f64)]) -> Result<Map, String> {
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let heights: Vec<f64> = points.iter().map(|(x, y)| 10.0 * x + y).collect();
         let place = |index: usize| Place::Line(index + 1);
-        map_of(
-            [&x, &y],
-            &heights,
-            [Digits {
-                decimals: 9,
-                significant: 9,
-            }; 2],
+        let list = PointList {
+            x: &x,
+            y: &y,
+            heights: &heights,
+            digits: [Digits::at_most(9, 9); 2],
             place,
-        )
-        .map_err(|error| error.to_string())
+        };
+        list.map().map_err(|error| error.to_string())
     }
 
     #[test]

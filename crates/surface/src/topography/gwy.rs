@@ -1,9 +1,10 @@
 //! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are
 //! read.
 
-use super::Unit;
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use std::borrow::Cow;
@@ -14,55 +15,54 @@ pub(super) const SIGNATURE: &[u8] = b"GWYP";
 /// channel whose heights are in a unit of length, or if there is none, the only channel without a
 /// unit.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
+    let channels = channels(bytes)?;
+    let names = channels.iter().map(Channel::name).collect::<Vec<_>>();
+    let names = names.join(", ");
+    let has_length = channels.iter().any(Channel::is_length);
+    let mut chosen = channels;
+    chosen.retain(|candidate| match channel {
+        Some(number) => candidate.number == number,
+        None if has_length => candidate.is_length(),
+        None => candidate.field.unit_z.is_empty(),
+    });
+    if chosen.len() == 1 {
+        return chosen.swap_remove(0).into_reading();
+    }
+    let fault = match channel {
+        _ if chosen.len() > 1 => "several channels of heights; all channels".to_owned(),
+        Some(channel) => format!("no channel {channel}; channels"),
+        None => "no channel in a unit of length; channels".to_owned(),
+    };
+    let allowed = if chosen.len() > 1 {
+        "--channel with the number of one"
+    } else {
+        "a channel of heights"
+    };
+    let found = format!("{fault}: {}", shown(&names));
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Reads all channels that have a data field.
+fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, SurfaceError> {
     let mut file = Bytes::new(bytes, Order::Little);
     file.take(SIGNATURE.len())?;
     let mut content = object(&mut file)?;
-    let mut fields = Vec::new();
-    while let Some((name, value)) = component(&mut content)? {
-        let number = name
-            .strip_prefix('/')
-            .and_then(|rest| rest.strip_suffix("/data")?.parse::<u32>().ok());
-        if let (Some(number), Value::Object(content)) = (number, value) {
-            fields.push((number, Field::parse(content)?));
+    let mut channels = Vec::new();
+    while let Some(component) = component(&mut content)? {
+        if let (Some(number), Value::Object(content)) =
+            (channel_number(&component.name), component.value)
+        {
+            let field = Field::parse(content)?;
+            channels.push(Channel { number, field });
         }
     }
-    let names = fields.iter().map(|(number, field)| match field.unit_z {
-        "" => format!("{number} (no unit)"),
-        unit => format!("{number} ({unit})"),
-    });
-    let names = names.collect::<Vec<_>>().join(", ");
-    let is_length = |field: &Field| field.unit_z.parse::<Unit>().is_ok();
-    let has_length = fields.iter().any(|(_, field)| is_length(field));
-    let is_height = |field: &Field| {
-        if has_length {
-            is_length(field)
-        } else {
-            field.unit_z.is_empty()
-        }
-    };
-    let is_chosen =
-        |(number, field): &(u32, Field)| channel.map_or(is_height(field), |one| one == *number);
-    let mut chosen: Vec<_> = fields.into_iter().filter(is_chosen).collect();
-    let (fault, allowed) = match (chosen.pop(), chosen.is_empty(), channel) {
-        (Some((number, field)), true, _) => return field.into_reading(number),
-        (Some(_), false, _) => (
-            "several channels of heights; all channels".to_owned(),
-            "--channel with the number of one",
-        ),
-        (None, _, Some(channel)) => (
-            format!("no channel {channel}; channels"),
-            "a channel of heights",
-        ),
-        (None, ..) => (
-            "no channel in a unit of length; channels".to_owned(),
-            "a channel of heights",
-        ),
-    };
-    Err(refused(
-        Place::File,
-        format!("{fault}: {}", shown(&names)),
-        allowed,
-    ))
+    Ok(channels)
+}
+
+/// Returns N of a component `/N/data`.
+fn channel_number(name: &str) -> Option<u32> {
+    let name = name.strip_prefix('/')?;
+    name.strip_suffix("/data")?.parse().ok()
 }
 
 /// Value of a component; types that are not needed are skipped.
@@ -81,10 +81,13 @@ fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, SurfaceError> {
     bytes.part(size)
 }
 
-/// Returns name and value of the next component of an object; `None` at its end.
-fn component<'a>(
-    content: &mut Bytes<'a>,
-) -> Result<Option<(Cow<'a, str>, Value<'a>)>, SurfaceError> {
+struct Component<'a> {
+    name: Cow<'a, str>,
+    value: Value<'a>,
+}
+
+/// Returns the next component of an object; `None` at its end.
+fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<Component<'a>>, SurfaceError> {
     if content.left() == 0 {
         return Ok(None);
     }
@@ -96,40 +99,49 @@ fn component<'a>(
     } else {
         1
     };
-    let mut skip = |size: usize| {
-        content
-            .take(count.saturating_mul(size))
-            .map(|_| Value::Other)
-    };
     let value = match kind {
-        b'b' | b'c' | b'C' => skip(1)?,
-        b'I' => skip(4)?,
-        b'q' | b'Q' => skip(8)?,
+        b'b' | b'c' | b'C' => skipped(content, count, 1)?,
+        b'I' => skipped(content, count, 4)?,
+        b'q' | b'Q' => skipped(content, count, 8)?,
         b'i' => Value::Number(content.number(Number::I32)?),
         b'd' => Value::Number(content.number(Number::F64)?),
         b's' => Value::Text(str::from_utf8(content.text()?).unwrap_or("\u{fffd}")),
         b'o' => Value::Object(object(content)?),
         b'D' => Value::Doubles(content.part(count.saturating_mul(8))?),
-        b'S' | b'O' => {
+        b'S' => {
             for _ in 0..count {
-                if kind == b'S' {
-                    content.text().map(drop)?
-                } else {
-                    object(content).map(drop)?
-                }
+                content.text()?;
+            }
+            Value::Other
+        }
+        b'O' => {
+            for _ in 0..count {
+                object(content)?;
             }
             Value::Other
         }
         other => {
-            let fault = format!("a component of type {:?}", char::from(other).to_string());
-            return Err(refused(
-                place,
-                fault,
-                "one of b c i q d s o and C I Q D S O",
-            ));
+            let found = format!("a component of type {:?}", char::from(other).to_string());
+            let allowed = "one of b c i q d s o and C I Q D S O";
+            return Err(refused(place, found, allowed));
         }
     };
-    Ok(Some((name, value)))
+    Ok(Some(Component { name, value }))
+}
+
+/// Skips `count` values of this size in bytes.
+fn skipped<'a>(
+    content: &mut Bytes<'_>,
+    count: usize,
+    size: usize,
+) -> Result<Value<'a>, SurfaceError> {
+    content.take(count.saturating_mul(size))?;
+    Ok(Value::Other)
+}
+
+struct Channel<'a> {
+    number: u32,
+    field: Field<'a>,
 }
 
 #[derive(Default)]
@@ -145,7 +157,7 @@ struct Field<'a> {
 impl<'a> Field<'a> {
     fn parse(mut content: Bytes<'a>) -> Result<Self, SurfaceError> {
         let mut field = Field::default();
-        while let Some((name, value)) = component(&mut content)? {
+        while let Some(Component { name, value }) = component(&mut content)? {
             match (&*name, value) {
                 ("xres", Value::Number(columns)) => field.columns = columns,
                 ("yres", Value::Number(rows)) => field.rows = rows,
@@ -159,42 +171,50 @@ impl<'a> Field<'a> {
         }
         Ok(field)
     }
+}
 
-    fn into_reading(self, number: u32) -> Result<Reading, SurfaceError> {
-        let place = || Place::Part(format!("channel {number}"));
-        let Some(mut values) = self.heights else {
-            return Err(refused(
-                place(),
-                "no heights",
-                "a component data of numbers",
-            ));
+impl Channel<'_> {
+    fn is_length(&self) -> bool {
+        Unit::is_name(self.field.unit_z)
+    }
+
+    /// Returns the number of the channel and the unit of its heights.
+    fn name(&self) -> String {
+        match self.field.unit_z {
+            "" => format!("{} (no unit)", self.number),
+            unit => format!("{} ({unit})", self.number),
+        }
+    }
+
+    fn into_reading(self) -> Result<Reading, SurfaceError> {
+        let field = self.field;
+        let place = Place::Part(format!("channel {}", self.number));
+        let Some(mut values) = field.heights else {
+            return Err(refused(place, "no heights", "a component data of numbers"));
         };
-        let (columns, rows, count) = (self.columns as usize, self.rows as usize, values.left() / 8);
+        let columns = field.columns as usize;
+        let rows = field.rows as usize;
+        let count = values.left() / 8;
         if columns == 0 || rows == 0 {
-            let fault = format!("xres = {}, yres = {}", self.columns, self.rows);
-            return Err(refused(place(), fault, "above 0"));
+            let found = format!("xres = {}, yres = {}", field.columns, field.rows);
+            return Err(refused(place, found, "above 0"));
         }
         if columns.checked_mul(rows) != Some(count) {
-            let fault = format!("{count} heights for {columns} times {rows} points");
-            return Err(refused(place(), fault, "a height for each point"));
+            let found = format!("{count} heights for {columns} times {rows} points");
+            return Err(refused(place, found, "a height for each point"));
         }
-        let [width, height] = self.sizes;
+        let [width, height] = field.sizes;
         let spacing = Some([width / columns as f64, height / rows as f64]);
-        let lateral = Unit::stated(self.unit_xy, place())?;
-        let units = [lateral, lateral, Unit::stated(self.unit_z, place())?];
-        Ok(Reading::even(
-            "GWY",
-            values.numbers(count, Number::F64)?,
-            columns,
-            spacing,
-            units,
-        ))
+        let lateral = Unit::stated(field.unit_xy, place.clone())?;
+        let units = StatedUnits::new(lateral, Unit::stated(field.unit_z, place)?);
+        let heights = values.numbers(count, Number::F64)?;
+        Ok(Reading::even("GWY", heights, columns, spacing, units))
     }
 }
 
 fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, SurfaceError> {
     let mut unit = "";
-    while let Some((name, value)) = component(&mut content)? {
+    while let Some(Component { name, value }) = component(&mut content)? {
         if let ("unitstr", Value::Text(text)) = (&*name, value) {
             unit = text;
         }
@@ -204,9 +224,9 @@ fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, SurfaceError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::SurfaceError;
-    use super::super::reading::ReadOptions;
+    use super::super::options::ReadOptions;
     use super::*;
+    use crate::error::SurfaceError;
 
     fn component(name: &str, kind: u8, content: &[u8]) -> Vec<u8> {
         [name.as_bytes(), b"\0", &[kind], content].concat()

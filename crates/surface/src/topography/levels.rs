@@ -16,6 +16,27 @@ const LARGE: f64 = 0.1;
 /// Returns a message about heights (m) in rows of `columns` points that have few levels. Rounding
 /// to steps s adds errors of mean square s²/12 to each of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
+    let levels = few_levels(heights)?;
+    let step = levels
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|step| *step > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    let share = step * step / 6.0 / mean_square_difference(heights, columns);
+    if !share.is_finite() || share < LARGE || heights.len() < LEAST_POINTS * levels.len() {
+        return None;
+    }
+    Some(format!(
+        "the heights have {} levels, {} apart: if they are rounded to these, that adds {:.0} % of \
+         the squared gradient, and the Hurst exponent is too small",
+        levels.len(),
+        format_quantity(step, "m"),
+        100.0 * share.min(1.0)
+    ))
+}
+
+/// Returns the different heights in ascending order; `None` if there are too many.
+fn few_levels(heights: &[f64]) -> Option<Vec<f64>> {
     let mut found = HashSet::new();
     for height in heights.iter().filter(|height| height.is_finite()) {
         // 0 and -0 are one level.
@@ -26,31 +47,23 @@ pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     }
     let mut levels: Vec<f64> = found.into_iter().map(f64::from_bits).collect();
     levels.sort_unstable_by(f64::total_cmp);
-    let step = levels
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    let rows = heights.chunks_exact(columns);
-    let squares = rows
-        .flat_map(|row| row.windows(2))
-        .map(|pair| (pair[1] - pair[0]).powi(2));
-    let (sum, count) = squares
-        .filter(|square| square.is_finite())
-        .fold((0.0, 0_u32), |(sum, count), square| {
-            (sum + square, count + 1)
-        });
-    let share = step * step / 6.0 / (sum / f64::from(count));
-    if !share.is_finite() || share < LARGE || heights.len() < LEAST_POINTS * levels.len() {
-        return None;
+    Some(levels)
+}
+
+/// Returns the mean square difference of measured neighbours in rows; NaN if there are none.
+fn mean_square_difference(heights: &[f64], columns: usize) -> f64 {
+    let mut sum = 0.0;
+    let mut count = 0_u32;
+    for row in heights.chunks_exact(columns) {
+        for pair in row.windows(2) {
+            let square = (pair[1] - pair[0]).powi(2);
+            if square.is_finite() {
+                sum += square;
+                count += 1;
+            }
+        }
     }
-    Some(format!(
-        "the heights have {} levels, {} apart: if they are rounded to these, that adds {:.0} % of the squared gradient, and the Hurst \
-         exponent is too small",
-        levels.len(),
-        format_quantity(step, "m"),
-        100.0 * share.min(1.0)
-    ))
+    sum / f64::from(count)
 }
 
 #[cfg(test)]

@@ -1,20 +1,26 @@
 //! The format of Nanoscope (Digital Instruments, Veeco, Bruker): a header of text in sections, then
 //! the integer heights of each channel, from the lowest row up.
 
-use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, shown};
+use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
 /// Line that follows the header.
 const END: &[u8] = b"\\*File list end";
 
-/// Limits of the length of a header, bytes, and of the number of channels.
+/// Limit of the length of a header in bytes.
 const LONGEST_HEADER: usize = 1 << 18;
+
 const MOST_CHANNELS: usize = 256;
+
+/// Largest number of channels that a message lists.
+const MOST_LISTED: usize = 8;
 
 /// Words in the names of channels of heights; other lengths are deflections and amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
@@ -29,49 +35,26 @@ const DIFFERENT: f64 = 0.01;
 
 /// Reads the channel with this number, from 0. Without a number, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
-    let head = &bytes[..bytes.len().min(LONGEST_HEADER)];
-    let end = head
-        .windows(END.len())
-        .position(|found| found.eq_ignore_ascii_case(END))
-        .ok_or_else(|| {
-            let allowed = format!(
-                "\"{}\" in the first {LONGEST_HEADER} bytes",
-                END.escape_ascii()
-            );
-            refused(Place::File, "a header without an end", allowed)
-        })?;
-    let header = decoded(&head[..end]);
+    let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();
-    let is_image = |section: &&&str| {
-        let name = section
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .trim()
-            .to_ascii_lowercase();
-        name.ends_with("image list")
-            && !name.contains("force")
-            && entry(section, "Data offset").is_some()
-    };
-    let images: Vec<&str> = sections
+    let images: Vec<Image> = sections
         .iter()
-        .filter(is_image)
-        .copied()
+        .filter(|section| is_image(section))
         .take(MOST_CHANNELS)
+        .enumerate()
+        .map(|(number, section)| Image {
+            number,
+            section,
+            sections: &sections,
+        })
         .collect();
-    let is_chosen = |index: usize| match channel {
-        Some(number) => index == number as usize,
-        None => {
-            let name = title(images[index]).to_lowercase();
-            unit_and_scale(images[index], &sections).is_some()
-                && HEIGHTS.iter().any(|of| name.contains(of))
-        }
-    };
-    let chosen: Vec<usize> = (0..images.len())
-        .filter(|index| is_chosen(*index))
-        .collect();
+    let mut chosen: Vec<&Image> = images.iter().collect();
+    chosen.retain(|image| match channel {
+        Some(number) => image.number == number as usize,
+        None => image.has_heights(),
+    });
     let (fault, allowed) = match (&chosen[..], channel) {
-        ([one], _) => return reading(bytes, images[*one], &sections, *one),
+        ([image], _) => return image.reading(bytes),
         ([], Some(number)) => (
             format!("no channel {number}"),
             "the number of a channel, from 0",
@@ -85,21 +68,35 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
             "--channel with the number of one, in a scene roughness.channel",
         ),
     };
-    let describe = |(number, image): (usize, &&str)| {
-        let direction =
-            entry(image, "Line direction").map(|name| format!(" {}", shown(name).to_lowercase()));
-        format!(
-            "{number} {:?}{}",
-            shown(title(image)),
-            direction.unwrap_or_default()
-        )
-    };
-    let names: Vec<String> = images.iter().enumerate().take(8).map(describe).collect();
-    Err(refused(
-        Place::File,
-        format!("{fault}; channels: {}", names.join(", ")),
-        allowed,
-    ))
+    let names = images.iter().take(MOST_LISTED).map(Image::description);
+    let names = names.collect::<Vec<_>>().join(", ");
+    let found = format!("{fault}; channels: {names}");
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Returns the text of the header, without the line that follows it.
+fn header(bytes: &[u8]) -> Result<Cow<'_, str>, SurfaceError> {
+    let head = &bytes[..bytes.len().min(LONGEST_HEADER)];
+    let end = head
+        .windows(END.len())
+        .position(|found| found.eq_ignore_ascii_case(END));
+    match end {
+        Some(end) => Ok(decoded(&head[..end])),
+        None => {
+            let mark = END.escape_ascii();
+            let allowed = format!("\"{mark}\" in the first {LONGEST_HEADER} bytes");
+            Err(refused(Place::File, "a header without an end", allowed))
+        }
+    }
+}
+
+/// Returns true for the section of a channel of an image.
+fn is_image(section: &str) -> bool {
+    let name = section.lines().next().unwrap_or_default();
+    let name = name.trim().to_ascii_lowercase();
+    name.ends_with("image list")
+        && !name.contains("force")
+        && entry(section, "Data offset").is_some()
 }
 
 /// Returns the value of the first line `\key: value` of a section. Before the key may be `@` and
@@ -107,153 +104,265 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
 fn entry<'a>(section: &'a str, key: &str) -> Option<&'a str> {
     section.lines().find_map(|line| {
         let line = line.trim().strip_prefix('\\')?;
-        let line = line.strip_prefix('@').map_or(line, |rest| {
-            rest.split_once(':')
-                .filter(|(group, _)| group.parse::<u8>().is_ok())
-                .map_or(rest, |(_, rest)| rest)
-        });
-        let (name, value) = line.split_once(':')?;
-        name.trim()
-            .eq_ignore_ascii_case(key)
-            .then_some(value.trim())
+        let (name, value) = without_group(line).split_once(':')?;
+        let is_key = name.trim().eq_ignore_ascii_case(key);
+        is_key.then_some(value.trim())
     })
+}
+
+/// Returns a line without `@` and the number of a group before its key.
+fn without_group(line: &str) -> &str {
+    let Some(rest) = line.strip_prefix('@') else {
+        return line;
+    };
+    match rest.split_once(':') {
+        Some((group, entry)) if group.parse::<u8>().is_ok() => entry,
+        _ => rest,
+    }
 }
 
 /// Returns the name of the channel of a section: the text in quotation marks, or in brackets, of
 /// `S [ZSensor] "Height Sensor"`.
 fn title(image: &str) -> &str {
     let name = entry(image, "Image data").unwrap_or_default();
-    let quoted = || name.split('"').nth(1).filter(|name| !name.is_empty());
-    quoted().or(name.split(['[', ']']).nth(1)).unwrap_or(name)
+    let quoted = name.split('"').nth(1).filter(|name| !name.is_empty());
+    let in_brackets = name.split(['[', ']']).nth(1);
+    quoted.or(in_brackets).unwrap_or(name)
 }
 
-/// Returns the name of the scale that converts a value, the value and its unit, as in
-/// `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
-fn value(text: &str) -> Option<(Option<&str>, f64, &str)> {
-    let mut rest = text.strip_prefix("V ").unwrap_or(text).trim();
-    let mut scale = None;
-    if let Some((name, after)) = rest.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
-        (scale, rest) = (Some(name.trim()), after.trim());
-    }
-    if let Some((_, after)) = rest.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
-        rest = after.trim();
-    }
-    let mut words = rest.split_ascii_whitespace();
-    let number = words
-        .next()?
-        .parse()
-        .ok()
-        .filter(|number: &f64| number.is_finite())?;
-    Some((scale, number, words.next().unwrap_or_default()))
+/// A value with a unit, as in `V [Sens. Zsens] (0.005 V/LSB) 2.9 V`.
+#[derive(Default)]
+struct Value<'a> {
+    /// Name of the scale that converts the value.
+    scale: Option<&'a str>,
+    number: f64,
+    unit: &'a str,
 }
 
-/// Returns the unit of length of the heights of a channel, and their range in this unit; `None` if
-/// they are no lengths.
-fn unit_and_scale(image: &str, sections: &[&str]) -> Option<(Unit, f64)> {
-    let (scale, range, unit) = entry(image, "Z scale").and_then(value).unwrap_or_default();
-    if let Some(unit) = length_unit(unit) {
-        return Some((unit, range));
+impl<'a> Value<'a> {
+    fn parse(text: &'a str) -> Option<Self> {
+        let mut rest = text.strip_prefix("V ").unwrap_or(text).trim();
+        let mut scale = None;
+        if let Some((name, after)) = enclosed(rest, '[', ']') {
+            scale = Some(name.trim());
+            rest = after.trim();
+        }
+        if let Some((_, after)) = enclosed(rest, '(', ')') {
+            rest = after.trim();
+        }
+        let mut words = rest.split_ascii_whitespace();
+        let number: f64 = words.next()?.parse().ok()?;
+        if !number.is_finite() {
+            return None;
+        }
+        Some(Value {
+            scale,
+            number,
+            unit: words.next().unwrap_or_default(),
+        })
     }
-    let Some(name) = scale else {
-        let (_, magnification, _) = value(entry(image, "Z magnify image")?)?;
-        return Some((Unit::METRE, PER_MAGNIFICATION * magnification));
-    };
-    let (_, sensitivity, unit_of) = sections
-        .iter()
-        .find_map(|section| value(entry(section, name)?))?;
-    let (of_height, of_signal) = unit_of.split_once('/')?;
-    let in_volts = |unit: &str| match unit {
-        "V" => Some(1.0),
-        "mV" => Some(1e-3),
-        _ => None,
-    };
-    Some((
-        length_unit(of_height)?,
-        range * sensitivity * in_volts(unit)? / in_volts(of_signal)?,
-    ))
 }
 
-/// Unit of length; µ is written as `~`.
+/// Returns the text between brackets at the beginning of a text, and the text after them.
+fn enclosed(text: &str, open: char, close: char) -> Option<(&str, &str)> {
+    text.strip_prefix(open)?.split_once(close)
+}
+
+/// Returns the unit of length of this name, in which µ may be written as `~`.
 fn length_unit(text: &str) -> Option<Unit> {
     text.replace('~', "µ").parse().ok()
 }
 
-fn reading(
-    bytes: &[u8],
-    image: &str,
-    sections: &[&str],
-    number: usize,
-) -> Result<Reading, SurfaceError> {
-    let wrong = |key: &str, allowed: &str| {
-        let found = entry(image, key).unwrap_or_default();
-        refused(
-            Place::Part(format!("channel {number}")),
-            format!("{key} = {:?}", shown(found)),
-            allowed,
-        )
-    };
-    let count = |key: &str| {
-        let count =
-            entry(image, key).and_then(|text| text.split_ascii_whitespace().next()?.parse().ok());
-        count
-            .filter(|count: &usize| *count > 0)
-            .ok_or_else(|| wrong(key, "a whole number above 0"))
-    };
-    let (columns, rows) = (count("Samps/line")?, count("Number of lines")?);
-    let (offset, length) = (count("Data offset")?, count("Data length")?);
-    let points = columns.saturating_mul(rows);
-    // Some versions state 2 bytes and store 4.
-    let of_each = [2, 4]
-        .into_iter()
-        .find(|size| points.saturating_mul(*size) == length);
-    let number = match of_each.map_or_else(|| count("Bytes/pixel"), Ok)? {
-        2 => Number::I16,
-        4 => Number::I32,
-        _ => return Err(wrong("Bytes/pixel", "2 or 4")),
-    };
-    let (unit, range) = unit_and_scale(image, sections)
-        .ok_or_else(|| wrong("Z scale", "a scale of heights in a unit of length"))?;
-    let mut data = Bytes::new(bytes, Order::Little);
-    data.take(offset)?;
-    let heights = data.numbers(points, number)?;
-    let heights = gathered(
-        points,
-        heights.chunks_exact(columns).rev().flatten().copied(),
-    )?;
-    let scan = entry(image, "Scan size")
-        .or_else(|| sections.iter().find_map(|part| entry(part, "Scan size")));
-    let words: Vec<&str> = scan.unwrap_or_default().split_ascii_whitespace().collect();
-    let size = |text: &str| text.parse().ok().filter(|size: &f64| size.is_finite());
-    let sizes = match words[..] {
-        [width, unit] => size(width).map(|width| [width; 2]).zip(length_unit(unit)),
-        [width, height, unit] => size(width)
-            .zip(size(height))
-            .map(|(x, y)| [x, y])
-            .zip(length_unit(unit)),
+/// Returns the unit of an electric signal in V.
+fn in_volts(unit: &str) -> Option<f64> {
+    match unit {
+        "V" => Some(1.0),
+        "mV" => Some(1e-3),
         _ => None,
-    };
-    let ([width, mut height], lateral) =
-        sizes.ok_or_else(|| wrong("Scan size", "width and height with a unit of length"))?;
-    // A second size is that of a square, unless it differs.
-    let aspect = || {
-        let (along, between) = entry(image, "Aspect ratio")?.split_once(':')?;
-        Some(size(along.trim())? / size(between.trim())?).filter(|ratio| *ratio > 0.0)
-    };
-    if height == width {
-        height = width / aspect().unwrap_or(1.0);
     }
-    let [along, between] = [width / columns as f64, height / rows as f64];
-    let steps = 2.0_f64.powi(8 * number.size() as i32);
-    let units = [Some(lateral), Some(lateral), Some(unit)];
-    let mut reading = Reading::even("Nanoscope", heights, columns, Some([along, between]), units)
-        .scaled(|_| false, range / steps);
-    if rows > 1 && (along / between - 1.0).abs() > DIFFERENT {
-        reading.warnings.push(format!(
-            "points are {along:.4} {lateral} apart along rows and {between:.4} {lateral} between rows, by the size of the scan, \
-             {width} × {height} {lateral}: a scan that was stopped early is smaller"
-        ));
+}
+
+/// Range of the heights of a channel, from the smallest to the largest integer.
+struct HeightRange {
+    unit: Unit,
+    range: f64,
+}
+
+/// Size of a scan.
+struct ScanSize {
+    unit: Unit,
+    width: f64,
+    height: f64,
+}
+
+/// A channel of the file.
+struct Image<'a> {
+    number: usize,
+    section: &'a str,
+    /// Sections of the whole header, some of which have the scales of channels.
+    sections: &'a [&'a str],
+}
+
+impl Image<'_> {
+    /// Returns true for heights; other lengths are deflections and amplitudes.
+    fn has_heights(&self) -> bool {
+        let name = title(self.section).to_lowercase();
+        self.height_range().is_some() && HEIGHTS.iter().any(|word| name.contains(word))
     }
-    Ok(reading)
+
+    fn description(&self) -> String {
+        let name = shown(title(self.section));
+        match entry(self.section, "Line direction") {
+            Some(direction) => {
+                let direction = shown(direction).to_lowercase();
+                format!("{} {name:?} {direction}", self.number)
+            }
+            None => format!("{} {name:?}", self.number),
+        }
+    }
+
+    /// Returns the range of the heights; `None` if they are no lengths.
+    fn height_range(&self) -> Option<HeightRange> {
+        let scale = entry(self.section, "Z scale").and_then(Value::parse);
+        let scale = scale.unwrap_or_default();
+        if let Some(unit) = length_unit(scale.unit) {
+            return Some(HeightRange {
+                unit,
+                range: scale.number,
+            });
+        }
+        let Some(name) = scale.scale else {
+            let magnification = Value::parse(entry(self.section, "Z magnify image")?)?;
+            return Some(HeightRange {
+                unit: Unit::METRE,
+                range: PER_MAGNIFICATION * magnification.number,
+            });
+        };
+        let mut sections = self.sections.iter();
+        let sensitivity = sections.find_map(|section| Value::parse(entry(section, name)?))?;
+        // The sensitivity has a unit such as nm/V.
+        let (unit_of_height, unit_of_signal) = sensitivity.unit.split_once('/')?;
+        let range = scale.number * sensitivity.number;
+        Some(HeightRange {
+            unit: length_unit(unit_of_height)?,
+            range: range * in_volts(scale.unit)? / in_volts(unit_of_signal)?,
+        })
+    }
+
+    fn reading(&self, bytes: &[u8]) -> Result<Reading, SurfaceError> {
+        let columns = self.count("Samps/line")?;
+        let rows = self.count("Number of lines")?;
+        let offset = self.count("Data offset")?;
+        let length = self.count("Data length")?;
+        let points = columns.saturating_mul(rows);
+        let number = self.number_type(points, length)?;
+        let Some(heights) = self.height_range() else {
+            return Err(self.wrong("Z scale", "a scale of heights in a unit of length"));
+        };
+        let mut data = Bytes::new(bytes, Order::Little);
+        data.take(offset)?;
+        let numbers = data.numbers(points, number)?;
+        let from_top = numbers.chunks_exact(columns).rev().flatten().copied();
+        let numbers = gathered(points, from_top)?;
+
+        let size = self.scan_size()?;
+        let along = size.width / columns as f64;
+        let between = size.height / rows as f64;
+        let steps = 2.0_f64.powi(8 * number.size() as i32);
+        let units = StatedUnits::new(Some(size.unit), Some(heights.unit));
+        let spacing = Some([along, between]);
+        let mut reading = Reading::even("Nanoscope", numbers, columns, spacing, units)
+            .scaled(|_| false, heights.range / steps);
+        if rows > 1 && (along / between - 1.0).abs() > DIFFERENT {
+            let ScanSize {
+                unit,
+                width,
+                height,
+            } = size;
+            reading.warnings.push(format!(
+                "points are {along:.4} {unit} apart along rows and {between:.4} {unit} between \
+                 rows, by the size of the scan, {width} × {height} {unit}: a scan that was \
+                 stopped early is smaller"
+            ));
+        }
+        Ok(reading)
+    }
+
+    /// Returns the type of the integers of this many points.
+    fn number_type(&self, points: usize, length: usize) -> Result<Number, SurfaceError> {
+        // Some versions state 2 bytes and store 4.
+        let size_by_length = [2, 4]
+            .into_iter()
+            .find(|size| points.saturating_mul(*size) == length);
+        let size = match size_by_length {
+            Some(size) => size,
+            None => self.count("Bytes/pixel")?,
+        };
+        match size {
+            2 => Ok(Number::I16),
+            4 => Ok(Number::I32),
+            _ => Err(self.wrong("Bytes/pixel", "2 or 4")),
+        }
+    }
+
+    fn scan_size(&self) -> Result<ScanSize, SurfaceError> {
+        let stated = entry(self.section, "Scan size").or_else(|| {
+            let mut sections = self.sections.iter();
+            sections.find_map(|section| entry(section, "Scan size"))
+        });
+        let Some(mut size) = stated.and_then(ScanSize::parse) else {
+            let allowed = "width and height with a unit of length";
+            return Err(self.wrong("Scan size", allowed));
+        };
+        // A second size is the one of a square, unless it differs.
+        if size.height == size.width {
+            size.height = size.width / self.aspect_ratio().unwrap_or(1.0);
+        }
+        Ok(size)
+    }
+
+    fn aspect_ratio(&self) -> Option<f64> {
+        let (along, between) = entry(self.section, "Aspect ratio")?.split_once(':')?;
+        let ratio = finite(along.trim())? / finite(between.trim())?;
+        (ratio > 0.0).then_some(ratio)
+    }
+
+    /// Returns the number of a key, which is to be above 0.
+    fn count(&self, key: &str) -> Result<usize, SurfaceError> {
+        let word = entry(self.section, key).and_then(|text| text.split_ascii_whitespace().next());
+        match word.and_then(|word| word.parse().ok()) {
+            Some(count) if count > 0 => Ok(count),
+            _ => Err(self.wrong(key, "a whole number above 0")),
+        }
+    }
+
+    fn wrong(&self, key: &str, allowed: &str) -> SurfaceError {
+        let place = Place::Part(format!("channel {}", self.number));
+        let value = entry(self.section, key).unwrap_or_default();
+        let found = format!("{key} = {:?}", shown(value));
+        refused(place, found, allowed)
+    }
+}
+
+impl ScanSize {
+    /// Reads one or two numbers and a unit.
+    fn parse(text: &str) -> Option<Self> {
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        let (width, height, unit) = match words[..] {
+            [width, unit] => (width, width, unit),
+            [width, height, unit] => (width, height, unit),
+            _ => return None,
+        };
+        Some(ScanSize {
+            unit: length_unit(unit)?,
+            width: finite(width)?,
+            height: finite(height)?,
+        })
+    }
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 #[cfg(test)]
@@ -295,7 +404,7 @@ mod tests {
 
     fn heights(bytes: &[u8]) -> Result<Found, String> {
         let found = read(bytes, None).map_err(|error| error.to_string())?;
-        let unit = found.units[2].unwrap_or(Unit::METRE);
+        let unit = found.units.heights.unwrap_or(Unit::METRE);
         let rounded = |height: &f64| (unit.to_metres(*height) * 1e15).round() / 1e6;
         Ok((
             found.heights.iter().map(rounded).collect(),

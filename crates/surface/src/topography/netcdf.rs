@@ -1,19 +1,24 @@
 //! NetCDF in its classic format (CDF-1 and CDF-2), as contact.engineering and SurfaceTopography
 //! write it: a variable `heights` over positions `x`, and for a map also `y`.
 
-use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded};
+use super::positions::first_uneven;
 use super::reading::Reading;
-use super::surface::first_uneven;
+use super::stated_units::StatedUnits;
+use super::transpose::transposed;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
 
 /// First bytes of a file, before the version.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
-/// Tags of the lists of dimensions, variables and attributes.
+/// Mark of the list of dimensions.
 const DIMENSIONS: usize = 10;
+
+/// Mark of the list of variables.
 const VARIABLES: usize = 11;
+
+/// Mark of a list of attributes.
 const ATTRIBUTES: usize = 12;
 
 /// Type code of characters; all other types are numbers.
@@ -23,14 +28,20 @@ struct Variable<'a> {
     name: &'a [u8],
     /// Indices of the dimensions of the variable, the fastest varying last.
     dimensions: Vec<usize>,
+    conversion: Conversion<'a>,
+    number: Number,
+    /// Offset of the values in the file.
+    begin: usize,
+}
+
+/// What the attributes of a variable state of its values.
+struct Conversion<'a> {
     /// Text of the unit; empty if the variable has none.
     unit: &'a [u8],
     /// Values that mark missing points; NaN where the file states none.
     missing: [f64; 2],
     scale: f64,
     offset: f64,
-    of: Number,
-    begin: usize,
 }
 
 /// Header of a file, and the bytes after it.
@@ -42,76 +53,84 @@ struct Dataset<'a> {
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let dataset = Dataset::new(bytes)?;
-    let heights = dataset.variable(b"heights").ok_or_else(|| {
-        refused(
-            Place::File,
-            "no variable `heights`",
-            "NetCDF with `heights` over `x`, and `y` of a map",
-        )
-    })?;
-    let mut values = dataset.values(heights)?;
-    if let Some(mask) = dataset
-        .variable(b"mask")
-        .filter(|mask| mask.dimensions == heights.dimensions)
-    {
-        let mask = dataset.values(mask)?;
-        values
-            .iter_mut()
-            .zip(mask)
-            .filter(|(_, mask)| *mask != 0.0)
-            .for_each(|(value, _)| *value = f64::NAN);
-    }
-    // The positions of a dimension have its name, or that of the axis.
-    let over = |dimension: usize| {
-        let is_position = |variable: &&Variable| [&b"x"[..], b"y"].contains(&variable.name);
-        dataset
-            .variables
-            .iter()
-            .filter(is_position)
-            .find(|variable| variable.dimensions == [dimension])
+    let Some(heights) = dataset.variable(b"heights") else {
+        let allowed = "NetCDF with `heights` over `x`, and `y` of a map";
+        return Err(refused(Place::File, "no variable `heights`", allowed));
     };
+    let values = dataset.unmasked(heights)?;
     // Each variable has its own unit, or none.
-    let unit_over = |dimension: usize| over(dimension).map_or(Ok(None), Variable::unit);
     let height_unit = heights.unit()?;
-    let (slow, fast) = match heights.dimensions[..] {
-        [slow, fast] => (slow, fast),
-        [along] => {
-            let (unit, points) = (unit_over(along)?, values.len());
-            return Ok(match over(along) {
-                Some(x) => {
-                    Reading::profile("NetCDF", dataset.values(x)?, values, [unit, height_unit])
-                }
-                None => Reading::even("NetCDF", values, points, None, [unit, unit, height_unit]),
-            });
-        }
+    match heights.dimensions[..] {
+        [dimension] => profile(&dataset, dimension, values, height_unit),
+        [slow, fast] => map(&dataset, slow, fast, values, height_unit),
         _ => {
-            let fault = format!("`heights` over {} dimensions", heights.dimensions.len());
-            return Err(refused(
-                Place::File,
-                fault,
-                "one of a profile, or two of a map",
-            ));
+            let count = heights.dimensions.len();
+            let found = format!("`heights` over {count} dimensions");
+            let allowed = "one of a profile, or two of a map";
+            Err(refused(Place::File, found, allowed))
         }
-    };
-    let spacing = |dimension: usize| {
-        over(dimension)
-            .map(|positions| even_distance(&dataset.values(positions)?))
-            .transpose()
-    };
-    let mut columns = dataset.length(fast)?;
-    let mut spacing = spacing(fast)?
-        .zip(spacing(slow)?)
-        .map(|(fast, slow)| [fast, slow]);
-    let mut units = [unit_over(fast)?, unit_over(slow)?, height_unit];
-    if over(slow).is_some_and(|variable| variable.name == b"x") {
-        // Rows are along x.
-        let turned = (0..columns).flat_map(|x| values.iter().skip(x).step_by(columns).copied());
-        values = gathered(values.len(), turned)?;
-        columns = dataset.length(slow)?;
-        spacing = spacing.map(|[fast, slow]| [slow, fast]);
-        units.swap(0, 1);
     }
-    Ok(Reading::even("NetCDF", values, columns, spacing, units))
+}
+
+fn profile(
+    dataset: &Dataset<'_>,
+    dimension: usize,
+    values: Vec<f64>,
+    height_unit: Option<Unit>,
+) -> Result<Reading, SurfaceError> {
+    let units = StatedUnits::new(dataset.unit_over(dimension)?, height_unit);
+    match dataset.positions_over(dimension) {
+        Some(x) => {
+            let positions = dataset.values(x)?;
+            Ok(Reading::profile("NetCDF", positions, values, units))
+        }
+        None => {
+            let points = values.len();
+            Ok(Reading::even("NetCDF", values, points, None, units))
+        }
+    }
+}
+
+/// Reads a map whose heights vary faster along one dimension than along the other.
+fn map(
+    dataset: &Dataset<'_>,
+    slow: usize,
+    fast: usize,
+    values: Vec<f64>,
+    height_unit: Option<Unit>,
+) -> Result<Reading, SurfaceError> {
+    let fast_count = dataset.length(fast)?;
+    let fast_distance = dataset.distance_over(fast)?;
+    let slow_distance = dataset.distance_over(slow)?;
+    let fast_unit = dataset.unit_over(fast)?;
+    let slow_unit = dataset.unit_over(slow)?;
+    let is_turned = dataset
+        .positions_over(slow)
+        .is_some_and(|positions| positions.name == b"x");
+    if !is_turned {
+        let units = StatedUnits {
+            along: fast_unit,
+            between: slow_unit,
+            heights: height_unit,
+        };
+        let spacing = both(fast_distance, slow_distance);
+        return Ok(Reading::even("NetCDF", values, fast_count, spacing, units));
+    }
+    // Rows are along x.
+    let turned = transposed(&values, fast_count)?;
+    let columns = dataset.length(slow)?;
+    let units = StatedUnits {
+        along: slow_unit,
+        between: fast_unit,
+        heights: height_unit,
+    };
+    let spacing = both(slow_distance, fast_distance);
+    Ok(Reading::even("NetCDF", turned, columns, spacing, units))
+}
+
+/// Returns both distances, if both are known.
+fn both(along: Option<f64>, between: Option<f64>) -> Option<[f64; 2]> {
+    Some([along?, between?])
 }
 
 impl<'a> Dataset<'a> {
@@ -123,18 +142,17 @@ impl<'a> Dataset<'a> {
             1 => Number::U32,
             2 => Number::U64,
             version => {
-                let fault = format!("version {version} of NetCDF");
-                return Err(refused(place, fault, "1 or 2, the classic format"));
+                let found = format!("version {version} of NetCDF");
+                return Err(refused(place, found, "1 or 2, the classic format"));
             }
         };
-        header.take(4)?; // Number of records.
+        // Number of records.
+        header.take(4)?;
         let dimensions = list(&mut header, DIMENSIONS, |header| {
             name(header)?;
             header.size(Number::U32)
         })?;
-        list(&mut header, ATTRIBUTES, |header| {
-            attribute(header).map(drop)
-        })?;
+        list(&mut header, ATTRIBUTES, attribute)?;
         let variables = list(&mut header, VARIABLES, |header| variable(header, offsets))?;
         Ok(Dataset {
             bytes,
@@ -147,40 +165,77 @@ impl<'a> Dataset<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
+    /// Returns the positions along a dimension. The variable may be named after either axis,
+    /// whatever the dimension is named.
+    fn positions_over(&self, dimension: usize) -> Option<&Variable<'a>> {
+        self.variables.iter().find(|variable| {
+            [&b"x"[..], b"y"].contains(&variable.name) && variable.dimensions == [dimension]
+        })
+    }
+
+    /// Returns the unit of the positions along a dimension.
+    fn unit_over(&self, dimension: usize) -> Result<Option<Unit>, SurfaceError> {
+        match self.positions_over(dimension) {
+            Some(positions) => positions.unit(),
+            None => Ok(None),
+        }
+    }
+
+    /// Returns the distance of the positions along a dimension.
+    fn distance_over(&self, dimension: usize) -> Result<Option<f64>, SurfaceError> {
+        match self.positions_over(dimension) {
+            Some(positions) => even_distance(&self.values(positions)?).map(Some),
+            None => Ok(None),
+        }
+    }
+
     fn length(&self, dimension: usize) -> Result<usize, SurfaceError> {
-        let (fault, allowed) = match self.dimensions.get(dimension) {
-            Some(0) => (
-                "a dimension without a fixed length".to_owned(),
-                "fixed lengths".to_owned(),
-            ),
-            Some(length) => return Ok(*length),
-            None => (
-                format!("dimension {dimension}"),
-                format!("below {}", self.dimensions.len()),
-            ),
-        };
-        Err(refused(Place::File, fault, allowed))
+        match self.dimensions.get(dimension) {
+            Some(0) => {
+                let found = "a dimension without a fixed length";
+                Err(refused(Place::File, found, "fixed lengths"))
+            }
+            Some(length) => Ok(*length),
+            None => {
+                let found = format!("dimension {dimension}");
+                let allowed = format!("below {}", self.dimensions.len());
+                Err(refused(Place::File, found, allowed))
+            }
+        }
     }
 
     /// Returns the values of a variable, with NaN for missing points.
     fn values(&self, variable: &Variable) -> Result<Vec<f64>, SurfaceError> {
-        let mut lengths = variable
-            .dimensions
-            .iter()
-            .map(|dimension| self.length(*dimension));
-        let count = lengths.try_fold(1_usize, |count, length| {
-            Ok::<_, SurfaceError>(count.saturating_mul(length?))
-        })?;
+        let mut count = 1_usize;
+        for dimension in &variable.dimensions {
+            count = count.saturating_mul(self.length(*dimension)?);
+        }
         let mut data = Bytes::new(self.bytes, Order::Big);
         data.take(variable.begin)?;
-        let mut values = data.numbers(count, variable.of)?;
+        let mut values = data.numbers(count, variable.number)?;
+        let conversion = &variable.conversion;
         for value in &mut values {
-            let is_missing = variable.missing.contains(value);
-            *value = if is_missing {
+            *value = if conversion.missing.contains(value) {
                 f64::NAN
             } else {
-                variable.offset + variable.scale * *value
+                conversion.offset + conversion.scale * *value
             };
+        }
+        Ok(values)
+    }
+
+    /// Returns the heights, with NaN also for the points that a variable `mask` leaves out.
+    fn unmasked(&self, heights: &Variable) -> Result<Vec<f64>, SurfaceError> {
+        let mut values = self.values(heights)?;
+        let Some(mask) = self.variable(b"mask") else {
+            return Ok(values);
+        };
+        if mask.dimensions == heights.dimensions {
+            for (value, mask) in values.iter_mut().zip(self.values(mask)?) {
+                if mask != 0.0 {
+                    *value = f64::NAN;
+                }
+            }
         }
         Ok(values)
     }
@@ -189,28 +244,33 @@ impl<'a> Dataset<'a> {
 impl Variable<'_> {
     fn unit(&self) -> Result<Option<Unit>, SurfaceError> {
         let place = Place::Part(format!("variable {}", String::from_utf8_lossy(self.name)));
-        Unit::stated(decoded(self.unit).trim_matches([' ', '\0']), place)
+        let text = decoded(self.conversion.unit);
+        Unit::stated(text.trim_matches([' ', '\0']), place)
     }
 }
 
+/// Reads a list: its mark, the number of its entries, and the entries.
 fn list<'a, T>(
     header: &mut Bytes<'a>,
-    tag: usize,
+    mark: usize,
     entry: impl Fn(&mut Bytes<'a>) -> Result<T, SurfaceError>,
 ) -> Result<Vec<T>, SurfaceError> {
     let place = header.place();
-    match (header.size(Number::U32)?, header.size(Number::U32)?) {
-        (0, 0) => Ok(Vec::new()),
-        // No memory is reserved for the number, which the file may overstate.
-        (found, count) if found == tag => std::iter::repeat_with(|| entry(header))
-            .take(count)
-            .collect(),
-        (found, _) => Err(refused(
-            place,
-            format!("mark {found}"),
-            format!("{tag}, or an empty list"),
-        )),
+    let found = header.size(Number::U32)?;
+    let count = header.size(Number::U32)?;
+    if found == 0 && count == 0 {
+        return Ok(Vec::new());
     }
+    if found != mark {
+        let allowed = format!("{mark}, or an empty list");
+        return Err(refused(place, format!("mark {found}"), allowed));
+    }
+    // No memory is reserved for the number, which the file may overstate.
+    let mut entries = Vec::new();
+    for _ in 0..count {
+        entries.push(entry(header)?);
+    }
+    Ok(entries)
 }
 
 /// Returns `count` bytes, and skips their padding to a multiple of four.
@@ -226,31 +286,66 @@ fn name<'a>(header: &mut Bytes<'a>) -> Result<&'a [u8], SurfaceError> {
 }
 
 /// Reads a type code; `None` for characters.
-fn number(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
+fn number_type(header: &mut Bytes) -> Result<Option<Number>, SurfaceError> {
     let place = header.place();
-    Ok(Some(match header.size(Number::U32)? {
-        1 => Number::I8,
-        CHARACTERS => return Ok(None),
-        3 => Number::I16,
-        4 => Number::I32,
-        5 => Number::F32,
-        6 => Number::F64,
-        other => return Err(refused(place, format!("type {other}"), "types 1 to 6")),
-    }))
+    match header.size(Number::U32)? {
+        1 => Ok(Some(Number::I8)),
+        CHARACTERS => Ok(None),
+        3 => Ok(Some(Number::I16)),
+        4 => Ok(Some(Number::I32)),
+        5 => Ok(Some(Number::F32)),
+        6 => Ok(Some(Number::F64)),
+        other => Err(refused(place, format!("type {other}"), "types 1 to 6")),
+    }
 }
 
-/// Name, type (`None`: characters) and content of an attribute.
-type Attribute<'a> = (&'a [u8], Option<Number>, &'a [u8]);
+struct Attribute<'a> {
+    name: &'a [u8],
+    /// Type of the content; `None` for characters.
+    number: Option<Number>,
+    content: &'a [u8],
+}
 
 fn attribute<'a>(header: &mut Bytes<'a>) -> Result<Attribute<'a>, SurfaceError> {
     let name = name(header)?;
-    let of = number(header)?;
+    let number = number_type(header)?;
     let count = header.size(Number::U32)?;
-    Ok((
+    let size = number.map_or(1, Number::size);
+    Ok(Attribute {
         name,
-        of,
-        padded(header, count.saturating_mul(of.map_or(1, Number::size)))?,
-    ))
+        number,
+        content: padded(header, count.saturating_mul(size))?,
+    })
+}
+
+impl<'a> Conversion<'a> {
+    fn new(attributes: Vec<Attribute<'a>>) -> Self {
+        let mut conversion = Conversion {
+            unit: b"",
+            missing: [f64::NAN; 2],
+            scale: 1.0,
+            offset: 0.0,
+        };
+        for attribute in attributes {
+            let Some(number) = attribute.number else {
+                if [&b"unit"[..], b"units", b"length_unit"].contains(&attribute.name) {
+                    conversion.unit = attribute.content;
+                }
+                continue;
+            };
+            let Ok(value) = Bytes::new(attribute.content, Order::Big).number(number) else {
+                continue;
+            };
+            match attribute.name {
+                b"missing_value" => conversion.missing[0] = value,
+                b"_FillValue" => conversion.missing[1] = value,
+                b"scale_factor" => conversion.scale = value,
+                b"add_offset" => conversion.offset = value,
+                _ => {}
+            }
+        }
+        conversion
+    }
 }
 
 fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>, SurfaceError> {
@@ -259,49 +354,32 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
     for _ in 0..header.size(Number::U32)? {
         dimensions.push(header.size(Number::U32)?);
     }
-    let (mut unit, mut missing, mut scale, mut offset) = (&b""[..], [f64::NAN; 2], 1.0, 0.0);
-    for (name, of, content) in list(header, ATTRIBUTES, attribute)? {
-        let number = of.and_then(|of| Bytes::new(content, Order::Big).number(of).ok());
-        match (name, number) {
-            (b"unit" | b"units" | b"length_unit", None) if of.is_none() => unit = content,
-            (b"missing_value", Some(value)) => missing[0] = value,
-            (b"_FillValue", Some(value)) => missing[1] = value,
-            (b"scale_factor", Some(value)) => scale = value,
-            (b"add_offset", Some(value)) => offset = value,
-            _ => {}
-        }
-    }
+    let conversion = Conversion::new(list(header, ATTRIBUTES, attribute)?);
     // The values of text are never read.
-    let of = number(header)?.unwrap_or(Number::U8);
-    header.take(4)?; // Bytes of the values, which follow from the dimensions.
+    let number = number_type(header)?.unwrap_or(Number::U8);
+    // Bytes of the values, which follow from the dimensions.
+    header.take(4)?;
     let begin = header.size(offsets)?;
     Ok(Variable {
         name,
         dimensions,
-        unit,
-        missing,
-        scale,
-        offset,
-        of,
+        conversion,
+        number,
         begin,
     })
 }
 
 fn even_distance(positions: &[f64]) -> Result<f64, SurfaceError> {
-    let ([first, .., last], count) = (positions, positions.len()) else {
-        return Err(refused(
-            Place::File,
-            "a map of one row",
-            "at least 2 positions along each axis",
-        ));
+    let [first, .., last] = positions else {
+        let allowed = "at least 2 positions along each axis";
+        return Err(refused(Place::File, "a map of one row", allowed));
     };
-    let distance = (last - first) / (count - 1) as f64;
+    let distance = (last - first) / (positions.len() - 1) as f64;
     match first_uneven(positions, *first, distance) {
-        Some(index) => Err(refused(
-            Place::Point(index + 1),
-            "uneven positions of a map",
-            "even ones",
-        )),
+        Some(index) => {
+            let found = "uneven positions of a map";
+            Err(refused(Place::Point(index + 1), found, "even ones"))
+        }
         None => Ok(distance.abs()),
     }
 }

@@ -7,40 +7,47 @@
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
+use super::transpose::transposed;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{SIGNATURE, emptied, gathered, shown};
+use asperity_data::{SIGNATURE, emptied, shown};
+
+const FORMAT: &str = "NumPy array";
+
+/// Place of the header in a file of version 1.
+const HEADER: Place = Place::Byte(10);
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
-    const FORMAT: &str = "NumPy array";
     let (header, mut data) = Header::read(bytes)?;
-    let even = |heights, columns| Ok(Reading::even(FORMAT, heights, columns, None, [None; 3]));
-    match (&header.fields[..], &header.shape[..]) {
-        ([_, _], _) | (_, [2..=usize::MAX, 2]) => {
-            let [positions, heights] = header
-                .columns(data)?
-                .try_into()
-                .map_err(|_| header.wrong_axes("1 or 2 axes"))?;
-            Ok(Reading::profile(FORMAT, positions, heights, [None; 2]))
-        }
-        (&[(_, number)], &[points]) => even(data.numbers(points, number)?, points),
-        (&[(_, number)], &[rows, columns]) => {
-            let values = data.numbers(header.points(), number)?;
-            if !header.is_column_major {
-                return even(values, columns);
-            }
-            let of_row = |row: usize| values.iter().skip(row).step_by(rows).copied();
-            even(gathered(values.len(), (0..rows).flat_map(of_row))?, columns)
-        }
-        ([_], _) => Err(header.wrong_axes("1 or 2 axes")),
-        _ => {
-            let fault = format!("points of {} fields", header.fields.len());
-            Err(refused(
-                Place::Byte(10),
-                fault,
-                "heights, or positions and heights",
-            ))
-        }
+    if header.is_profile() {
+        let columns: Result<[Vec<f64>; 2], _> = header.columns(data)?.try_into();
+        let Ok([positions, heights]) = columns else {
+            return Err(header.wrong_axes("1 or 2 axes"));
+        };
+        let units = StatedUnits::default();
+        return Ok(Reading::profile(FORMAT, positions, heights, units));
     }
+    let [field] = &header.fields[..] else {
+        let found = format!("points of {} fields", header.fields.len());
+        return Err(refused(HEADER, found, "heights, or positions and heights"));
+    };
+    match header.shape[..] {
+        [points] => Ok(even(data.numbers(points, field.number)?, points)),
+        [rows, columns] => {
+            let values = data.numbers(header.points(), field.number)?;
+            if !header.is_column_major {
+                return Ok(even(values, columns));
+            }
+            let by_rows = transposed(&values, rows)?;
+            Ok(even(by_rows, columns))
+        }
+        _ => Err(header.wrong_axes("1 or 2 axes")),
+    }
+}
+
+/// Creates heights without units and distances.
+fn even(heights: Vec<f64>, columns: usize) -> Reading {
+    Reading::even(FORMAT, heights, columns, None, StatedUnits::default())
 }
 
 /// Parses a NumPy array with at least two columns. Returns the names of the columns, and the
@@ -49,18 +56,21 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
 pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceError> {
     let (header, data) = Header::read(bytes)?;
     let columns = header.columns(data)?;
-    let names = header
-        .fields
-        .into_iter()
-        .map(|(name, _)| name)
-        .filter(|name| !name.is_empty());
-    Ok((names.collect(), columns))
+    let mut names: Vec<String> = header.fields.into_iter().map(|field| field.name).collect();
+    names.retain(|name| !name.is_empty());
+    Ok((names, columns))
+}
+
+/// A field of the points of an array.
+struct Field {
+    /// Name of the field; empty in an array of plain numbers.
+    name: String,
+    number: Number,
 }
 
 struct Header {
-    /// Names and types of the fields of a point; one field without a name in an array of plain
-    /// numbers.
-    fields: Vec<(String, Number)>,
+    /// Fields of a point; a single one in an array of plain numbers.
+    fields: Vec<Field>,
     order: Order,
     is_column_major: bool,
     shape: Vec<usize>,
@@ -75,160 +85,185 @@ impl Header {
             1 => data.size(Number::U16)?,
             2 | 3 => data.size(Number::U32)?,
             other => {
-                return Err(refused(
-                    Place::Byte(6),
-                    format!("version {other}"),
-                    "1, 2 or 3",
-                ));
+                let found = format!("version {other}");
+                return Err(refused(Place::Byte(6), found, "1, 2 or 3"));
             }
         };
-        let header = Header::parse(&String::from_utf8_lossy(data.take(length)?))?;
+        let text = String::from_utf8_lossy(data.take(length)?);
+        let header = HeaderText { text: &text }.parse()?;
         data.order = header.order;
         Ok((header, data))
     }
 
-    fn points(&self) -> usize {
-        self.shape
-            .iter()
-            .fold(1, |points: usize, axis| points.saturating_mul(*axis))
+    /// Returns true for points of two fields, or of two numbers.
+    fn is_profile(&self) -> bool {
+        self.fields.len() == 2 || matches!(self.shape[..], [2..=usize::MAX, 2])
     }
 
-    /// Reads `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, in any order.
-    fn parse(text: &str) -> Result<Self, SurfaceError> {
-        let wrong = |what: &str| {
-            let allowed =
-                "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), } and the like";
-            refused(
-                Place::Byte(10),
-                format!("{what} in the header {:?}", shown(text)),
-                allowed,
-            )
-        };
-        let entry = |key: &str| {
-            let (_, rest) = text
-                .split_once(&format!("'{key}'"))
-                .ok_or_else(|| wrong(&format!("no {key}")))?;
-            let value = rest.trim_start().strip_prefix(':').map(str::trim_start);
-            value.ok_or_else(|| wrong(&format!("no value of {key}")))
-        };
-        let descr = entry("descr")?;
-        let is_list = descr.starts_with('[');
-        let types = if is_list {
-            field_types(descr)
-        } else {
-            quoted(descr).map(|name| vec![("", name)])
-        };
-        let types = types.ok_or_else(|| {
-            wrong(if is_list {
-                "fields that are not understood"
-            } else {
-                "no type"
-            })
-        })?;
-        let mut order = None;
-        let mut fields = Vec::new();
-        for (field, descr) in types {
-            let (of_field, name) = match descr.split_at_checked(1) {
-                Some(("<", name)) => (Some(Order::Little), name),
-                Some((">", name)) => (Some(Order::Big), name),
-                Some(("|", name)) => (None, name),
-                _ => return Err(wrong("no order of bytes")),
-            };
-            if order.is_some() && of_field.is_some() && of_field != order {
-                return Err(wrong("two orders of bytes"));
-            }
-            order = order.or(of_field);
-            let number = Number::named(name).ok_or_else(|| {
-                let fault = format!("numbers of type {:?}", shown(descr));
-                refused(
-                    Place::Byte(10),
-                    fault,
-                    "real and whole numbers: f2 to f8, i1 to u8",
-                )
-            })?;
-            fields.push((field.to_owned(), number));
+    fn points(&self) -> usize {
+        let mut points = 1_usize;
+        for axis in &self.shape {
+            points = points.saturating_mul(*axis);
         }
-        let is_column_major = match entry("fortran_order")? {
-            value if value.starts_with("True") => true,
-            value if value.starts_with("False") => false,
-            _ => return Err(wrong("neither True nor False")),
-        };
-        let shape = entry("shape")?
-            .strip_prefix('(')
-            .and_then(|rest| rest.split_once(')'));
-        let axes = shape
-            .ok_or_else(|| wrong("no shape"))?
-            .0
-            .split(',')
-            .map(str::trim);
-        let axes = axes
-            .filter(|axis| !axis.is_empty())
-            .map(|axis| axis.parse().map_err(|_| wrong("no shape")));
-        let shape = axes.collect::<Result<Vec<usize>, _>>()?;
-        if is_list && shape.len() != 1 {
-            return Err(wrong("fields along several axes"));
-        }
-        let order = order.unwrap_or(Order::Little);
-        // A list of points with fields has one axis and no order of axes.
-        Ok(Header {
-            fields,
-            order,
-            is_column_major: is_column_major && !is_list,
-            shape,
-        })
+        points
     }
 
     /// Returns the columns of the array: the fields of the points, or the shorter of two axes.
-    fn columns(&self, mut data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
+    fn columns(&self, data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
         match (&self.fields[..], &self.shape[..]) {
-            (&[(_, number)], &[rows, of_row]) => {
-                let values = data.numbers(self.points(), number)?;
-                let (row_step, step) = if self.is_column_major {
-                    (1, rows)
-                } else {
-                    (of_row, 1)
-                };
-                let (count, points) = (rows.min(of_row), rows.max(of_row));
-                let (along, between) = if rows >= of_row {
-                    (row_step, step)
-                } else {
-                    (step, row_step)
-                };
-                let column = |column: usize| {
-                    (0..points)
-                        .map(|point| values[point * along + column * between])
-                        .collect()
-                };
-                Ok((0..count).map(column).collect())
-            }
-            (fields @ [_, _, ..], &[points]) => {
-                let size = fields
-                    .iter()
-                    .map(|(_, number)| number.size())
-                    .sum::<usize>();
-                let mut rows = data.part(points.saturating_mul(size))?;
-                let column = |_: &(String, Number)| emptied(Vec::new(), points);
-                let mut columns = fields
-                    .iter()
-                    .map(column)
-                    .collect::<Result<Vec<Vec<f64>>, _>>()?;
-                for _ in 0..points {
-                    for ((_, number), column) in fields.iter().zip(&mut columns) {
-                        column.push(rows.number(*number)?);
-                    }
-                }
-                Ok(columns)
-            }
+            ([field], &[rows, columns]) => self.columns_of_axes(data, field, rows, columns),
+            ([_, _, ..], &[points]) => self.columns_of_fields(data, points),
             _ => Err(self.wrong_axes("points with fields, or 2 axes")),
         }
     }
 
+    fn columns_of_axes(
+        &self,
+        mut data: Bytes<'_>,
+        field: &Field,
+        rows: usize,
+        columns: usize,
+    ) -> Result<Vec<Vec<f64>>, SurfaceError> {
+        let values = data.numbers(self.points(), field.number)?;
+        // Differences of indices from row to row, and from column to column.
+        let mut row_step = columns;
+        let mut column_step = 1;
+        if self.is_column_major {
+            row_step = 1;
+            column_step = rows;
+        }
+        let is_wide = columns > rows;
+        if is_wide {
+            std::mem::swap(&mut row_step, &mut column_step);
+        }
+        let points = rows.max(columns);
+        let mut numbers = Vec::new();
+        for column in 0..rows.min(columns) {
+            let first = column * column_step;
+            let of_column = (0..points).map(|point| values[first + point * row_step]);
+            numbers.push(of_column.collect());
+        }
+        Ok(numbers)
+    }
+
+    fn columns_of_fields(
+        &self,
+        mut data: Bytes<'_>,
+        points: usize,
+    ) -> Result<Vec<Vec<f64>>, SurfaceError> {
+        let size: usize = self.fields.iter().map(|field| field.number.size()).sum();
+        let mut rows = data.part(points.saturating_mul(size))?;
+        let mut columns = Vec::new();
+        for _ in &self.fields {
+            columns.push(emptied(Vec::new(), points)?);
+        }
+        for _ in 0..points {
+            for (field, column) in self.fields.iter().zip(&mut columns) {
+                column.push(rows.number(field.number)?);
+            }
+        }
+        Ok(columns)
+    }
+
     fn wrong_axes(&self, allowed: &str) -> SurfaceError {
-        refused(
-            Place::Byte(10),
-            format!("an array with {} axes", self.shape.len()),
-            allowed,
-        )
+        let found = format!("an array with {} axes", self.shape.len());
+        refused(HEADER, found, allowed)
+    }
+}
+
+/// Text of a header, `{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), }`, with its
+/// entries in any order.
+struct HeaderText<'a> {
+    text: &'a str,
+}
+
+impl<'a> HeaderText<'a> {
+    fn parse(&self) -> Result<Header, SurfaceError> {
+        let descr = self.entry("descr")?;
+        let has_fields = descr.starts_with('[');
+        let (fields, order) = self.fields(descr, has_fields)?;
+        let is_column_major = match self.entry("fortran_order")? {
+            value if value.starts_with("True") => true,
+            value if value.starts_with("False") => false,
+            _ => return Err(self.wrong("neither True nor False")),
+        };
+        let shape = self.shape()?;
+        if has_fields && shape.len() != 1 {
+            return Err(self.wrong("fields along several axes"));
+        }
+        Ok(Header {
+            fields,
+            order,
+            // A list of points with fields has one axis and no order of axes.
+            is_column_major: is_column_major && !has_fields,
+            shape,
+        })
+    }
+
+    /// Returns the text after a key.
+    fn entry(&self, key: &str) -> Result<&'a str, SurfaceError> {
+        let Some((_, rest)) = self.text.split_once(&format!("'{key}'")) else {
+            return Err(self.wrong(&format!("no {key}")));
+        };
+        match rest.trim_start().strip_prefix(':') {
+            Some(value) => Ok(value.trim_start()),
+            None => Err(self.wrong(&format!("no value of {key}"))),
+        }
+    }
+
+    /// Reads the fields of a point, and the order of their bytes, which is the same for all.
+    fn fields(&self, descr: &str, has_fields: bool) -> Result<(Vec<Field>, Order), SurfaceError> {
+        let types = if has_fields {
+            field_types(descr).ok_or_else(|| self.wrong("fields that are not understood"))?
+        } else {
+            let descr = quoted(descr).ok_or_else(|| self.wrong("no type"))?;
+            vec![FieldType { name: "", descr }]
+        };
+        let mut order = None;
+        let mut fields = Vec::new();
+        for FieldType { name, descr } in types {
+            let (order_of_field, number) = match descr.split_at_checked(1) {
+                Some(("<", number)) => (Some(Order::Little), number),
+                Some((">", number)) => (Some(Order::Big), number),
+                Some(("|", number)) => (None, number),
+                _ => return Err(self.wrong("no order of bytes")),
+            };
+            if order.is_some() && order_of_field.is_some() && order_of_field != order {
+                return Err(self.wrong("two orders of bytes"));
+            }
+            order = order.or(order_of_field);
+            let Some(number) = Number::named(number) else {
+                let found = format!("numbers of type {:?}", shown(descr));
+                let allowed = "real and whole numbers: f2 to f8, i1 to u8";
+                return Err(refused(HEADER, found, allowed));
+            };
+            fields.push(Field {
+                name: name.to_owned(),
+                number,
+            });
+        }
+        Ok((fields, order.unwrap_or(Order::Little)))
+    }
+
+    fn shape(&self) -> Result<Vec<usize>, SurfaceError> {
+        let inside = self.entry("shape")?.strip_prefix('(');
+        let Some((axes, _)) = inside.and_then(|rest| rest.split_once(')')) else {
+            return Err(self.wrong("no shape"));
+        };
+        let mut shape = Vec::new();
+        for axis in axes.split(',').map(str::trim) {
+            if !axis.is_empty() {
+                let length = axis.parse().map_err(|_| self.wrong("no shape"))?;
+                shape.push(length);
+            }
+        }
+        Ok(shape)
+    }
+
+    fn wrong(&self, what: &str) -> SurfaceError {
+        let found = format!("{what} in the header {:?}", shown(self.text));
+        let allowed = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 4), } and the like";
+        refused(HEADER, found, allowed)
     }
 }
 
@@ -239,16 +274,24 @@ fn quoted(text: &str) -> Option<&str> {
         .map(|(inside, _)| inside)
 }
 
-/// Returns names and types of the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
-fn field_types(list: &str) -> Option<Vec<(&str, &str)>> {
+/// Name and type of a field, as in `('x', '<f8')`.
+struct FieldType<'a> {
+    name: &'a str,
+    descr: &'a str,
+}
+
+/// Returns the fields in a list such as `[('x', '<f8'), ('z', '<f8')]`.
+fn field_types(list: &str) -> Option<Vec<FieldType<'_>>> {
     let (list, _) = list.strip_prefix('[')?.split_once(']')?;
-    list.split('(')
-        .skip(1)
-        .map(|field| {
-            let (name, of) = field.split_once(',')?;
-            Some((quoted(name)?, quoted(of.trim_start())?))
-        })
-        .collect()
+    let mut types = Vec::new();
+    for field in list.split('(').skip(1) {
+        let (name, descr) = field.split_once(',')?;
+        types.push(FieldType {
+            name: quoted(name)?,
+            descr: quoted(descr.trim_start())?,
+        });
+    }
+    Some(types)
 }
 
 #[cfg(test)]

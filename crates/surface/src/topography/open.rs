@@ -1,9 +1,12 @@
 //! Recognition of the format of a file by its first bytes, and the choice of the reader.
 
-use super::bytes::{Archive, MOST_BYTES, MOST_EXPANSION, ZIP, most_expanded};
-use super::reading::{ReadOptions, Reading};
+use super::archive::{Archive, ZIP};
+use super::bytes::{MOST_BYTES, MOST_EXPANSION, most_expanded};
+use super::container::{self, Measurement};
+use super::options::ReadOptions;
+use super::reading::Reading;
 use super::surface::Topography;
-use super::{container, foreign, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
+use super::{foreign, gsf, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{ReadError, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
@@ -12,22 +15,42 @@ use std::path::Path;
 
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-type BinaryReader = fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>;
+/// A binary format that is known by its first bytes.
+struct BinaryFormat {
+    signature: &'static [u8],
+    read: fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>,
+}
 
-/// First bytes of the binary formats, with their readers. All other formats except SDF and archives
-/// are text.
-const SIGNATURES: [(&[u8], BinaryReader); 7] = [
-    (asperity_data::SIGNATURE, |bytes, _| npy::read(bytes)),
-    (sdf::GSF, |bytes, _| sdf::read_gsf(bytes)),
-    (netcdf::SIGNATURE, |bytes, _| netcdf::read(bytes)),
-    (gwy::SIGNATURE, |bytes, options| {
-        gwy::read(bytes, options.channel)
-    }),
-    (nanoscope::SIGNATURE, |bytes, options| {
-        nanoscope::read(bytes, options.channel)
-    }),
-    (b"DIGITAL SURF", |bytes, _| sur::read(bytes)),
-    (b"DSCOMPRESSED", |bytes, _| sur::read(bytes)),
+/// All other formats except SDF and archives are text.
+const BINARY_FORMATS: [BinaryFormat; 7] = [
+    BinaryFormat {
+        signature: asperity_data::SIGNATURE,
+        read: |bytes, _| npy::read(bytes),
+    },
+    BinaryFormat {
+        signature: gsf::SIGNATURE,
+        read: |bytes, _| gsf::read(bytes),
+    },
+    BinaryFormat {
+        signature: netcdf::SIGNATURE,
+        read: |bytes, _| netcdf::read(bytes),
+    },
+    BinaryFormat {
+        signature: gwy::SIGNATURE,
+        read: |bytes, options| gwy::read(bytes, options.channel),
+    },
+    BinaryFormat {
+        signature: nanoscope::SIGNATURE,
+        read: |bytes, options| nanoscope::read(bytes, options.channel),
+    },
+    BinaryFormat {
+        signature: sur::PLAIN,
+        read: |bytes, _| sur::read(bytes),
+    },
+    BinaryFormat {
+        signature: sur::COMPRESSED,
+        read: |bytes, _| sur::read(bytes),
+    },
 ];
 
 /// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with
@@ -70,43 +93,55 @@ pub fn content(path: &Path) -> Result<Vec<u8>, SurfaceError> {
 /// ```
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceError> {
     let mut surfaces = parse_all(bytes, options)?;
-    match (surfaces.pop(), surfaces.len()) {
-        (Some(surface), 0) => Ok(surface),
-        (_, others) => {
-            let fault = format!("{} measurements of a surface", others + 1);
-            let allowed = "one: --channel with its name, in a scene roughness.surface_name";
-            Err(refused(Place::File, fault, allowed))
-        }
+    if surfaces.len() == 1 {
+        return Ok(surfaces.swap_remove(0));
     }
+    let found = format!("{} measurements of a surface", surfaces.len());
+    let allowed = "one: --channel with its name, in a scene roughness.surface_name";
+    Err(refused(Place::File, found, allowed))
 }
 
 /// Reads a surface from the content of a file. From a container it reads all measurements of a
 /// surface.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
-    let is_archive = bytes.starts_with(ZIP);
-    if let (Some(_), false) = (&options.surface_name, is_archive) {
+    if bytes.starts_with(ZIP) {
+        return parse_archive(bytes, options);
+    }
+    if options.surface_name.is_some() {
+        let found = "a file of one surface, without a name";
         let allowed = "a container of surfaces, or no --channel, in a scene roughness.surface_name";
-        return Err(refused(
-            Place::File,
-            "a file of one surface, without a name",
-            allowed,
-        ));
+        return Err(refused(Place::File, found, allowed));
     }
-    if !is_archive {
-        return Ok(vec![reading(bytes, options)?.resolve_part(options)?]);
-    }
+    let surface = reading(bytes, options)?.resolve_part(options)?;
+    Ok(vec![surface])
+}
+
+/// Reads a surface from an archive: a container, or X3P.
+fn parse_archive(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     let mut archive = Archive::new(bytes)?;
     let [in_json, in_yaml] = container::INDICES;
     let indices = [x3p::INDEX, in_json, in_yaml];
-    let index = archive
-        .index(&indices)?
-        .ok_or_else(|| foreign::archive(archive.names(), indices))?;
+    let Some(index) = archive.index(&indices)? else {
+        return Err(foreign::archive(archive.names(), indices));
+    };
     if index == x3p::INDEX {
-        return Ok(vec![x3p::read(archive)?.resolve_part(options)?]);
+        let surface = x3p::read(archive)?.resolve_part(options)?;
+        return Ok(vec![surface]);
     }
     let content = archive.unpacked(index, container::LONGEST_INDEX)?;
     let measurements = container::measurements(index, &content, options.surface_name.as_deref())?;
-    let (mut surfaces, mut unreadable) = (Vec::new(), Vec::new());
+    parse_measurements(archive, measurements, options)
+}
+
+/// Reads the measurements of a surface in a container. Those that cannot be read are left out with
+/// a warning, unless none can be read.
+fn parse_measurements(
+    mut archive: Archive<'_>,
+    measurements: Vec<Measurement>,
+    options: &ReadOptions,
+) -> Result<Vec<Topography>, SurfaceError> {
+    let mut surfaces = Vec::new();
+    let mut unreadable = Vec::new();
     for measurement in measurements {
         let options = measurement.options(options)?;
         let within = |error: SurfaceError| {
@@ -121,26 +156,22 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
                 continue;
             }
         };
+        // What the options can supply, such as a unit, is asked for and not left out.
         let mut surface = reading.resolve_part(&options).map_err(within)?;
         surface.warnings.extend(measurement.tip_radius());
-        surfaces.push(Topography {
-            detrend: measurement.detrend(),
-            periodic: measurement.is_periodic,
-            name: measurement.name,
-            ..surface
-        });
+        surface.detrend = measurement.detrend();
+        surface.periodic = measurement.is_periodic;
+        surface.name = measurement.name;
+        surfaces.push(surface);
     }
-    match surfaces.first_mut() {
-        Some(first) => {
-            first.warnings.extend(
-                unreadable
-                    .iter()
-                    .map(|error| format!("another measurement is left out: {error}")),
-            );
-            Ok(surfaces)
-        }
-        None => Err(unreadable.swap_remove(0)),
+    let Some(first) = surfaces.first_mut() else {
+        return Err(unreadable.swap_remove(0));
+    };
+    for error in unreadable {
+        let warning = format!("another measurement is left out: {error}");
+        first.warnings.push(warning);
     }
+    Ok(surfaces)
 }
 
 /// Reads the numbers of a file with one surface.
@@ -155,13 +186,12 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
         return sdf::read(&content);
     }
     foreign::check(&content)?;
-    let reader = SIGNATURES
-        .iter()
-        .find(|(signature, _)| content.starts_with(signature));
-    reader.map_or_else(
-        || text::read(&content, options.channel),
-        |(_, read)| read(&content, options),
-    )
+    for format in &BINARY_FORMATS {
+        if content.starts_with(format.signature) {
+            return (format.read)(&content, options);
+        }
+    }
+    text::read(&content, options.channel)
 }
 
 /// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is
@@ -171,14 +201,14 @@ pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
         return Ok(bytes.into());
     }
     let most = most_expanded(bytes.len());
-    let content = read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES));
-    let content = content.map_err(|error| match error {
-        ReadError::TooLong { .. } if most <= MOST_BYTES => {
-            let fault = format!("gzip expands to more than {MOST_EXPANSION} times its size");
-            refused(Place::File, fault, "at most that and 1 MiB")
+    let content = match read_limited(MultiGzDecoder::new(bytes), most.min(MOST_BYTES)) {
+        Ok(content) => content,
+        Err(ReadError::TooLong { .. }) if most <= MOST_BYTES => {
+            let found = format!("gzip expands to more than {MOST_EXPANSION} times its size");
+            return Err(refused(Place::File, found, "at most that and 1 MiB"));
         }
-        error => error.into(),
-    })?;
+        Err(error) => return Err(error.into()),
+    };
     if content.starts_with(&GZIP) {
         return Err(refused(Place::Byte(0), "gzip within gzip", "gzip once"));
     }
@@ -188,8 +218,8 @@ pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topography::Unit;
-    use crate::topography::surface::Cut;
+    use crate::topography::cut::Cut;
+    use crate::topography::unit::Unit;
     use flate2::Compression;
     use flate2::write::GzEncoder;
     use std::fmt::Write as _;

@@ -1,26 +1,52 @@
-//! Formats with a header of lines `key = value`. SDF of ISO 25178-71 and its predecessor BCR are
-//! text or binary, with heights as integers or real numbers and scales in m. Gwyddion Simple Field
-//! has 32-bit heights.
+//! SDF of ISO 25178-71 and its predecessor BCR: text or binary, with heights as integers or real
+//! numbers and scales in m.
 
-use super::Unit;
 use super::bytes::{Bytes, Number, Order};
+use super::key_values::{KeyValues, missing};
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
 use std::ops::RangeInclusive;
 
-/// Types of heights, indexed by their number in the header. Each has its name in BCR, the type, and
-/// the smallest and largest value, for real numbers to the digits that texts have.
-const TYPES: [(&str, Number, [f64; 2]); 8] = [
-    ("UCHAR", Number::U8, [0.0, 255.0]),
-    ("UINTEGER", Number::U16, [0.0, 65_535.0]),
-    ("ULONGINT", Number::U32, [0.0, 4_294_967_295.0]),
-    ("FLOAT", Number::F32, [-3.4e38, 3.4e38]),
-    ("CHAR", Number::I8, [-128.0, 127.0]),
-    ("INTEGER", Number::I16, [-32_768.0, 32_767.0]),
-    ("LONGINT", Number::I32, [-2_147_483_648.0, 2_147_483_647.0]),
-    ("DOUBLE", Number::F64, [-1.7e308, 1.7e308]),
+/// A type of heights.
+#[derive(Clone, Copy)]
+struct HeightType {
+    name_in_bcr: &'static str,
+    number: Number,
+    /// Smallest and largest value, for real numbers to the digits that texts have.
+    smallest: f64,
+    largest: f64,
+}
+
+const fn height_type(
+    name_in_bcr: &'static str,
+    number: Number,
+    smallest: f64,
+    largest: f64,
+) -> HeightType {
+    HeightType {
+        name_in_bcr,
+        number,
+        smallest,
+        largest,
+    }
+}
+
+/// Types of heights, indexed by their number in the header.
+const TYPES: [HeightType; 8] = [
+    height_type("UCHAR", Number::U8, 0.0, 255.0),
+    height_type("UINTEGER", Number::U16, 0.0, 65_535.0),
+    height_type("ULONGINT", Number::U32, 0.0, 4_294_967_295.0),
+    height_type("FLOAT", Number::F32, -3.4e38, 3.4e38),
+    height_type("CHAR", Number::I8, -128.0, 127.0),
+    height_type("INTEGER", Number::I16, -32_768.0, 32_767.0),
+    height_type("LONGINT", Number::I32, -2_147_483_648.0, 2_147_483_647.0),
+    height_type("DOUBLE", Number::F64, -1.7e308, 1.7e308),
 ];
+
+/// Keys that the text form has to have.
+const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
 
 /// Byte order mark that some programs write before a text.
 const UTF_8_MARK: &[u8] = b"\xef\xbb\xbf";
@@ -39,7 +65,10 @@ enum Version {
 /// version.
 pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
-    matches!(bytes, [b'a' | b'A' | b'b' | b'B', family @ ..] if family.starts_with(b"ISO-") || family.starts_with(b"BCR-"))
+    let [form, family @ ..] = bytes else {
+        return false;
+    };
+    b"aAbB".contains(form) && (family.starts_with(b"ISO-") || family.starts_with(b"BCR-"))
 }
 
 /// Reads the text or the binary form of any version.
@@ -50,13 +79,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         Some(b"ISO-1.0") => Version::Iso1,
         Some(b"ISO-2.0") => Version::Iso2,
         _ => {
-            let found = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
-            let fault = format!("version {:?} of SDF", shown(&found));
-            return Err(refused(
-                Place::Byte(1),
-                fault,
-                "BCR-1.0, ISO-1.0 and ISO-2.0",
-            ));
+            let name = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
+            let found = format!("version {:?} of SDF", shown(&name));
+            let allowed = "BCR-1.0, ISO-1.0 and ISO-2.0";
+            return Err(refused(Place::Byte(1), found, allowed));
         }
     };
     if bytes[0].eq_ignore_ascii_case(&b'a') {
@@ -66,134 +92,155 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Creates heights in rows of `columns` points, with the distances along and between rows and the
-/// unit of the heights in m.
-fn reading(
-    heights: Vec<f64>,
+/// Size of a map, and lengths of its numbers.
+struct Layout {
     columns: usize,
-    [along, between, unit]: [f64; 3],
-    missing: &RangeInclusive<f64>,
-) -> Reading {
-    let units = [Some(Unit::METRE); 3];
-    let reading = Reading::even("SDF", heights, columns, Some([along, between]), units);
-    reading.scaled(|height| missing.contains(&height), unit)
+    rows: usize,
+    /// Distances along and between rows in m.
+    spacing: [f64; 2],
+    /// Unit of the heights in m.
+    unit: f64,
 }
 
-/// Returns the type with this number or name, and the range of heights that mark missing points.
-/// The range is around the smallest value in ISO, around the largest one in BCR and in types
-/// without negative values.
-fn data_type(
-    name: &str,
-    version: Version,
-    place: Place,
-) -> Result<(Number, RangeInclusive<f64>), SurfaceError> {
-    let mut types = TYPES.into_iter().enumerate();
-    let is_it = |place: usize, of: &str| name == place.to_string() || name.eq_ignore_ascii_case(of);
-    let Some((_, (_, number, [smallest, largest]))) =
-        types.find(|(place, (of, ..))| is_it(*place, of))
-    else {
-        return Err(refused(
-            place,
-            format!("DataType = {}", shown(name)),
-            "from 0 to 7",
-        ));
-    };
-    // Texts round the largest and the smallest real number to few digits.
-    let reach = if matches!(number, Number::F32 | Number::F64) {
-        f64::INFINITY
-    } else {
-        0.0
-    };
-    let is_largest = version == Version::Bcr || smallest == 0.0;
-    let missing = if is_largest {
-        largest..=largest + reach
-    } else {
-        smallest - reach..=smallest
-    };
-    Ok((number, missing))
+impl Layout {
+    fn reading(&self, heights: Vec<f64>, missing: &RangeInclusive<f64>) -> Reading {
+        let spacing = Some(self.spacing);
+        let units = StatedUnits::METRES;
+        let reading = Reading::even("SDF", heights, self.columns, spacing, units);
+        reading.scaled(|height| missing.contains(&height), self.unit)
+    }
+
+    fn points(&self) -> usize {
+        self.columns.saturating_mul(self.rows)
+    }
+}
+
+/// Returns the type with this number or name.
+fn height_type_named(name: &str, place: Place) -> Result<HeightType, SurfaceError> {
+    for (number, kind) in TYPES.into_iter().enumerate() {
+        if name == number.to_string() || name.eq_ignore_ascii_case(kind.name_in_bcr) {
+            return Ok(kind);
+        }
+    }
+    let found = format!("DataType = {}", shown(name));
+    Err(refused(place, found, "from 0 to 7"))
+}
+
+impl HeightType {
+    /// Returns the range of heights that mark missing points. It is around the smallest value in
+    /// ISO, around the largest one in BCR and in types without negative values.
+    fn missing(&self, version: Version) -> RangeInclusive<f64> {
+        // Texts round the largest and the smallest real number to few digits.
+        let is_real = matches!(self.number, Number::F32 | Number::F64);
+        let reach = if is_real { f64::INFINITY } else { 0.0 };
+        if version == Version::Bcr || self.smallest == 0.0 {
+            self.largest..=self.largest + reach
+        } else {
+            self.smallest - reach..=self.smallest
+        }
+    }
+}
+
+/// A line of a text, without its comment.
+struct Line<'a> {
+    number: usize,
+    text: &'a str,
 }
 
 /// Reads the text form: `key = value` lines, `*`, heights separated by white space, `*`, and
 /// comments after semicolons.
 fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
-    const REQUIRED: &str = "NumPoints, NumProfiles, Xscale, Yscale, Zscale";
     let text = String::from_utf8_lossy(bytes);
     let line_end = if text.contains('\n') { '\n' } else { '\r' };
-    let mut lines = text
-        .split(line_end)
-        .map(|line| line.split(';').next().unwrap_or_default().trim())
-        .enumerate()
-        .map(|(index, line)| (index + 1, line));
+    let mut lines = text.split(line_end).enumerate().map(|(index, line)| Line {
+        number: index + 1,
+        text: line.split(';').next().unwrap_or_default().trim(),
+    });
     let entries = entries(&mut lines)?;
-    let scale = |key: &str| entries.number(key)?.ok_or_else(|| missing(key, REQUIRED));
-    let scales = [scale("Xscale")?, scale("Yscale")?, scale("Zscale")?];
-    let (columns, rows) = (
-        entries.count("NumPoints", REQUIRED)?,
-        entries.count("NumProfiles", REQUIRED)?,
-    );
-    let missing = match entries.text("DataType") {
-        Some((name, place)) => data_type(name, version, place)?.1,
+    let spacing = [scale(&entries, "Xscale")?, scale(&entries, "Yscale")?];
+    let unit = scale(&entries, "Zscale")?;
+    let layout = Layout {
+        columns: entries.count("NumPoints", REQUIRED)?,
+        rows: entries.count("NumProfiles", REQUIRED)?,
+        spacing,
+        unit,
+    };
+    let missing = match entries.value("DataType") {
+        Some(value) => height_type_named(value.text, value.place)?.missing(version),
         // Nothing but BAD, since no height is infinite.
         None => f64::INFINITY..=f64::INFINITY,
     };
-    let points = columns.saturating_mul(rows);
-    let mut heights = Vec::new();
+    let heights = heights(lines, layout.points(), &missing)?;
+    let mut reading = layout.reading(heights.values, &missing);
+    reading.first_missing = heights.first_missing;
+    Ok(reading)
+}
+
+fn scale(entries: &KeyValues, key: &str) -> Result<f64, SurfaceError> {
+    let scale = entries.number(key)?;
+    scale.ok_or_else(|| missing(key, REQUIRED))
+}
+
+/// Reads the header, from the second line up to `*`.
+fn entries<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<KeyValues, SurfaceError> {
+    let mut entries = KeyValues::default();
+    for line in lines.skip(1) {
+        match line.text {
+            "*" => return Ok(entries),
+            "" => {}
+            text => entries.take(line.number, text, "key = value, or * before the heights")?,
+        }
+    }
+    let allowed = "a line with * before the heights";
+    Err(refused(Place::File, "a header without an end", allowed))
+}
+
+/// Heights of the text form, in its integer or real steps.
+struct TextHeights {
+    values: Vec<f64>,
+    first_missing: Option<Place>,
+}
+
+/// Reads the heights up to `*`, which are to be as many as `points`.
+fn heights<'a>(
+    lines: impl Iterator<Item = Line<'a>>,
+    points: usize,
+    missing: &RangeInclusive<f64>,
+) -> Result<TextHeights, SurfaceError> {
+    const ALLOWED: &str = "NumPoints times NumProfiles";
+    let mut values = Vec::new();
     let mut first_missing = None;
     let mut last = 0;
-    for (number, line) in lines.take_while(|(_, line)| *line != "*") {
-        last = number;
-        for word in line.split_ascii_whitespace() {
-            let place = Place::Line(number);
+    for line in lines.take_while(|line| line.text != "*") {
+        last = line.number;
+        for word in line.text.split_ascii_whitespace() {
+            let place = Place::Line(line.number);
             let height = match word.parse::<f64>() {
                 Ok(height) => height,
                 Err(_) if word.eq_ignore_ascii_case("BAD") => f64::NAN,
                 Err(_) => {
-                    return Err(refused(
-                        place,
-                        format!("{:?}", shown(word)),
-                        "a number or BAD",
-                    ));
+                    let found = format!("{:?}", shown(word));
+                    return Err(refused(place, found, "a number or BAD"));
                 }
             };
-            if heights.len() == points {
-                let fault = format!("more than {points} heights");
-                return Err(refused(place, fault, "NumPoints times NumProfiles"));
+            if values.len() == points {
+                let found = format!("more than {points} heights");
+                return Err(refused(place, found, ALLOWED));
             }
             if !height.is_finite() || missing.contains(&height) {
                 first_missing.get_or_insert(place);
             }
-            heights.push(height);
+            values.push(height);
         }
     }
-    if heights.len() < points {
-        let fault = format!("{} of {points} heights up to the end", heights.len());
-        return Err(refused(
-            Place::Line(last),
-            fault,
-            "NumPoints times NumProfiles",
-        ));
+    if values.len() < points {
+        let found = format!("{} of {points} heights up to the end", values.len());
+        return Err(refused(Place::Line(last), found, ALLOWED));
     }
-    Ok(Reading {
+    Ok(TextHeights {
+        values,
         first_missing,
-        ..reading(heights, columns, scales, &missing)
     })
-}
-
-fn entries<'a>(
-    lines: &mut impl Iterator<Item = (usize, &'a str)>,
-) -> Result<Entries, SurfaceError> {
-    let mut entries = Entries::default();
-    for (number, line) in lines.skip(1).filter(|(_, line)| !line.is_empty()) {
-        if line == "*" {
-            return Ok(entries);
-        }
-        entries.take(number, line, "key = value, or * before the heights")?;
-    }
-    Err(refused(
-        Place::File,
-        "a header without an end",
-        "a line with * before the heights",
-    ))
 }
 
 /// Reads the binary form, little-endian.
@@ -206,7 +253,8 @@ fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> 
     } else {
         Number::U16
     };
-    let (columns, rows) = (data.size(count)?, data.size(count)?);
+    let columns = data.size(count)?;
+    let rows = data.size(count)?;
     let [along, between, unit, _resolution] = data.array(Number::F64)?;
     let place = data.place();
     let [compression, kind, check] = data.array(Number::U8)?;
@@ -214,120 +262,18 @@ fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> 
         return Err(refused(place, "compressed heights", "Compression = 0"));
     }
     if check != 0.0 {
-        return Err(refused(
-            place,
-            "a check sum behind each row",
-            "CheckType = 0",
-        ));
+        let found = "a check sum behind each row";
+        return Err(refused(place, found, "CheckType = 0"));
     }
-    let (number, missing) = data_type(&kind.to_string(), version, place)?;
-    let heights = data.numbers(columns.saturating_mul(rows), number)?;
-    Ok(reading(heights, columns, [along, between, unit], &missing))
-}
-
-/// Entries of a header with their line numbers. Keys are case-insensitive.
-#[derive(Default)]
-struct Entries {
-    entries: Vec<(String, String, usize)>,
-}
-
-impl Entries {
-    /// Reads one line of the header; `allowed` is for the message of an error.
-    pub fn take(&mut self, number: usize, line: &str, allowed: &str) -> Result<(), SurfaceError> {
-        let Some((key, value)) = line.split_once('=') else {
-            return Err(refused(
-                Place::Line(number),
-                format!("{:?}", shown(line)),
-                allowed,
-            ));
-        };
-        self.entries.push((
-            key.trim().to_ascii_lowercase(),
-            value.trim().to_owned(),
-            number,
-        ));
-        Ok(())
-    }
-
-    pub fn text(&self, key: &str) -> Option<(&str, Place)> {
-        let found = self
-            .entries
-            .iter()
-            .find(|(name, ..)| name.eq_ignore_ascii_case(key));
-        found.map(|(_, value, line)| (value.as_str(), Place::Line(*line)))
-    }
-
-    pub fn number(&self, key: &str) -> Result<Option<f64>, SurfaceError> {
-        let Some((value, place)) = self.text(key) else {
-            return Ok(None);
-        };
-        match value.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(Some(number)),
-            _ => Err(refused(
-                place,
-                format!("{key} = {}", shown(value)),
-                "a number",
-            )),
-        }
-    }
-
-    /// Returns the positive integer of a key. The error for a missing key lists all `required`
-    /// keys.
-    pub fn count(&self, key: &str, required: &str) -> Result<usize, SurfaceError> {
-        let Some((value, place)) = self.text(key) else {
-            return Err(missing(key, required));
-        };
-        match value.parse::<f64>() {
-            Ok(count) if count >= 1.0 && count < usize::MAX as f64 && count.fract() == 0.0 => {
-                Ok(count as usize)
-            }
-            _ => Err(refused(
-                place,
-                format!("{key} = {}", shown(value)),
-                "a whole number above 0",
-            )),
-        }
-    }
-}
-
-fn missing(key: &str, required: &str) -> SurfaceError {
-    refused(Place::File, format!("no {key} in the header"), required)
-}
-
-pub(super) const GSF: &[u8] = b"Gwyddion Simple Field 1.0\n";
-
-/// Reads `key = value` lines up to a zero byte, then XRes × YRes numbers from the next multiple of
-/// four bytes.
-pub(super) fn read_gsf(bytes: &[u8]) -> Result<Reading, SurfaceError> {
-    let end = bytes.iter().position(|byte| *byte == 0).ok_or_else(|| {
-        refused(
-            Place::Byte(bytes.len()),
-            "a header without an end",
-            "a header that ends with a zero byte",
-        )
-    })?;
-    let mut header = Entries::default();
-    for (index, line) in String::from_utf8_lossy(&bytes[..end])
-        .lines()
-        .enumerate()
-        .skip(1)
-    {
-        header.take(index + 1, line, "key = value")?;
-    }
-    let count = |key: &str| header.count(key, "XRes and YRes");
-    let (columns, rows) = (count("xres")?, count("yres")?);
-    let mut data = Bytes::new(bytes, Order::Little);
-    data.take((end / 4 + 1) * 4)?;
-    let heights = data.numbers(columns.saturating_mul(rows), Number::F32)?;
-    let sizes = header.number("xreal")?.zip(header.number("yreal")?);
-    let spacing = sizes.map(|(width, height)| [width / columns as f64, height / rows as f64]);
-    let unit = |key: &str| {
-        header
-            .text(key)
-            .map_or(Ok(None), |(value, place)| Unit::stated(value, place))
+    let kind = height_type_named(&kind.to_string(), place)?;
+    let layout = Layout {
+        columns,
+        rows,
+        spacing: [along, between],
+        unit,
     };
-    let units = [unit("xyunits")?, unit("xyunits")?, unit("zunits")?];
-    Ok(Reading::even("GSF", heights, columns, spacing, units))
+    let heights = data.numbers(layout.points(), kind.number)?;
+    Ok(layout.reading(heights, &kind.missing(version)))
 }
 
 #[cfg(test)]

@@ -1,12 +1,22 @@
 //! The format SUR of Digital Surf: a header of 512 bytes, comments, and integer heights, plain or
 //! compressed.
 
-use super::Unit;
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::read_limited;
 use flate2::read::ZlibDecoder;
+
+/// First bytes of a file with plain heights.
+pub(super) const PLAIN: &[u8] = b"DIGITAL SURF";
+
+/// First bytes of a file with compressed heights.
+pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
+
+/// Size of the header in bytes, without the comment and the private part after it.
+const HEADER: usize = 512;
 
 /// The mark of missing points is this much below the smallest height, in integer steps.
 const MISSING_BELOW: f64 = 2.0;
@@ -16,89 +26,111 @@ const MOST_PARTS: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let mut data = Bytes::new(bytes, Order::Little);
-    let is_compressed = data.take(12)? == b"DSCOMPRESSED";
-    let [order, _objects, _version, study] = data.array(Number::U16)?;
-    if order != 0.0 {
-        return Err(refused(
-            Place::Byte(12),
-            "numbers in the order of Motorola",
-            "the order of a PC",
-        ));
-    }
-    if ![1.0, 2.0].contains(&study) {
-        let fault = format!("a study of type {study}");
-        return Err(refused(Place::Byte(18), fault, "1, a profile, or 2, a map"));
-    }
-    // Names, material, acquisition, range.
-    data.take(30 + 30 + 6)?;
-    let has_missing = data.size(Number::U16)? == 1;
-    // Absolute heights, gauge resolution, reserved.
-    data.take(2 + 4 + 4)?;
-    let number = match data.size(Number::U16)? {
-        16 => Number::I16,
-        32 => Number::I32,
-        bits => {
-            return Err(refused(
-                Place::Byte(98),
-                format!("heights of {bits} bits"),
-                "16 or 32",
-            ));
-        }
-    };
-    let [lowest, _highest] = data.array(Number::I32)?;
-    let (columns, rows) = (count(&mut data)?, count(&mut data)?);
-    let points = columns.saturating_mul(rows);
-    data.take(4)?;
-    let [along, between, scale] = data.array(Number::F32)?;
-    // Names of the axes.
-    data.take(3 * 16)?;
-    let mut unit = || {
-        let place = data.place();
-        unit_of(data.take(16)?, place)
-    };
-    let units = [unit()?, unit()?, unit()?];
-    // Units of axes and ratios of units, imprint; further on times.
-    data.take(3 * 16 + 3 * 4 + 2)?;
-    let is_inverted = data.size(Number::U16)? != 0;
-    data.take(334 - 292)?;
-    let (comment, private) = (data.size(Number::U16)?, data.size(Number::U16)?);
-    data.take(512 - 338 + comment + private)?;
+    let is_compressed = data.take(COMPRESSED.len())? == COMPRESSED;
+    let header = Header::read(&mut data)?;
+    let points = header.columns.saturating_mul(header.rows);
     let heights = if is_compressed {
-        Bytes::new(&expand(&mut data, points, number)?, Order::Little).numbers(points, number)?
+        let content = expand(&mut data, points, header.number)?;
+        Bytes::new(&content, Order::Little).numbers(points, header.number)?
     } else {
-        data.numbers(points, number)?
+        data.numbers(points, header.number)?
     };
-    let scale = if is_inverted { -scale } else { scale };
-    let missing = has_missing.then_some(lowest - MISSING_BELOW);
-    let reading = Reading::even("SUR", heights, columns, Some([along, between]), units);
-    Ok(reading.scaled(|height| Some(height) == missing, scale))
+    let spacing = Some(header.spacing);
+    let reading = Reading::even("SUR", heights, header.columns, spacing, header.units);
+    Ok(reading.scaled(|height| Some(height) == header.missing, header.scale))
+}
+
+/// What the header states of the heights.
+struct Header {
+    columns: usize,
+    rows: usize,
+    /// Type of the heights.
+    number: Number,
+    /// Height that marks a missing point.
+    missing: Option<f64>,
+    /// Height of an integer step, in the unit of the heights.
+    scale: f64,
+    spacing: [f64; 2],
+    units: StatedUnits,
+}
+
+impl Header {
+    /// Reads the header after the signature, and skips the comment and the private part.
+    fn read(data: &mut Bytes<'_>) -> Result<Self, SurfaceError> {
+        let [order, _objects, _version, study] = data.array(Number::U16)?;
+        if order != 0.0 {
+            let found = "numbers in the order of Motorola";
+            return Err(refused(Place::Byte(12), found, "the order of a PC"));
+        }
+        if ![1.0, 2.0].contains(&study) {
+            let found = format!("a study of type {study}");
+            return Err(refused(Place::Byte(18), found, "1, a profile, or 2, a map"));
+        }
+        // Names, material, acquisition, range.
+        data.take(30 + 30 + 6)?;
+        let has_missing = data.size(Number::U16)? == 1;
+        // Absolute heights, gauge resolution, reserved.
+        data.take(2 + 4 + 4)?;
+        let number = match data.size(Number::U16)? {
+            16 => Number::I16,
+            32 => Number::I32,
+            bits => {
+                let found = format!("heights of {bits} bits");
+                return Err(refused(Place::Byte(98), found, "16 or 32"));
+            }
+        };
+        let [lowest, _highest] = data.array(Number::I32)?;
+        let columns = count(data)?;
+        let rows = count(data)?;
+        data.take(4)?;
+        let [along, between, scale] = data.array(Number::F32)?;
+        // Names of the axes.
+        data.take(3 * 16)?;
+        let units = StatedUnits {
+            along: unit(data)?,
+            between: unit(data)?,
+            heights: unit(data)?,
+        };
+        // Units of axes and ratios of units, imprint; further on times.
+        data.take(3 * 16 + 3 * 4 + 2)?;
+        let is_inverted = data.size(Number::U16)? != 0;
+        data.take(334 - 292)?;
+        let comment = data.size(Number::U16)?;
+        let private = data.size(Number::U16)?;
+        data.take(HEADER - 338 + comment + private)?;
+        Ok(Header {
+            columns,
+            rows,
+            number,
+            missing: has_missing.then_some(lowest - MISSING_BELOW),
+            scale: if is_inverted { -scale } else { scale },
+            spacing: [along, between],
+            units,
+        })
+    }
 }
 
 fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
     let place = data.place();
-    match data.number(Number::I32)? {
-        count if count > 0.0 => Ok(count as usize),
-        count => Err(refused(
-            place,
-            format!("{count} points along an axis"),
-            "above 0",
-        )),
+    let count = data.number(Number::I32)?;
+    if count > 0.0 {
+        return Ok(count as usize);
     }
+    let found = format!("{count} points along an axis");
+    Err(refused(place, found, "above 0"))
 }
 
-/// Returns the unit in a field padded with spaces or zeros. Old files write µ in an MS-DOS code
-/// page, which in Windows-1252 reads as æ.
-fn unit_of(field: &[u8], place: Place) -> Result<Option<Unit>, SurfaceError> {
+/// Returns the unit in the next field, which is padded with spaces or zeros. Old files write µ in
+/// an MS-DOS code page, which in Windows-1252 reads as æ.
+fn unit(data: &mut Bytes<'_>) -> Result<Option<Unit>, SurfaceError> {
+    let place = data.place();
+    let field = data.take(16)?;
     let field = field.split(|byte| *byte == 0).next().unwrap_or_default();
     let text = decoded(field);
-    Unit::stated(
-        if text.trim() == "æm" {
-            "µm"
-        } else {
-            text.trim()
-        },
-        place,
-    )
+    match text.trim() {
+        "æm" => Unit::stated("µm", place),
+        text => Unit::stated(text, place),
+    }
 }
 
 /// Decompresses heights: a table with the size of each part before and after compression, then the
@@ -108,37 +140,30 @@ fn expand(data: &mut Bytes<'_>, points: usize, number: Number) -> Result<Vec<u8>
     let expected = unpacked_size(points, number.size(), place.clone())?;
     let parts = data.size(Number::U32)?;
     if parts > MOST_PARTS {
-        return Err(refused(
-            place,
-            format!("{parts} compressed parts"),
-            format!("at most {MOST_PARTS}"),
-        ));
+        let found = format!("{parts} compressed parts");
+        return Err(refused(place, found, format!("at most {MOST_PARTS}")));
     }
     let mut sizes = data.part(8 * parts)?;
     let mut content = Vec::new();
     for _ in 0..parts {
-        let (plain, packed) = (sizes.size(Number::U32)?, sizes.size(Number::U32)?);
+        let plain = sizes.size(Number::U32)?;
+        let packed = sizes.size(Number::U32)?;
         let place = data.place();
         if content.len() + plain > expected {
-            return Err(refused(
-                place,
-                "more heights than points",
-                format!("{expected} bytes in all"),
-            ));
+            let allowed = format!("{expected} bytes in all");
+            return Err(refused(place, "more heights than points", allowed));
         }
-        let part = read_limited(ZlibDecoder::new(data.take(packed)?), plain).map_err(|error| {
-            refused(
-                place.clone(),
-                format!("a compressed part: {error}"),
-                format!("{plain} bytes of zlib"),
-            )
-        })?;
+        let packed = data.take(packed)?;
+        let part = match read_limited(ZlibDecoder::new(packed), plain) {
+            Ok(part) => part,
+            Err(error) => {
+                let found = format!("a compressed part: {error}");
+                return Err(refused(place, found, format!("{plain} bytes of zlib")));
+            }
+        };
         if part.len() != plain {
-            return Err(refused(
-                place,
-                format!("a part of {} bytes", part.len()),
-                format!("{plain} bytes"),
-            ));
+            let found = format!("a part of {} bytes", part.len());
+            return Err(refused(place, found, format!("{plain} bytes")));
         }
         content.extend(part);
     }
@@ -187,7 +212,7 @@ mod tests {
         assert!(bytes.len() < 4000, "{}", bytes.len());
         let reading = read(&bytes).unwrap();
         assert_eq!((reading.heights.len(), reading.columns), (600_000, 1000));
-        let between = reading.units[1].map(|unit| unit.to_metres(3.0));
+        let between = reading.units.between.map(|unit| unit.to_metres(3.0));
         assert_eq!((reading.spacing, between), (Some([2.0, 3.0]), Some(3e-9)));
         let mut more = bytes;
         more[112..116].copy_from_slice(&601_u32.to_le_bytes());

@@ -1,38 +1,11 @@
 //! Measured heights in m with their positions.
 
 use super::missing;
+use super::positions::{LARGEST, UNEVEN, first_uneven, interpolated, mean_distance};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{between, gathered};
+use asperity_data::gathered;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
-
-/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them,
-/// lengths and mean squares could overflow.
-pub(super) const LARGEST: f64 = 1.0e9;
-
-/// Share of the spacing by which points of an even grid may be displaced because of rounding.
-pub(crate) const UNEVEN: f64 = 1.0e-3;
-
-/// Returns the index of the first position that lies off the even grid with this first position (m)
-/// and distance (m).
-pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
-    let is_even = |(index, x): (usize, &f64)| {
-        (x - first - index as f64 * distance).abs() <= UNEVEN * distance.abs()
-    };
-    positions
-        .iter()
-        .enumerate()
-        .position(|point| !is_even(point))
-}
-
-/// A row or a column of a map that is read as a profile. Rows and columns count from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cut {
-    /// The row with this number.
-    Row(u64),
-    /// The column with this number.
-    Column(u64),
-}
 
 /// Positions of the points of a surface in m.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,11 +34,11 @@ impl Cropped {
     /// Returns the index in the file of a remaining point. `index` counts the remaining points in
     /// rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
-        let (row, column) = (
-            index / columns + self.before[1],
-            index % columns + self.before[0],
-        );
-        row * (columns + self.counts()[0]) + column
+        let [columns_before, rows_before] = self.before;
+        let [columns_left_out, _] = self.counts();
+        let row = index / columns + rows_before;
+        let column = index % columns + columns_before;
+        row * (columns + columns_left_out) + column
     }
 }
 
@@ -99,23 +72,25 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// Returns the surface, or an error if it has a slope above 1e9.
-    pub(super) fn checked(self) -> Result<Self, SurfaceError> {
-        let slope = |index: usize| {
+    /// Returns an error if the surface has a slope above [`LARGEST`].
+    pub(super) fn check_slopes(&self) -> Result<(), SurfaceError> {
+        for index in 1..self.heights.len() {
+            // A row begins here, and its first point has none before it.
+            if index % self.columns == 0 {
+                continue;
+            }
             let distance = match &self.layout {
                 Layout::Positions(positions) => positions[index] - positions[index - 1],
                 Layout::Even([along, between]) => along.min(*between),
             };
-            (self.heights[index] - self.heights[index - 1]).abs() / distance
-        };
-        let is_steep = |index: &usize| slope(*index).is_nan() || slope(*index) > LARGEST;
-        let mut places = (1..self.heights.len()).filter(|index| index % self.columns > 0);
-        let Some(index) = places.find(is_steep) else {
-            return Ok(self);
-        };
-        let found = format!("a slope of {:e} from the point before", slope(index));
-        let place = Place::Point(self.cropped.place_in_file(index, self.columns) + 1);
-        Err(refused(place, found, format!("at most {LARGEST:e}")))
+            let slope = (self.heights[index] - self.heights[index - 1]).abs() / distance;
+            if slope.is_nan() || slope > LARGEST {
+                let place = Place::Point(self.cropped.place_in_file(index, self.columns) + 1);
+                let found = format!("a slope of {slope:e} from the point before");
+                return Err(refused(place, found, format!("at most {LARGEST:e}")));
+            }
+        }
+        Ok(())
     }
 
     /// Returns the number of points whose heights are interpolated, missing points and replaced
@@ -126,16 +101,16 @@ impl Topography {
 
     /// Returns the index in the file of the first missing point of a profile, from 0.
     pub(crate) fn first_missing(&self) -> Option<usize> {
-        let Cropped {
-            before: [before, _],
-            after: [after, _],
-        } = self.cropped;
-        let inside = self
-            .interpolated
-            .first()
-            .copied()
-            .or((after > 0).then_some(self.columns));
-        if before > 0 { Some(0) } else { inside }
+        let [points_before, _] = self.cropped.before;
+        let [points_after, _] = self.cropped.after;
+        if points_before > 0 {
+            return Some(0);
+        }
+        match self.interpolated.first() {
+            Some(index) => Some(*index),
+            None if points_after > 0 => Some(self.columns),
+            None => None,
+        }
     }
 
     pub(crate) fn is_resampled(&self) -> bool {
@@ -147,46 +122,51 @@ impl Topography {
     /// interpolated points are then interpolated too. A resampled profile gets back what resampling
     /// to its former positions and back would take.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
-        let (columns, rows) = (self.columns, self.rows());
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
-        if let (Layout::Even([spacing, _]), 1.., true) =
-            (&self.layout, quarters, self.is_resampled())
-        {
-            let (former, first) = (&self.resampled, self.resampled[0]);
-            let places = gathered(
-                columns,
-                (0..columns).map(|index| first + index as f64 * spacing),
-            )?;
-            let there = gathered(
-                columns,
-                interpolated(&places, &heights, 0.0, former.iter().copied()),
-            )?;
-            let smoother = interpolated(former, &there, 0.0, places.iter().copied());
-            // What was lost before is not lost again: the more, the more the distances between
-            // points vary.
-            let squares = former
-                .windows(2)
-                .map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2))
-                .sum::<f64>();
-            let lost = 1.0 + (squares / (columns - 1) as f64).sqrt();
-            heights
-                .iter_mut()
-                .zip(smoother)
-                .for_each(|(height, smoother)| *height += lost * (*height - smoother));
-        }
-        if quarters == 0 || self.interpolated.is_empty() {
+        if quarters == 0 {
             return Ok(heights);
         }
-        for index in &self.interpolated {
-            let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
-            let (row, column) = (
-                moved(index / columns, rows),
-                moved(index % columns, columns),
-            );
-            heights[row * columns + column] = f64::NAN;
+        if let Layout::Even([spacing, _]) = &self.layout
+            && self.is_resampled()
+        {
+            self.add_lost_waves(&mut heights, *spacing)?;
         }
-        missing::interpolate(&mut heights, columns)?;
+        if !self.interpolated.is_empty() {
+            let columns = self.columns;
+            let rows = self.rows();
+            let moved = |place: usize, count: usize| (place + quarters * count / 4) % count;
+            for index in &self.interpolated {
+                let row = moved(index / columns, rows);
+                let column = moved(index % columns, columns);
+                heights[row * columns + column] = f64::NAN;
+            }
+            missing::interpolate(&mut heights, columns)?;
+        }
         Ok(heights)
+    }
+
+    /// Adds to the heights of a resampled profile an estimate of the short waves that resampling
+    /// took.
+    fn add_lost_waves(&self, heights: &mut [f64], spacing: f64) -> Result<(), SurfaceError> {
+        let points = self.columns;
+        let former = &self.resampled;
+        let places = (0..points).map(|index| former[0] + index as f64 * spacing);
+        let places = gathered(points, places)?;
+        let at_former = interpolated(&places, heights, 0.0, former.iter().copied());
+        let at_former = gathered(points, at_former)?;
+        let smoother = interpolated(former, &at_former, 0.0, places.iter().copied());
+
+        // What was lost before is not lost again: the more, the more the distances between points
+        // vary.
+        let squares = former
+            .windows(2)
+            .map(|x| ((x[1] - x[0]) / spacing - 1.0).powi(2))
+            .sum::<f64>();
+        let lost = 1.0 + (squares / (points - 1) as f64).sqrt();
+        for (height, smoother) in heights.iter_mut().zip(smoother) {
+            *height += lost * (*height - smoother);
+        }
+        Ok(())
     }
 
     /// Returns the number of rows of a map; 1 for a profile.
@@ -217,11 +197,12 @@ impl Topography {
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn into_profile(self) -> Result<(Vec<f64>, Vec<f64>), SurfaceError> {
-        let (columns, rows) = (self.columns, self.rows());
+        let columns = self.columns;
+        let rows = self.rows();
         if rows > 1 {
-            let fault = format!("a map of {rows} rows of {columns} points");
+            let found = format!("a map of {rows} rows of {columns} points");
             let allowed = "a profile; in a scene with as_line: false the equivalent line of a map";
-            return Err(refused(Place::File, fault, allowed));
+            return Err(refused(Place::File, found, allowed));
         }
         let positions = match self.layout {
             Layout::Positions(positions) => positions,
@@ -230,63 +211,6 @@ impl Topography {
             }
         };
         Ok((positions, self.heights))
-    }
-
-    /// Returns the row or column `cut` of a map as a profile.
-    pub(super) fn cut(self, cut: Cut) -> Result<Self, SurfaceError> {
-        let (columns, rows) = (self.columns, self.rows());
-        let (Layout::Even([along, between]), 2..) = (&self.layout, rows) else {
-            return Err(refused(
-                Place::File,
-                "a profile, which has no rows and columns",
-                "a map",
-            ));
-        };
-        // Rows and columns are those of the file.
-        let [first_column, first_row] = self.cropped.before;
-        let (name, number, first, count) = match cut {
-            Cut::Row(number) => ("row", number, first_row, rows),
-            Cut::Column(number) => ("column", number, first_column, columns),
-        };
-        let index = usize::try_from(number)
-            .ok()
-            .and_then(|number| number.checked_sub(1 + first));
-        let Some(index) = index.filter(|index| *index < count) else {
-            let allowed = format!("{name}s {} to {}", first + 1, first + count);
-            return Err(refused(Place::File, format!("{name} {number}"), allowed));
-        };
-        let (first, step, points, spacing) = match cut {
-            Cut::Row(_) => (index * columns, 1, columns, *along),
-            Cut::Column(_) => (index, columns, rows, *between),
-        };
-        let place = |index: &usize| {
-            let offset = index
-                .checked_sub(first)
-                .filter(|offset| offset % step == 0)?;
-            Some(offset / step).filter(|place| *place < points)
-        };
-        let axis = usize::from(matches!(cut, Cut::Column(_)));
-        let ends = |of: [usize; 2]| [of[axis], 0];
-        Ok(Topography {
-            cropped: Cropped {
-                before: ends(self.cropped.before),
-                after: ends(self.cropped.after),
-            },
-            heights: gathered(
-                points,
-                self.heights
-                    .iter()
-                    .skip(first)
-                    .step_by(step)
-                    .take(points)
-                    .copied(),
-            )?,
-            columns: points,
-            layout: Layout::Even([spacing; 2]),
-            aligned: false,
-            interpolated: self.interpolated.iter().filter_map(place).collect(),
-            ..self
-        })
     }
 
     /// Returns the distance between neighbouring points along the rows and the distance between
@@ -306,26 +230,24 @@ impl Topography {
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn spacing(&self) -> Result<[f64; 2], SurfaceError> {
-        match &self.layout {
-            Layout::Even(spacing) => Ok(*spacing),
-            Layout::Positions(positions) => {
-                let (first, mean) = (positions[0], mean_distance(positions));
-                let Some(index) = first_uneven(positions, first, mean) else {
-                    return Ok([mean; 2]);
-                };
-                let (x, off) = (
-                    positions[index],
-                    (positions[index] - first) / mean - index as f64,
-                );
-                let fault = format!(
-                    "x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m"
-                );
-                let allowed = format!(
-                    "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
-                );
-                Err(refused(Place::Point(index + 1), fault, allowed))
-            }
-        }
+        let positions = match &self.layout {
+            Layout::Even(spacing) => return Ok(*spacing),
+            Layout::Positions(positions) => positions,
+        };
+        let first = positions[0];
+        let mean = mean_distance(positions);
+        let Some(index) = first_uneven(positions, first, mean) else {
+            return Ok([mean; 2]);
+        };
+        let x = positions[index];
+        let off = (x - first) / mean - index as f64;
+        let found = format!(
+            "x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m"
+        );
+        let allowed = format!(
+            "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
+        );
+        Err(refused(Place::Point(index + 1), found, allowed))
     }
 
     /// Resamples the profile at its mean spacing by linear interpolation. An equally spaced profile
@@ -337,42 +259,16 @@ impl Topography {
         let Layout::Positions(positions) = self.layout else {
             return Ok(self);
         };
-        let (first, spacing, points) = (positions[0], mean_distance(&positions), positions.len());
+        let first = positions[0];
+        let spacing = mean_distance(&positions);
+        let points = positions.len();
         let places = (0..points).map(|index| first + index as f64 * spacing);
-        self.heights = gathered(points, interpolated(&positions, &self.heights, 0.0, places))?;
-        (self.layout, self.resampled) = (Layout::Even([spacing; 2]), positions);
+        let heights = interpolated(&positions, &self.heights, 0.0, places);
+        self.heights = gathered(points, heights)?;
+        self.layout = Layout::Even([spacing; 2]);
+        self.resampled = positions;
         Ok(self)
     }
-}
-
-/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between
-/// at least two points. At a point it is its own height, bit for bit. Beyond the first and the last
-/// point it is the height of that point.
-pub(crate) fn interpolated(
-    positions: &[f64],
-    heights: &[f64],
-    level: f64,
-    places: impl Iterator<Item = f64>,
-) -> impl Iterator<Item = f64> {
-    let mut piece = 0;
-    places.map(move |x| {
-        while piece + 2 < positions.len() && positions[piece + 1] < x {
-            piece += 1;
-        }
-        let (x0, x1) = (positions[piece], positions[piece + 1]);
-        let (z0, z1) = (heights[piece] - level, heights[piece + 1] - level);
-        if x <= x0 {
-            z0
-        } else if x >= x1 {
-            z1
-        } else {
-            between(z0, z1, (x - x0) / (x1 - x0))
-        }
-    })
-}
-
-fn mean_distance(positions: &[f64]) -> f64 {
-    (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
 }
 
 /// Polynomial that is subtracted from the heights of a surface before the analysis.
@@ -394,19 +290,16 @@ pub enum Detrend {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Unit;
-    use super::super::reading::{ReadOptions, Reading};
+    use super::super::cut::Cut;
+    use super::super::options::ReadOptions;
+    use super::super::reading::Reading;
+    use super::super::stated_units::StatedUnits;
     use super::*;
 
-    const METRES: [Option<Unit>; 3] = [Some(Unit::METRE); 3];
+    const METRES: StatedUnits = StatedUnits::METRES;
 
     fn profile(positions: &[f64], heights: &[f64]) -> Topography {
-        let reading = Reading::profile(
-            "",
-            positions.to_vec(),
-            heights.to_vec(),
-            [Some(Unit::METRE); 2],
-        );
+        let reading = Reading::profile("", positions.to_vec(), heights.to_vec(), METRES);
         reading.resolve(&ReadOptions::default()).unwrap()
     }
 

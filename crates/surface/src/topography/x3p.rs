@@ -1,14 +1,17 @@
 //! X3P of ISO 25178-72: an archive with `main.xml` and usually a binary file of heights. Lengths
 //! are in m.
 
-use super::Unit;
-use super::bytes::{Archive, Bytes, Number, Order, unpacked_size};
-use super::grid::{Digits, map_of};
+use super::archive::Archive;
+use super::bytes::{Bytes, Number, Order, unpacked_size};
+use super::grid::PointList;
+use super::printed::Digits;
 use super::reading::Reading;
+use super::stated_units::StatedUnits;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{emptied, gathered, push, shown};
 use encoding_rs::{Encoding, UTF_8};
 use roxmltree::{Document, Node, ParsingOptions};
+use std::fmt;
 
 const LONGEST_INDEX: usize = 1 << 26;
 
@@ -19,81 +22,58 @@ const MOST_ATTRIBUTES: usize = 256;
 
 pub(super) const INDEX: &str = "main.xml";
 
-const TYPES: [(&str, Number); 4] = [
-    ("I", Number::I16),
-    ("L", Number::I32),
-    ("F", Number::F32),
-    ("D", Number::F64),
-];
+/// Index of the heights in arrays of coordinates, after x and y.
+const Z: usize = 2;
 
 pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
+    let encoding = declared_encoding(&content).unwrap_or(UTF_8);
     // A byte order mark overrules the declaration.
-    let (index, ..) = declared_encoding(&content)
-        .unwrap_or(UTF_8)
-        .decode(&content);
+    let (index, ..) = encoding.decode(&content);
     check_index(&index)?;
     let options = ParsingOptions {
         allow_dtd: false,
         ..ParsingOptions::default()
     };
-    let document = Document::parse_with_options(&index, options)
-        .map_err(|error| wrong(shown(&error.to_string()), "XML without a document type"))?;
-    let root = document.root_element();
-    let axis = |name: &str| {
-        find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
-    };
-    let [x, y, z] = [axis("CX")?, axis("CY")?, axis("CZ")?];
-    let axes = [Axis::of(x)?, Axis::of(y)?, Axis::of(z)?];
-    let link = find(root, "PointDataLink");
-    if !text(root, "ListDimension").is_empty() {
-        let points = count(root, "ListDimension")?;
-        if axes.iter().any(|axis| !axis.is_absolute) {
-            return Err(wrong(
-                "a list of points with an incremental axis",
-                "absolute axes",
-            ));
+    match Document::parse_with_options(&index, options) {
+        Ok(document) => Surface::new(document.root_element())?.read(archive),
+        Err(error) => {
+            let found = shown(&error.to_string());
+            Err(wrong(found, "XML without a document type"))
         }
-        return scattered(
-            sorted(coordinates(&mut archive, root, link, points, &axes)?)?,
-            points,
-        );
     }
-    let (columns, rows) = (count(root, "SizeX")?, count(root, "SizeY")?);
-    if count(root, "SizeZ")? != 1 {
-        return Err(wrong("several layers", "SizeZ of 1"));
+}
+
+/// Returns the encoding that the XML declaration states, if it is one that contains ASCII.
+fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
+    let declaration = content.strip_prefix(b"<?xml")?;
+    let declaration = declaration.split(|byte| *byte == b'>').next()?;
+    let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
+    let value = rest.trim_start().strip_prefix('=')?;
+    let label = value.split(['"', '\'']).nth(1)?;
+    Encoding::for_label(label.as_bytes())
+}
+
+/// Returns an error for an index whose parsing would take far more time or memory than its length
+/// suggests.
+fn check_index(index: &str) -> Result<(), SurfaceError> {
+    // The parser reserves memory for each of these signs; an element has four characters.
+    let signs = index.bytes().filter(|byte| b"<=".contains(byte)).count();
+    if signs > index.len() / 4 {
+        let found = "more than a quarter of the characters are < or =";
+        return Err(wrong(found, "XML"));
     }
-    let points = columns.saturating_mul(rows);
-    let mut found = coordinates(&mut archive, root, link, points, &axes)?;
-    if axes[0].is_absolute || axes[1].is_absolute {
-        for (axis, of) in axes.iter().enumerate().filter(|(_, of)| !of.is_absolute) {
-            let distance = of.increment.unwrap_or(1.0);
-            let place = |index: usize| {
-                if axis == 0 {
-                    index % columns
-                } else {
-                    index / columns
-                }
-            };
-            found[axis] = gathered(
-                points,
-                (0..points).map(|index| place(index) as f64 * distance),
-            )?;
-        }
-        return scattered(found, columns);
+    let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
+    let attributes = index.split('=').skip(1).filter(is_quoted).count();
+    if attributes > MOST_ATTRIBUTES {
+        let found = format!("{attributes} attributes and declarations of namespaces");
+        return Err(wrong(found, &format!("at most {MOST_ATTRIBUTES}")));
     }
-    let spacing = axes[0]
-        .increment
-        .zip(axes[1].increment)
-        .map(|(along, between)| [along, between]);
-    let [.., heights] = found;
-    Ok(Reading::even(
-        "X3P",
-        heights,
-        columns,
-        spacing,
-        [Some(Unit::METRE); 3],
-    ))
+    Ok(())
+}
+
+fn wrong(found: impl fmt::Display, allowed: &str) -> SurfaceError {
+    refused(Place::Part(INDEX.to_owned()), found, allowed)
 }
 
 struct Axis<'a> {
@@ -105,22 +85,16 @@ struct Axis<'a> {
 }
 
 impl<'a> Axis<'a> {
-    fn of(axis: Node<'a, '_>) -> Result<Self, SurfaceError> {
+    fn new(axis: Node<'a, '_>) -> Result<Self, SurfaceError> {
         let kind = text(axis, "AxisType");
         let name = axis.tag_name().name();
-        let is_absolute = match kind {
-            // Heights are always absolute.
-            _ if name == "CZ" => true,
-            "A" => true,
-            "I" => false,
-            _ => {
-                let fault = format!("the axis {name} is of type {:?}", shown(kind));
-                return Err(wrong(
-                    fault,
-                    "\"I\", even distances, or \"A\", a position of each point",
-                ));
-            }
-        };
+        // Heights are always absolute.
+        let is_absolute = name == "CZ" || kind == "A";
+        if !is_absolute && kind != "I" {
+            let found = format!("the axis {name} is of type {:?}", shown(kind));
+            let allowed = "\"I\", even distances, or \"A\", a position of each point";
+            return Err(wrong(found, allowed));
+        }
         let offset = number(axis, "Offset")?.unwrap_or(0.0);
         Ok(Axis {
             is_absolute,
@@ -129,221 +103,289 @@ impl<'a> Axis<'a> {
             data_type: text(axis, "DataType"),
         })
     }
+
+    /// Returns the type of the coordinates in a binary file.
+    fn number_type(&self) -> Result<Number, SurfaceError> {
+        match self.data_type {
+            "I" => Ok(Number::I16),
+            "L" => Ok(Number::I32),
+            "F" => Ok(Number::F32),
+            "D" => Ok(Number::F64),
+            other => {
+                let found = format!("coordinates of type {:?}", shown(other));
+                Err(wrong(found, "I, L, F or D"))
+            }
+        }
+    }
 }
 
-/// Reads x, y and z of each point in m, from a binary file or a list in the index. An axis without
-/// coordinates remains empty.
-fn coordinates(
-    archive: &mut Archive<'_>,
-    root: Node<'_, '_>,
-    link: Option<Node<'_, '_>>,
-    points: usize,
-    axes: &[Axis<'_>; 3],
-) -> Result<[Vec<f64>; 3], SurfaceError> {
-    let mut found = match link {
-        Some(link) => linked(archive, root, trimmed(link), points, axes)?,
-        None => listed(root, points, axes)?,
-    };
-    for (values, axis) in found.iter_mut().zip(axes) {
-        let (scale, offset) = (axis.increment.unwrap_or(1.0), axis.offset);
-        values
-            .iter_mut()
-            .for_each(|value| *value = *value * scale + offset);
+/// x, y and z of each point in m. An axis without coordinates is empty.
+type Coordinates = [Vec<f64>; 3];
+
+/// A surface as the index describes it.
+struct Surface<'a, 'input> {
+    root: Node<'a, 'input>,
+    axes: [Axis<'a>; 3],
+}
+
+impl<'a, 'input> Surface<'a, 'input> {
+    fn new(root: Node<'a, 'input>) -> Result<Self, SurfaceError> {
+        let nodes = [axis(root, "CX")?, axis(root, "CY")?, axis(root, "CZ")?];
+        let [x, y, z] = nodes.map(Axis::new);
+        Ok(Surface {
+            root,
+            axes: [x?, y?, z?],
+        })
     }
-    Ok(found)
+
+    fn read(&self, archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+        if text(self.root, "ListDimension").is_empty() {
+            self.matrix(archive)
+        } else {
+            self.list(archive)
+        }
+    }
+
+    /// Reads a list of points without an order.
+    fn list(&self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+        let points = count(self.root, "ListDimension")?;
+        if self.axes.iter().any(|axis| !axis.is_absolute) {
+            let found = "a list of points with an incremental axis";
+            return Err(wrong(found, "absolute axes"));
+        }
+        let coordinates = self.coordinates(&mut archive, points)?;
+        scattered(sorted(coordinates)?, points)
+    }
+
+    /// Reads points in rows and columns.
+    fn matrix(&self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+        let columns = count(self.root, "SizeX")?;
+        let rows = count(self.root, "SizeY")?;
+        if count(self.root, "SizeZ")? != 1 {
+            return Err(wrong("several layers", "SizeZ of 1"));
+        }
+        let points = columns.saturating_mul(rows);
+        let mut coordinates = self.coordinates(&mut archive, points)?;
+        let [x, y, _] = &self.axes;
+        if x.is_absolute || y.is_absolute {
+            if !x.is_absolute {
+                let distance = x.increment.unwrap_or(1.0);
+                let positions = (0..points).map(|index| (index % columns) as f64 * distance);
+                coordinates[0] = gathered(points, positions)?;
+            }
+            if !y.is_absolute {
+                let distance = y.increment.unwrap_or(1.0);
+                let positions = (0..points).map(|index| (index / columns) as f64 * distance);
+                coordinates[1] = gathered(points, positions)?;
+            }
+            return scattered(coordinates, columns);
+        }
+        let spacing = match (x.increment, y.increment) {
+            (Some(along), Some(between)) => Some([along, between]),
+            _ => None,
+        };
+        let [.., heights] = coordinates;
+        let units = StatedUnits::METRES;
+        Ok(Reading::even("X3P", heights, columns, spacing, units))
+    }
+
+    /// Reads the coordinates of each point from a binary file or a list in the index.
+    fn coordinates(
+        &self,
+        archive: &mut Archive<'_>,
+        points: usize,
+    ) -> Result<Coordinates, SurfaceError> {
+        let mut coordinates = match find(self.root, "PointDataLink") {
+            Some(link) => self.linked(archive, trimmed(link), points)?,
+            None => self.listed(points)?,
+        };
+        for (values, axis) in coordinates.iter_mut().zip(&self.axes) {
+            let scale = axis.increment.unwrap_or(1.0);
+            for value in values {
+                *value = *value * scale + axis.offset;
+            }
+        }
+        Ok(coordinates)
+    }
+
+    /// Reads the coordinates of a binary file of the archive, point by point. Points marked invalid
+    /// in the bit field are missing.
+    fn linked(
+        &self,
+        archive: &mut Archive<'_>,
+        link: &str,
+        points: usize,
+    ) -> Result<Coordinates, SurfaceError> {
+        let stored = self.stored_coordinates()?;
+        let size = stored.iter().map(|coordinate| coordinate.number.size());
+        let expected = unpacked_size(points, size.sum(), Place::Part(INDEX.to_owned()))?;
+        let allowed = format!("{expected} bytes for {points} points");
+        let content = exactly(archive, link, expected, allowed)?;
+
+        let mut data = Bytes::new(&content, Order::Little);
+        let mut coordinates = [const { Vec::new() }; 3];
+        if let [only] = &stored[..] {
+            coordinates[only.axis] = data.numbers(points, only.number)?;
+        } else {
+            for coordinate in &stored {
+                coordinates[coordinate.axis] = emptied(Vec::new(), points)?;
+            }
+            for _ in 0..points {
+                for coordinate in &stored {
+                    let value = data.number(coordinate.number)?;
+                    coordinates[coordinate.axis].push(value);
+                }
+            }
+        }
+        if let Some(link) = find(self.root, "ValidPointsLink") {
+            let allowed = format!("a bit for each of {points} points");
+            let valid = exactly(archive, trimmed(link), points.div_ceil(8), allowed)?;
+            remove_invalid(&mut coordinates, &valid);
+        }
+        Ok(coordinates)
+    }
+
+    /// Returns the coordinates that a binary file has for each point, in their order.
+    fn stored_coordinates(&self) -> Result<Vec<StoredCoordinate>, SurfaceError> {
+        let mut stored = Vec::new();
+        for (index, axis) in self.axes.iter().enumerate() {
+            if axis.is_absolute {
+                stored.push(StoredCoordinate {
+                    axis: index,
+                    number: axis.number_type()?,
+                });
+            }
+        }
+        Ok(stored)
+    }
+
+    /// Reads the coordinates of a list in the index. The last number of each entry is a height, and
+    /// an empty entry is a missing point.
+    fn listed(&self, points: usize) -> Result<Coordinates, SurfaceError> {
+        let Some(list) = find(self.root, "DataList") else {
+            let found = "neither PointDataLink nor DataList";
+            return Err(wrong(found, "one of them"));
+        };
+        let mut coordinates = [const { Vec::new() }; 3];
+        for datum in list.children() {
+            if datum.tag_name().name() != "Datum" {
+                continue;
+            }
+            let text = trimmed(datum);
+            let mut cells = text.rsplit(';').map(str::trim);
+            for axis in [Z, 1, 0] {
+                if !self.axes[axis].is_absolute {
+                    continue;
+                }
+                let cell = cells.next().unwrap_or_default();
+                let is_missing = cell.is_empty() && (axis == Z || text.is_empty());
+                let value = if is_missing {
+                    f64::NAN
+                } else if let Ok(value) = cell.parse::<f64>() {
+                    value
+                } else {
+                    let number = coordinates[axis].len() + 1;
+                    let found = format!("Datum {number} = {:?}", shown(text));
+                    return Err(wrong(found, "numbers"));
+                };
+                push(&mut coordinates[axis], value)?;
+            }
+        }
+        if coordinates[Z].len() != points {
+            let found = format!("{} heights in the list", coordinates[Z].len());
+            return Err(wrong(found, &format!("{points}, the number of points")));
+        }
+        Ok(coordinates)
+    }
+}
+
+fn axis<'a, 'input>(root: Node<'a, 'input>, name: &str) -> Result<Node<'a, 'input>, SurfaceError> {
+    find(root, name).ok_or_else(|| wrong(format!("no axis {name}"), "CX, CY and CZ"))
+}
+
+/// A coordinate that a binary file has for each point.
+struct StoredCoordinate {
+    /// Index of the axis.
+    axis: usize,
+    number: Number,
+}
+
+/// Returns the content of a file of the archive, which is to have exactly this many bytes.
+fn exactly(
+    archive: &mut Archive<'_>,
+    name: &str,
+    bytes: usize,
+    allowed: String,
+) -> Result<Vec<u8>, SurfaceError> {
+    let content = archive.unpacked_up_to(name, bytes)?;
+    if content.len() == bytes {
+        return Ok(content);
+    }
+    let found = format!("{} bytes", content.len());
+    Err(refused(Place::Part(name.to_owned()), found, allowed))
+}
+
+/// Removes the coordinates of the points without a bit in the bit field. What is stored for such a
+/// point, its position included, means nothing.
+fn remove_invalid(coordinates: &mut Coordinates, valid: &[u8]) {
+    for values in coordinates {
+        for (index, value) in values.iter_mut().enumerate() {
+            let is_valid = valid[index / 8] >> (index % 8) & 1 == 1;
+            if !is_valid {
+                *value = f64::NAN;
+            }
+        }
+    }
 }
 
 /// Sorts the points of a list without an order by y and then by x.
-fn sorted(found: [Vec<f64>; 3]) -> Result<[Vec<f64>; 3], SurfaceError> {
-    let [x, y, _] = &found;
+fn sorted(coordinates: Coordinates) -> Result<Coordinates, SurfaceError> {
+    let [x, y, _] = &coordinates;
     let mut order = gathered(x.len(), 0..x.len())?;
-    order.sort_unstable_by(|one, other| {
-        y[*one]
-            .total_cmp(&y[*other])
-            .then(x[*one].total_cmp(&x[*other]))
+    order.sort_unstable_by(|first, second| {
+        let by_y = y[*first].total_cmp(&y[*second]);
+        by_y.then(x[*first].total_cmp(&x[*second]))
     });
-    let [x, y, heights] =
-        found.map(|values| gathered(order.len(), order.iter().map(|index| values[*index])));
+    let in_order = |values: Vec<f64>| {
+        let values = order.iter().map(|index| values[*index]);
+        gathered(order.len(), values)
+    };
+    let [x, y, heights] = coordinates.map(in_order);
     Ok([x?, y?, heights?])
 }
 
 /// Returns the profile, if the points are in one row with the same y, or else the map of points
 /// with positions of their own. A point without a position is left out.
-fn scattered(mut found: [Vec<f64>; 3], columns: usize) -> Result<Reading, SurfaceError> {
-    let is_one_row = columns == found[2].len();
-    let [x, y, _] = &found;
+fn scattered(mut coordinates: Coordinates, columns: usize) -> Result<Reading, SurfaceError> {
+    let is_one_row = columns == coordinates[Z].len();
+    let [x, y, _] = &coordinates;
     let measured = x.iter().zip(y).map(|(x, y)| x.is_finite() && y.is_finite());
     let measured = gathered(x.len(), measured)?;
-    for values in &mut found {
+    for values in &mut coordinates {
         let mut is_measured = measured.iter();
         values.retain(|_| is_measured.next() == Some(&true));
     }
-    let [x, y, heights] = found;
-    let units = [Some(Unit::METRE); 3];
+    let [x, y, heights] = coordinates;
+    let units = StatedUnits::METRES;
     if is_one_row && y.iter().all(|position| *position == y[0]) {
-        return Ok(Reading::profile("X3P", x, heights, [units[0], units[2]]));
+        return Ok(Reading::profile("X3P", x, heights, units));
     }
-    let map = map_of([&x, &y], &heights, [Digits::EXACT; 2], |index| {
-        Place::Point(index + 1)
-    })?;
+    let list = PointList {
+        x: &x,
+        y: &y,
+        heights: &heights,
+        digits: [Digits::EXACT; 2],
+        place: |index| Place::Point(index + 1),
+    };
+    let map = list.map()?;
+    let heights = map.heights;
     Ok(Reading::even(
         "X3P",
-        map.heights,
+        heights,
         map.columns,
         map.distances,
         units,
     ))
-}
-
-/// Returns the encoding that the XML declaration states, if it is one that contains ASCII.
-fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
-    let declaration = content
-        .strip_prefix(b"<?xml")?
-        .split(|byte| *byte == b'>')
-        .next()?;
-    let (_, rest) = str::from_utf8(declaration).ok()?.split_once("encoding")?;
-    Encoding::for_label(
-        rest.trim_start()
-            .strip_prefix('=')?
-            .split(['"', '\''])
-            .nth(1)?
-            .as_bytes(),
-    )
-}
-
-/// Returns an error for an index whose parsing would take far more time or memory than its length
-/// suggests.
-fn check_index(index: &str) -> Result<(), SurfaceError> {
-    // The parser reserves memory for each of these signs; an element has four characters.
-    if index.bytes().filter(|byte| b"<=".contains(byte)).count() > index.len() / 4 {
-        return Err(wrong(
-            "more than a quarter of the characters are < or =",
-            "XML",
-        ));
-    }
-    let is_quoted = |value: &&str| value.trim_start().starts_with(['"', '\'']);
-    let attributes = index.split('=').skip(1).filter(is_quoted).count();
-    if attributes > MOST_ATTRIBUTES {
-        let fault = format!("{attributes} attributes and declarations of namespaces");
-        return Err(wrong(fault, &format!("at most {MOST_ATTRIBUTES}")));
-    }
-    Ok(())
-}
-
-fn wrong(fault: impl std::fmt::Display, allowed: &str) -> SurfaceError {
-    refused(Place::Part(INDEX.to_owned()), fault, allowed)
-}
-
-/// Reads the coordinates of a binary file of an archive, point by point. Points marked invalid in
-/// the bit field are missing.
-fn linked(
-    archive: &mut Archive<'_>,
-    root: Node<'_, '_>,
-    link: &str,
-    points: usize,
-    axes: &[Axis<'_>; 3],
-) -> Result<[Vec<f64>; 3], SurfaceError> {
-    let of_axis = |axis: &Axis<'_>| {
-        let found = TYPES
-            .into_iter()
-            .find(|(letter, _)| *letter == axis.data_type);
-        let fault = || {
-            wrong(
-                format!("coordinates of type {:?}", shown(axis.data_type)),
-                "I, L, F or D",
-            )
-        };
-        found.map(|(_, number)| number).ok_or_else(fault)
-    };
-    let absolute = axes.iter().enumerate().filter(|(_, axis)| axis.is_absolute);
-    let types = absolute.map(|(place, axis)| Ok((place, of_axis(axis)?)));
-    let types = types.collect::<Result<Vec<_>, SurfaceError>>()?;
-    let mut read =
-        |name: &str, bytes: usize, allowed: String| match archive.unpacked_up_to(name, bytes)? {
-            content if content.len() == bytes => Ok(content),
-            content => Err(refused(
-                Place::Part(name.to_owned()),
-                format!("{} bytes", content.len()),
-                allowed,
-            )),
-        };
-    let size = types.iter().map(|(_, number)| number.size()).sum();
-    let expected = unpacked_size(points, size, Place::Part(INDEX.to_owned()))?;
-    let content = read(
-        link,
-        expected,
-        format!("{expected} bytes for {points} points"),
-    )?;
-    let mut data = Bytes::new(&content, Order::Little);
-    let mut found = [const { Vec::new() }; 3];
-    if let [(place, number)] = types[..] {
-        found[place] = data.numbers(points, number)?;
-    } else {
-        for (place, _) in &types {
-            found[*place] = emptied(Vec::new(), points)?;
-        }
-        for _ in 0..points {
-            for (place, number) in &types {
-                found[*place].push(data.number(*number)?);
-            }
-        }
-    }
-    if let Some(link) = find(root, "ValidPointsLink") {
-        let valid = read(
-            trimmed(link),
-            points.div_ceil(8),
-            format!("a bit for each of {points} points"),
-        )?;
-        let is_missing = |index: usize| valid[index / 8] >> (index % 8) & 1 == 0;
-        // What is stored for such a point, its position included, means nothing.
-        for values in &mut found {
-            let missing = values
-                .iter_mut()
-                .enumerate()
-                .filter(|(index, _)| is_missing(*index));
-            missing.for_each(|(_, value)| *value = f64::NAN);
-        }
-    }
-    Ok(found)
-}
-
-/// Reads the coordinates of a list in the index. The last number of each entry is a height, and an
-/// empty entry is a missing point.
-fn listed(
-    root: Node<'_, '_>,
-    points: usize,
-    axes: &[Axis<'_>; 3],
-) -> Result<[Vec<f64>; 3], SurfaceError> {
-    let list = find(root, "DataList")
-        .ok_or_else(|| wrong("neither PointDataLink nor DataList", "one of them"))?;
-    let mut found = [const { Vec::new() }; 3];
-    for datum in list
-        .children()
-        .filter(|node| node.tag_name().name() == "Datum")
-    {
-        let text = trimmed(datum);
-        let mut cells = text.rsplit(';').map(str::trim);
-        let places = [2, 1, 0]
-            .into_iter()
-            .filter(|place| axes[*place].is_absolute);
-        for place in places {
-            let cell = cells.next().unwrap_or_default();
-            let is_missing = cell.is_empty() && (place == 2 || text.is_empty());
-            let value = if is_missing {
-                Ok(f64::NAN)
-            } else {
-                cell.parse::<f64>()
-            };
-            let number = found[place].len() + 1;
-            let fault = |_| wrong(format!("Datum {number} = {:?}", shown(text)), "numbers");
-            push(&mut found[place], value.map_err(fault)?)?;
-        }
-    }
-    if found[2].len() != points {
-        let fault = format!("{} heights in the list", found[2].len());
-        return Err(wrong(fault, &format!("{points}, the number of points")));
-    }
-    Ok(found)
 }
 
 /// Returns the first element of this name below a node, in any namespace.
@@ -363,31 +405,34 @@ fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
 
 /// Returns the number in the first element of this name; `None` if the element is missing or empty.
 fn number(axis: Node<'_, '_>, name: &str) -> Result<Option<f64>, SurfaceError> {
-    let Some(text) = find(axis, name)
-        .map(trimmed)
-        .filter(|text| !text.is_empty())
-    else {
+    let text = text(axis, name);
+    if text.is_empty() {
         return Ok(None);
-    };
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-    let fault = || format!("{name} of {} = {:?}", axis.tag_name().name(), shown(text));
-    number.map(Some).ok_or_else(|| wrong(fault(), "a number"))
+    }
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(Some(number)),
+        _ => {
+            let axis = axis.tag_name().name();
+            let found = format!("{name} of {axis} = {:?}", shown(text));
+            Err(wrong(found, "a number"))
+        }
+    }
 }
 
 fn count(root: Node<'_, '_>, name: &str) -> Result<usize, SurfaceError> {
     let text = text(root, name);
-    let count = text.parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| {
-        wrong(
-            format!("{name} = {:?}", shown(text)),
-            "a whole number above 0",
-        )
-    })
+    match text.parse::<usize>() {
+        Ok(count) if count > 0 => Ok(count),
+        _ => {
+            let found = format!("{name} = {:?}", shown(text));
+            Err(wrong(found, "a whole number above 0"))
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::bytes::tests::archive;
+    use super::super::archive::tests::archive;
     use super::*;
 
     const MAIN: &str = "<?xml version='1.0' encoding='UTF-8'?>\n\

@@ -8,6 +8,9 @@ use asperity_data::text_table::{Role, TextColumn};
 /// their names say otherwise.
 const MOST_NAMED: usize = 3;
 
+/// Largest number of columns that a message names.
+const MOST_LISTED: usize = 8;
+
 /// Indices of the columns of a list of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
@@ -20,84 +23,128 @@ pub(super) struct List {
 
 /// Finds the columns of a list of points; `None` if the columns are rows of a map.
 pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
-    let places = |role: Role| {
-        columns
-            .iter()
-            .enumerate()
-            .filter(move |(_, column)| column.role == role)
-    };
-    // `point 1`, `point 2` … are names of other things.
-    let single = |role: Role| {
-        let mut found = places(role).map(|(place, _)| place);
-        found.next().filter(|_| found.next().is_none())
-    };
-    let beside = [single(Role::Number), single(Role::Valid)];
-    let rest: Vec<usize> = (0..columns.len())
-        .filter(|place| !beside.contains(&Some(*place)))
-        .collect();
-    let (x, y, height) = (single(Role::X), single(Role::Y), single(Role::Height));
-    let list = |x: Option<usize>, y: Option<usize>, height: usize| {
-        Ok(Some(List {
-            x,
-            y,
-            height,
-            valid: beside[1],
-        }))
-    };
-    let other = |one: usize, two: usize| {
-        rest.iter()
-            .copied()
-            .find(|place| *place != one && *place != two)
-    };
-    let has_unknown_name = || {
-        rest.iter()
-            .any(|&place| columns[place].role == Role::Unknown && !columns[place].name.is_empty())
-    };
-    let is_usual = || {
-        [x, y, height]
-            .into_iter()
-            .zip(&rest)
-            .all(|(found, usual)| found.is_none_or(|found| found == *usual))
-    };
-    match rest[..] {
-        [height] => return list(None, None, height),
-        [first, second] => {
-            let (x, height) = match (x, height) {
-                (Some(x), _) => (x, if x == first { second } else { first }),
-                (None, Some(height)) => (if height == first { second } else { first }, height),
-                (None, None) => (first, second),
-            };
-            return list(Some(x), None, height);
-        }
-        [first, second, third] => {
-            if let (Some(x), Some(y)) = (x, y) {
-                return list(Some(x), Some(y), other(x, y).unwrap_or(third));
-            }
-            if is_usual() && !(x.is_some() && height.is_some() && has_unknown_name()) {
-                return list(Some(first), Some(second), third);
-            }
-        }
-        _ if rest.len() > MOST_NAMED
-            && beside == [None; 2]
-            && (x.is_none() || y.or(height).is_none()) =>
-        {
-            return Ok(None);
-        }
-        _ => {}
+    let named = NamedColumns::new(columns);
+    if let Some(list) = named.list() {
+        return Ok(Some(list));
+    }
+    if named.are_rows_of_a_map() {
+        return Ok(None);
     }
     let names: Vec<String> = columns
         .iter()
-        .take(8)
+        .take(MOST_LISTED)
         .map(|column| format!("{:?}", shown(&column.name)))
         .collect();
-    let fault = format!("{} columns {}", columns.len(), names.join(", "));
+    let found = format!("{} columns {}", columns.len(), names.join(", "));
     let allowed = "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";
-    Err(refused(Place::File, fault, allowed))
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Columns by their names. A name that several columns have names none of them: `point 1`,
+/// `point 2` … are names of other things.
+struct NamedColumns<'a> {
+    columns: &'a [TextColumn],
+    /// Column of the numbers of the points.
+    number: Option<usize>,
+    valid: Option<usize>,
+    x: Option<usize>,
+    y: Option<usize>,
+    height: Option<usize>,
+    /// All columns except `number` and `valid`.
+    others: Vec<usize>,
+}
+
+impl<'a> NamedColumns<'a> {
+    fn new(columns: &'a [TextColumn]) -> Self {
+        let number = single(columns, Role::Number);
+        let valid = single(columns, Role::Valid);
+        let is_other = |column: &usize| Some(*column) != number && Some(*column) != valid;
+        NamedColumns {
+            columns,
+            number,
+            valid,
+            x: single(columns, Role::X),
+            y: single(columns, Role::Y),
+            height: single(columns, Role::Height),
+            others: (0..columns.len()).filter(is_other).collect(),
+        }
+    }
+
+    /// Returns the columns of one to three numbers of each point.
+    fn list(&self) -> Option<List> {
+        match self.others[..] {
+            [height] => Some(self.with(None, None, height)),
+            [first, second] => Some(self.profile(first, second)),
+            [first, second, third] => self.points(first, second, third),
+            _ => None,
+        }
+    }
+
+    fn with(&self, x: Option<usize>, y: Option<usize>, height: usize) -> List {
+        List {
+            x,
+            y,
+            height,
+            valid: self.valid,
+        }
+    }
+
+    fn profile(&self, first: usize, second: usize) -> List {
+        let other = |column: usize| if column == first { second } else { first };
+        match (self.x, self.height) {
+            (Some(x), _) => self.with(Some(x), None, other(x)),
+            (None, Some(height)) => self.with(Some(other(height)), None, height),
+            (None, None) => self.with(Some(first), None, second),
+        }
+    }
+
+    fn points(&self, first: usize, second: usize, third: usize) -> Option<List> {
+        if let (Some(x), Some(y)) = (self.x, self.y) {
+            let is_height = |column: &usize| *column != x && *column != y;
+            let height = self.others.iter().copied().find(is_height);
+            return Some(self.with(Some(x), Some(y), height.unwrap_or(third)));
+        }
+        // A column of another quantity beside x and a height is not the y of points.
+        let has_other_quantity =
+            self.x.is_some() && self.height.is_some() && self.has_unknown_name();
+        if self.is_usual() && !has_other_quantity {
+            return Some(self.with(Some(first), Some(second), third));
+        }
+        None
+    }
+
+    /// Returns true if all columns with names are in the order x, y, height.
+    fn is_usual(&self) -> bool {
+        [self.x, self.y, self.height]
+            .into_iter()
+            .zip(&self.others)
+            .all(|(named, usual)| named.is_none_or(|named| named == *usual))
+    }
+
+    fn has_unknown_name(&self) -> bool {
+        self.others.iter().any(|column| {
+            let column = &self.columns[*column];
+            column.role == Role::Unknown && !column.name.is_empty()
+        })
+    }
+
+    fn are_rows_of_a_map(&self) -> bool {
+        let has_no_list_name = self.number.is_none() && self.valid.is_none();
+        let has_positions = self.x.is_some() && (self.y.is_some() || self.height.is_some());
+        self.others.len() > MOST_NAMED && has_no_list_name && !has_positions
+    }
+}
+
+/// Returns the only column with a role.
+fn single(columns: &[TextColumn], role: Role) -> Option<usize> {
+    let mut found = (0..columns.len()).filter(|column| columns[*column].role == role);
+    let first = found.next();
+    if found.next().is_some() { None } else { first }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::Unit;
+    use super::super::super::unit::Unit;
     use super::*;
     use asperity_data::text_table::{HeadLines, Separator};
 

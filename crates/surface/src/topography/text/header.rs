@@ -1,6 +1,6 @@
 //! Header before the numbers of a text: units, sizes, and the lines that may name columns.
 
-use super::super::Unit;
+use super::super::unit::Unit;
 use asperity_data::text_table::{
     COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, is_one_of,
 };
@@ -8,24 +8,36 @@ use asperity_data::text_table::{
 /// Largest length in bytes of a header line that is examined.
 const LONGEST: usize = 4096;
 
-/// Keys of sizes, channels and units in English and in the other languages of Gwyddion.
+/// Keys of the width of a map in English and in the other languages of Gwyddion.
 const WIDTH: &str = "width x-length šířka breite anchura largeur larghezza 幅 폭 largura ширина";
+
+/// Keys of the height of a map.
 const HEIGHT: &str = "height y-length výška höhe altura hauteur altezza 高さ 높이 высота";
+
+/// Keys of the name of a channel.
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
+
+/// Words that are in keys of units.
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
-/// Words beside `unit` in a key, by what the unit is for: heights, both positions, or all lengths.
+/// Words beside `unit` in a key of the unit of heights.
 const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor 값";
+
+/// Words beside `unit` in a key of the unit of both positions.
 const OF_POSITIONS: &str = "xy lateral position positions distance";
+
+/// Words beside `unit` in a key of the unit of all lengths.
 const OF_ALL: &str = "length lengths de измерения";
 
-/// Keys of the distance between points of a map, along both axes and along each.
+/// Keys of the distance between points of a map along both axes.
 const SPACING: [&str; 4] = [
     "xy calibration",
     "pixel size",
     "sampling distance",
     "pixel_size",
 ];
+
+/// Keys of the distances between points along each axis.
 const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
 
 /// Keys of the number of columns and of rows.
@@ -35,12 +47,56 @@ const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 /// second number, in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
-/// Unit of lengths in headers of SPIP and Wyko.
+/// Unit of lengths in headers of SPIP.
 const NANOMETRE: &str = "nm";
+
+/// Unit of lengths in headers of Wyko.
 const MILLIMETRE: &str = "mm";
 
+/// Index of x in arrays of three axes.
+pub(super) const X: usize = 0;
+
+/// Index of y in arrays of three axes.
+pub(super) const Y: usize = 1;
+
+/// Index of the heights in arrays of three axes.
+pub(super) const Z: usize = 2;
+
 /// A length, with its unit if it has one of its own.
-type Length = (f64, Option<Unit>);
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Length {
+    value: f64,
+    unit: Option<Unit>,
+}
+
+impl Length {
+    fn millimetres(value: f64) -> Self {
+        Length {
+            value,
+            unit: MILLIMETRE.parse().ok(),
+        }
+    }
+
+    fn bare(value: f64) -> Self {
+        Length { value, unit: None }
+    }
+
+    /// Reads a length and its unit from a text such as `10.5 µm`, `24µm`, `24 (µm)` or
+    /// `500 nm/pixel`.
+    fn parse(text: &str) -> Option<Self> {
+        let is_of_number = |c: char| c.is_ascii_digit() || ".,+-eE".contains(c);
+        let end = text.find(|c: char| !is_of_number(c))?;
+        let (value, unit) = text.split_at(end);
+        let unit = unit.split('/').next()?.trim().trim_matches(BRACKETS);
+        Some(Length {
+            value: number(value)?,
+            unit: Some(unit.parse().ok()?),
+        })
+    }
+}
+
+/// Brackets around units.
+const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 
 /// Header of a text: the lines above its numbers, with the units, sizes and names that they state.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,8 +119,9 @@ pub struct TextHeader {
     factor: Option<f64>,
     /// Factor of the heights in nm, unless the file states a unit of heights.
     nanometres: Option<f64>,
-    /// Factor of the heights that counts if another entry says so.
-    data_scale: (Option<f64>, bool),
+    /// Factor of the heights that counts if `is_data_scale_needed`.
+    data_scale: Option<f64>,
+    is_data_scale_needed: bool,
     /// True if the rows of numbers run along y.
     pub is_along_y: bool,
     /// True if heights are in wavelengths.
@@ -86,195 +143,246 @@ impl TextHeader {
     /// channel; any other line may name columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
-        if line.len() <= LONGEST && self.take_entry(line) {
+        if line.len() <= LONGEST
+            && let Some(entry) = Entry::parse(line)
+            && self.take_entry(&entry).is_some()
+        {
             return;
         }
         self.lines.take(line);
     }
 
-    fn take_entry(&mut self, line: &str) -> bool {
-        let Some((key, value)) = entry(line) else {
-            return false;
-        };
-        if is_one_of(&key, CHANNEL) {
-            self.channel = Some(value);
-        } else if let Some(axes) = axes_of_unit(&key) {
-            match (
-                value.trim_matches(['[', ']', '(', ')']).parse().ok(),
-                &axes[..],
-            ) {
-                (Some(unit), []) => self.unit = Some(unit),
-                (Some(unit), axes) => axes.iter().for_each(|axis| self.units[*axis] = Some(unit)),
-                (None, [2]) => self.other_unit = Some(value),
-                (None, _) => return false,
+    /// Reads an entry; `None` if it is not understood.
+    fn take_entry(&mut self, entry: &Entry) -> Option<()> {
+        let key = entry.key.as_str();
+        let value = entry.value.as_str();
+        if is_one_of(key, CHANNEL) {
+            self.channel = Some(value.to_owned());
+        } else if let Some(axes) = axes_of_unit(key) {
+            self.take_unit(&axes, value)?;
+        } else if let Some(axis) = [WIDTH, HEIGHT].iter().position(|keys| is_one_of(key, keys)) {
+            self.sizes[axis] = Some(size(key, value)?);
+        } else if SPACING.contains(&key) {
+            match Length::parse(value) {
+                Some(spacing) => self.spacing = [Some(spacing); 2],
+                None => self.take_wyko(key, value)?,
             }
-        } else if let Some(axis) = [WIDTH, HEIGHT]
-            .iter()
-            .position(|names| is_one_of(&key, names))
-        {
-            // Lengths of SPIP are in nm, unless it states a unit for the axis.
-            let bare = number(&value)
-                .filter(|_| key.ends_with("length"))
-                .map(|size| (size, None));
-            let Some(size) = length(&value).or(bare) else {
-                return false;
-            };
-            self.sizes[axis] = Some(size);
-        } else if SPACING.contains(&&*key) {
-            let Some(spacing) = length(&value) else {
-                return self.take_wyko(&key, &value);
-            };
-            self.spacing = [Some(spacing); 2];
         } else if let Some(axis) = SPACING_OF_AXIS.iter().position(|name| *name == key) {
-            let Some(spacing) = number(&value) else {
-                return false;
-            };
-            self.spacing[axis] = Some((spacing, None));
-        } else if let Some(axis) = COUNTS.iter().position(|names| is_one_of(&key, names)) {
-            let Ok(count) = value.parse() else {
-                return false;
-            };
-            self.counts[axis] = Some(count);
-        } else {
-            return self.take_factor(&key, &value) || self.take_wyko(&key, &value);
+            self.spacing[axis] = Some(Length::bare(number(value)?));
+        } else if let Some(axis) = COUNTS.iter().position(|keys| is_one_of(key, keys)) {
+            self.counts[axis] = Some(value.parse().ok()?);
+        } else if self.take_factor(key, value).is_none() {
+            self.take_wyko(key, value)?;
         }
-        true
+        Some(())
+    }
+
+    /// Reads the unit of these axes; no axes mean all lengths.
+    fn take_unit(&mut self, axes: &[usize], value: &str) -> Option<()> {
+        match value.trim_matches(BRACKETS).parse() {
+            Ok(unit) if axes.is_empty() => self.unit = Some(unit),
+            Ok(unit) => {
+                for axis in axes {
+                    self.units[*axis] = Some(unit);
+                }
+            }
+            Err(_) if *axes == [Z] => self.other_unit = Some(value.to_owned()),
+            Err(_) => return None,
+        }
+        Some(())
     }
 
     /// Reads a factor of the heights.
-    fn take_factor(&mut self, key: &str, value: &str) -> bool {
+    fn take_factor(&mut self, key: &str, value: &str) -> Option<()> {
         let Some(factor) = number(value) else {
-            let is_needed = key == "datascaleneeded";
-            self.data_scale.1 |= is_needed && value.eq_ignore_ascii_case("yes");
-            return is_needed;
+            if key != "datascaleneeded" {
+                return None;
+            }
+            self.is_data_scale_needed |= value.eq_ignore_ascii_case("yes");
+            return Some(());
         };
         if let Some(unit) = key.strip_prefix("height conversion factor") {
-            self.units[2] = unit.trim_matches([' ', '(', ')', '-', '>']).parse().ok();
+            let unit = unit.trim_matches([' ', '(', ')', '-', '>']);
+            self.units[Z] = unit.parse().ok();
             self.factor = Some(factor);
         } else if key == "bit2nm" {
             self.nanometres = Some(factor);
         } else if key == "scale data" {
-            self.data_scale.0 = Some(factor);
+            self.data_scale = Some(factor);
         } else {
-            return false;
+            return None;
         }
-        true
+        Some(())
     }
 
     /// Reads an entry of the header of Wyko: a name, two numbers and a value.
-    fn take_wyko(&mut self, key: &str, value: &str) -> bool {
+    fn take_wyko(&mut self, key: &str, value: &str) -> Option<()> {
         if key.starts_with(WYKO) {
             self.is_along_y = true;
             self.is_in_wavelengths = !value.starts_with('1');
-            self.units[2] = NANOMETRE.parse().ok();
-            return true;
+            self.units[Z] = NANOMETRE.parse().ok();
+            return Some(());
         }
-        let Some(number) = value
-            .rsplit(' ')
-            .next()
-            .and_then(number)
-            .filter(|_| self.is_along_y)
-        else {
-            return false;
-        };
-        let unit: Option<Unit> = MILLIMETRE.parse().ok();
+        // Only Wyko writes its rows along y.
+        if !self.is_along_y {
+            return None;
+        }
+        let number = number(value.rsplit(' ').next()?)?;
+        let stated = self.spacing[0].map_or(1.0, |spacing| spacing.value);
         let factor = self.factor.unwrap_or(1.0);
         match key {
             "x size" => self.counts[1] = Some(number as usize),
             "y size" => self.counts[0] = Some(number as usize),
+            // The aspect may be stated before the size of a pixel, or after it.
             "pixel_size" => {
-                let aspect = self.spacing[0].map_or(1.0, |(aspect, _)| aspect);
-                self.spacing = [Some((number * aspect, unit)), Some((number, unit))];
+                let along = Length::millimetres(number * stated);
+                self.spacing = [Some(along), Some(Length::millimetres(number))];
             }
-            "aspect" => {
-                let pixel = self.spacing[0].map_or(1.0, |(pixel, _)| pixel);
-                self.spacing[0] = Some((number * pixel, unit));
-            }
+            "aspect" => self.spacing[0] = Some(Length::millimetres(number * stated)),
             "wavelength" if self.is_in_wavelengths => self.factor = Some(factor * number),
             "mult" if self.is_in_wavelengths => self.factor = Some(factor / number),
-            _ => return false,
+            _ => return None,
         }
-        true
+        Some(())
     }
 
     /// Returns the distances in m along and between the rows of a map with these numbers of columns
     /// and rows.
     pub fn distances(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
-        let metres = |lengths: &[Option<Length>; 2], axis: usize, usual: Option<Unit>| {
-            let (length, unit) = lengths[axis]?;
-            Some(unit.or(self.unit(axis, None)).or(usual)?.to_metres(length))
-        };
-        let nanometre = NANOMETRE.parse().ok();
-        let size = |axis: usize| metres(&self.sizes, axis, nanometre);
-        let of_sizes = size(0)
-            .zip(size(1))
-            .map(|(width, height)| [width / columns as f64, height / rows as f64]);
-        of_sizes.or_else(|| {
-            metres(&self.spacing, 0, None)
-                .zip(metres(&self.spacing, 1, None))
-                .map(<[f64; 2]>::from)
+        self.distances_by_size(columns, rows).or_else(|| {
+            let [along, between] = self.spacing;
+            Some([
+                self.metres(along?, X, None)?,
+                self.metres(between?, Y, None)?,
+            ])
         })
+    }
+
+    fn distances_by_size(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
+        let [width, height] = self.sizes;
+        let nanometre = NANOMETRE.parse().ok();
+        let width = self.metres(width?, X, nanometre)?;
+        let height = self.metres(height?, Y, nanometre)?;
+        Some([width / columns as f64, height / rows as f64])
+    }
+
+    /// Converts a length along an axis to m. `usual` is its unit if the header states none.
+    fn metres(&self, length: Length, axis: usize, usual: Option<Unit>) -> Option<f64> {
+        let unit = length.unit.or(self.unit(axis, None)).or(usual)?;
+        Some(unit.to_metres(length.value))
     }
 
     /// Returns the factor by which the heights are multiplied.
     pub fn scale(&self) -> f64 {
-        let of_unit = self.nanometres.filter(|_| self.units[2].is_none());
-        let of_data = self.data_scale.0.filter(|_| self.data_scale.1);
-        [self.factor, of_unit, of_data]
-            .into_iter()
-            .flatten()
-            .product()
+        let mut scale = 1.0;
+        if let Some(factor) = self.factor {
+            scale *= factor;
+        }
+        if let Some(nanometres) = self.nanometres
+            && self.units[Z].is_none()
+        {
+            scale *= nanometres;
+        }
+        if let Some(data_scale) = self.data_scale
+            && self.is_data_scale_needed
+        {
+            scale *= data_scale;
+        }
+        scale
     }
 
-    /// Returns the unit of x (0), y (1) or heights (2): as the column states, else as a key states.
+    /// Returns the unit of [`X`], [`Y`] or the heights [`Z`]: as the column states, else as a key
+    /// states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
-        let of_column = column.and_then(|column| column.unit.as_deref()?.parse().ok());
-        let of_axis = self.units[axis].or_else(|| {
-            self.nanometres
-                .filter(|_| axis == 2)
-                .and(NANOMETRE.parse().ok())
-        });
-        of_column.or(of_axis).or(self.unit)
+        if let Some(unit) = column.and_then(unit_of_column) {
+            return Some(unit);
+        }
+        if let Some(unit) = self.units[axis] {
+            return Some(unit);
+        }
+        if axis == Z && self.nanometres.is_some() {
+            return NANOMETRE.parse().ok();
+        }
+        self.unit
     }
 }
 
-/// Returns the key of a line in lower case, and its value.
-fn entry(line: &str) -> Option<(String, String)> {
-    let bare = |text: &str| text.trim_matches(['"', ',', ';', ' ', '\t']).to_owned();
-    if let Some((key, value)) = line.split_once([':', '=', '：']) {
-        return Some((bare(key).to_lowercase(), bare(value)));
-    }
-    let mut cells = Separator::of(line).split(line);
-    let key = cells.next()?.to_lowercase();
-    let value: Vec<&str> = cells.collect();
-    Some((key, bare(&value.join(" ")))).filter(|(_, value)| !value.is_empty())
+fn unit_of_column(column: &TextColumn) -> Option<Unit> {
+    column.unit.as_deref()?.parse().ok()
 }
 
-/// Returns the axes whose unit a key states: x (0), y (1) and heights (2). The list is empty for
-/// the unit of all lengths, and `None` for another key.
+/// Reads the size of a map. Lengths of SPIP, such as `x-length`, are in nm, unless it states a unit
+/// for the axis.
+fn size(key: &str, value: &str) -> Option<Length> {
+    if let Some(size) = Length::parse(value) {
+        return Some(size);
+    }
+    if key.ends_with("length") {
+        return number(value).map(Length::bare);
+    }
+    None
+}
+
+/// An entry of the header.
+struct Entry {
+    /// Key in lower case.
+    key: String,
+    value: String,
+}
+
+impl Entry {
+    fn parse(line: &str) -> Option<Entry> {
+        if let Some((key, value)) = line.split_once([':', '=', '：']) {
+            return Some(Entry {
+                key: bare(key).to_lowercase(),
+                value: bare(value).to_owned(),
+            });
+        }
+        let mut cells = Separator::of(line).split(line);
+        let key = cells.next()?.to_lowercase();
+        let value = cells.collect::<Vec<_>>().join(" ");
+        let value = bare(&value);
+        if value.is_empty() {
+            return None;
+        }
+        Some(Entry {
+            key,
+            value: value.to_owned(),
+        })
+    }
+}
+
+/// Returns a text without quotation marks, separators and white space around it.
+fn bare(text: &str) -> &str {
+    text.trim_matches(['"', ',', ';', ' ', '\t'])
+}
+
+/// Returns the axes whose unit a key states. The list is empty for the unit of all lengths, and
+/// `None` for another key.
 fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
-    let words = || {
-        key.split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty())
-    };
-    if !words().any(|word| is_one_of(word, UNIT)) {
+    let mut words: Vec<&str> = key.split(|c: char| !c.is_alphanumeric()).collect();
+    words.retain(|word| !word.is_empty());
+    if !words.iter().any(|word| is_one_of(word, UNIT)) {
         return None;
     }
     let mut axes = Vec::new();
-    for word in words().filter(|word| !is_one_of(word, UNIT) && !is_one_of(word, OF_ALL)) {
-        axes.extend_from_slice(match word {
-            "x" => &[0],
-            "y" => &[1],
-            word if is_one_of(word, OF_POSITIONS) => &[0, 1],
-            word if is_one_of(word, OF_HEIGHTS) => &[2],
+    for word in words {
+        if is_one_of(word, UNIT) || is_one_of(word, OF_ALL) {
+            continue;
+        }
+        match word {
+            "x" => axes.push(X),
+            "y" => axes.push(Y),
+            word if is_one_of(word, OF_POSITIONS) => axes.extend([X, Y]),
+            word if is_one_of(word, OF_HEIGHTS) => axes.push(Z),
             _ => return None,
-        });
+        }
     }
+    // The Japanese for "unit of values" is one word.
     if key == "値の単位" {
-        Some(vec![2])
-    } else {
-        Some(axes)
+        return Some(vec![Z]);
     }
+    Some(axes)
 }
 
 /// Reads a number in any notation.
@@ -283,18 +391,6 @@ fn number(text: &str) -> Option<f64> {
         TextCell::Number(value) if value.is_finite() => Some(value),
         _ => None,
     }
-}
-
-/// Reads a length and its unit from a text such as `10.5 µm`, `24µm`, `24 (µm)` or `500 nm/pixel`.
-fn length(text: &str) -> Option<Length> {
-    let end = text.find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))?;
-    let (value, unit) = text.split_at(end);
-    let unit = unit
-        .split('/')
-        .next()?
-        .trim()
-        .trim_matches(['[', ']', '(', ')']);
-    Some((number(value)?, Some(unit.parse().ok()?)))
 }
 
 #[cfg(test)]

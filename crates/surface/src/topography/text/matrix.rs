@@ -1,34 +1,14 @@
 //! Maps written row by row, with or without positions in the first row and the first column.
 
-use super::super::grid::{Digits, Map, move_to_printed_grid};
-use super::super::surface::first_uneven;
+use super::super::grid::Map;
+use super::super::positions::first_uneven;
+use super::super::printed::{Digits, Grid, move_to_printed_grid};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 
 /// Smallest number of evenly spaced numbers that count as positions, if the numbers along the other
 /// axis are not evenly spaced.
 const LEAST_STEPS: usize = 8;
-
-/// Returns the first number and the step of numbers that rise or fall in even steps.
-fn even_steps(
-    count: usize,
-    numbers: impl Iterator<Item = f64>,
-    digits: Digits,
-) -> Result<Option<[f64; 2]>, SurfaceError> {
-    let mut numbers = gathered(count, numbers)?;
-    let is_ordered = |is_before: fn(&f64, &f64) -> bool| numbers.is_sorted_by(is_before);
-    if count < LEAST_STEPS || !(is_ordered(|a, b| a < b) || is_ordered(|a, b| a > b)) {
-        return Ok(None);
-    }
-    move_to_printed_grid(&mut numbers, digits)?;
-    let (first, distance) = (
-        numbers[0],
-        (numbers[count - 1] - numbers[0]) / (count - 1) as f64,
-    );
-    Ok(first_uneven(&numbers, first, distance)
-        .is_none()
-        .then_some([first, distance]))
-}
 
 /// Returns the map in rows of `columns` numbers. If the first row and column hold positions, they
 /// are removed and give the distances. If these positions only count from 0 or 1, the distances
@@ -39,64 +19,129 @@ pub(super) fn without_positions(
     digits: [Digits; 2],
     place: impl Fn(usize) -> Place,
 ) -> Result<Map, SurfaceError> {
-    let rows = numbers.len() / columns;
-    if rows < 2 {
-        return Ok(Map {
+    let matrix = Matrix {
+        numbers: &numbers,
+        columns,
+        digits,
+    };
+    let positions = if matrix.rows() < 2 {
+        Positions::default()
+    } else {
+        matrix.positions()?
+    };
+    match positions {
+        Positions {
+            along: None,
+            between: None,
+        } => Ok(Map {
             heights: numbers,
             columns,
             distances: None,
-        });
-    }
-    let row = |row: usize| {
-        numbers[row * columns + 1..(row + 1) * columns]
-            .iter()
-            .copied()
-    };
-    let column = |column: usize| {
-        numbers
-            .iter()
-            .skip(columns + column)
-            .step_by(columns)
-            .copied()
-    };
-    let along = even_steps(columns - 1, row(0), digits[0])?;
-    let between = even_steps(rows - 1, column(0), digits[1])?;
-    // A plane is even in all its rows.
-    let is_plane = even_steps(columns - 1, row(1), digits[0])?.is_some()
-        || even_steps(rows - 1, column(1), digits[1])?.is_some();
-    let (name, [first, distance]) = match (along, between) {
-        (along, between) if is_plane || (along, between) == (None, None) => {
-            return Ok(Map {
-                heights: numbers,
-                columns,
-                distances: None,
-            });
-        }
-        (Some(along), Some(between)) => {
+        }),
+        Positions {
+            along: Some(along),
+            between: Some(between),
+        } => {
             let mut index = 0;
             numbers.retain(|_| {
+                let is_height = index >= columns && index % columns > 0;
                 index += 1;
-                index > columns && !(index - 1).is_multiple_of(columns)
+                is_height
             });
-            let counts =
-                |[first, distance]: [f64; 2]| (first == 0.0 || first == 1.0) && distance == 1.0;
-            let is_known = !(counts(along) && counts(between));
-            let distances = is_known.then_some([along[1].abs(), between[1].abs()]);
-            return Ok(Map {
+            let are_counts = is_count(along) && is_count(between);
+            let distances = [along.distance.abs(), between.distance.abs()];
+            Ok(Map {
                 heights: numbers,
                 columns: columns - 1,
-                distances,
-            });
+                distances: (!are_counts).then_some(distances),
+            })
         }
-        (Some(along), _) => ("row", along),
-        (_, between) => ("column", between.unwrap_or_default()),
-    };
-    let fault = format!(
+        Positions {
+            along: Some(along),
+            between: None,
+        } => Err(single_positions(place(0), "row", along)),
+        Positions {
+            along: None,
+            between: Some(between),
+        } => Err(single_positions(place(0), "column", between)),
+    }
+}
+
+/// Numbers in rows, of which the first row and column may be positions.
+struct Matrix<'a> {
+    numbers: &'a [f64],
+    columns: usize,
+    digits: [Digits; 2],
+}
+
+/// Even positions in the first row (along) and in the first column (between the rows).
+#[derive(Default)]
+struct Positions {
+    along: Option<Grid>,
+    between: Option<Grid>,
+}
+
+impl Matrix<'_> {
+    fn rows(&self) -> usize {
+        self.numbers.len() / self.columns
+    }
+
+    /// Returns the positions; none in the rows of a plane, which are all even.
+    fn positions(&self) -> Result<Positions, SurfaceError> {
+        let along = self.row_steps(0)?;
+        let between = self.column_steps(0)?;
+        if self.row_steps(1)?.is_some() || self.column_steps(1)?.is_some() {
+            return Ok(Positions::default());
+        }
+        Ok(Positions { along, between })
+    }
+
+    /// Returns the steps of a row without its first number.
+    fn row_steps(&self, row: usize) -> Result<Option<Grid>, SurfaceError> {
+        let numbers = &self.numbers[row * self.columns + 1..(row + 1) * self.columns];
+        even_steps(self.columns - 1, numbers.iter().copied(), self.digits[0])
+    }
+
+    /// Returns the steps of a column without its first number.
+    fn column_steps(&self, column: usize) -> Result<Option<Grid>, SurfaceError> {
+        let numbers = self.numbers.iter().skip(self.columns + column);
+        let numbers = numbers.step_by(self.columns).copied();
+        even_steps(self.rows() - 1, numbers, self.digits[1])
+    }
+}
+
+/// Returns the first number and the step of numbers that rise or fall in even steps.
+fn even_steps(
+    count: usize,
+    numbers: impl Iterator<Item = f64>,
+    digits: Digits,
+) -> Result<Option<Grid>, SurfaceError> {
+    let mut numbers = gathered(count, numbers)?;
+    let is_ordered = numbers.is_sorted_by(|a, b| a < b) || numbers.is_sorted_by(|a, b| a > b);
+    if count < LEAST_STEPS || !is_ordered {
+        return Ok(None);
+    }
+    move_to_printed_grid(&mut numbers, digits)?;
+    let first = numbers[0];
+    let distance = (numbers[count - 1] - first) / (count - 1) as f64;
+    let is_even = first_uneven(&numbers, first, distance).is_none();
+    Ok(is_even.then_some(Grid { first, distance }))
+}
+
+/// Returns true for numbers that only count from 0 or 1.
+fn is_count(grid: Grid) -> bool {
+    (grid.first == 0.0 || grid.first == 1.0) && grid.distance == 1.0
+}
+
+/// Returns the error of positions in the first row or the first column alone.
+fn single_positions(place: Place, name: &str, grid: Grid) -> SurfaceError {
+    let Grid { first, distance } = grid;
+    let found = format!(
         "the first {name} runs from {first:e} in even steps of {distance:e} beside uneven numbers: positions, no heights"
     );
     let allowed =
         "heights alone, with --spacing, or positions in the first row and the first column";
-    Err(refused(place(0), fault, allowed))
+    refused(place, found, allowed)
 }
 
 #[cfg(test)]

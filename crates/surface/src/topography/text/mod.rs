@@ -11,16 +11,17 @@ pub(crate) mod columns;
 pub(crate) mod header;
 pub(crate) mod matrix;
 pub(crate) mod table;
+pub(crate) mod table_reading;
 pub(crate) mod warnings;
-use header::TextHeader;
 
-use super::Unit;
 use super::reading::Reading;
+use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::text_table::{COMMENT, each_line};
 use asperity_data::{PROVENANCE, shown};
+use header::{TextHeader, Z};
 use std::ops::Range;
-use table::{Table, is_header};
+use table::{NumberedLine, Table, is_header};
 
 /// Largest number of headers after which numbers follow.
 const MOST_PARTS: usize = 256;
@@ -35,161 +36,200 @@ struct Part {
     table: Option<Table>,
 }
 
+/// Rows of numbers of a part that are a channel.
+#[derive(Clone)]
+struct Channel {
+    /// Index of the part.
+    part: usize,
+    rows: Range<usize>,
+}
+
+/// A text with its headers and numbers.
+struct Text {
+    parts: Vec<Part>,
+    /// Last line of the last header, if it is no comment.
+    last_of_header: Option<(usize, String)>,
+    last_line: usize,
+}
+
 /// Reads the channel with this number, from 0, of a text with several. Without a number, reads the
 /// only channel whose heights are lengths.
 pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
-    // Tables of results are in SI units.
-    let metre = bytes
-        .starts_with(PROVENANCE.as_bytes())
-        .then_some(Unit::METRE);
-    let mut parts = vec![Part {
-        header: TextHeader::in_unit(metre),
-        table: None,
-    }];
-    let (mut before, mut last_line) = (None::<(usize, String)>, 0);
-    each_line(bytes, |number, line| {
-        last_line = number;
-        let is_comment = line.starts_with(COMMENT);
-        if is_new_part(&parts, line, is_comment) {
-            if parts.len() == MOST_PARTS {
-                return Err(refused(
-                    Place::Line(number),
-                    format!("more than {MOST_PARTS} headers"),
-                    "fewer",
-                ));
-            }
-            parts.push(Part::default());
-        }
-        let Some(Part { header, table }) = parts.last_mut() else {
-            return Ok(());
-        };
-        match table {
-            Some(table) if line.is_empty() => table.pause(),
-            Some(_) if is_comment => {}
-            Some(table) => table.take(number, line)?,
-            None if line.is_empty() => {}
-            None if is_comment || is_header(line) => {
-                before = (!is_comment).then(|| (number, line.to_owned()));
-                header.take(line);
-            }
-            None => {
-                let before = before.take();
-                *table = Some(Table::new(
-                    before.as_ref().map(|(number, line)| (*number, &**line)),
-                    number,
-                    line,
-                )?);
-            }
-        }
-        Ok(())
-    })?;
-    let (chosen, rows) = chosen(&parts, channel)?;
-    let Part {
-        header,
-        table: Some(table),
-    } = parts.swap_remove(chosen)
-    else {
+    let text = Text::parse(bytes)?;
+    let last_line = text.last_line;
+    let mut parts = text.parts;
+    let Channel { part, rows } = chosen(&parts, channel)?;
+    let Part { header, table } = parts.swap_remove(part);
+    let Some(table) = table else {
         return Err(no_numbers());
     };
-    // Behind the last line end is an empty line.
+    // After the last line end is an empty line.
     let is_open = rows.end == table.rows() && table.last_line() == last_line;
     table.reading(&header, rows, is_open)
+}
+
+impl Text {
+    fn parse(bytes: &[u8]) -> Result<Text, SurfaceError> {
+        // Tables of results are in SI units.
+        let is_result = bytes.starts_with(PROVENANCE.as_bytes());
+        let first = Part {
+            header: TextHeader::in_unit(is_result.then_some(Unit::METRE)),
+            table: None,
+        };
+        let mut text = Text {
+            parts: vec![first],
+            last_of_header: None,
+            last_line: 0,
+        };
+        each_line(bytes, |number, line| text.take(number, line))?;
+        Ok(text)
+    }
+
+    fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
+        self.last_line = number;
+        let is_comment = line.starts_with(COMMENT);
+        if is_new_part(&self.parts, line, is_comment) {
+            if self.parts.len() == MOST_PARTS {
+                let found = format!("more than {MOST_PARTS} headers");
+                return Err(refused(Place::Line(number), found, "fewer"));
+            }
+            self.parts.push(Part::default());
+        }
+        let Some(part) = self.parts.last_mut() else {
+            return Ok(());
+        };
+        if let Some(table) = &mut part.table {
+            if line.is_empty() {
+                table.pause();
+            } else if !is_comment {
+                table.take(number, line)?;
+            }
+            return Ok(());
+        }
+        if line.is_empty() {
+            return Ok(());
+        }
+        if is_comment || is_header(line) {
+            self.last_of_header = (!is_comment).then(|| (number, line.to_owned()));
+            part.header.take(line);
+            return Ok(());
+        }
+        let before = self.last_of_header.take();
+        let before = before.as_ref().map(|(number, line)| NumberedLine {
+            number: *number,
+            text: line,
+        });
+        let first = NumberedLine { number, text: line };
+        part.table = Some(Table::new(before, first)?);
+        Ok(())
+    }
 }
 
 /// Returns true for a line after numbers that begins another header: words, or a comment with the
 /// name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
-    let Some(Part {
-        table: Some(table), ..
-    }) = parts.last()
-    else {
+    let Some(table) = parts.last().and_then(|part| part.table.as_ref()) else {
         return false;
     };
-    if !is_comment {
-        return !line.is_empty() && table.is_heading(line);
+    if is_comment {
+        let mut header = TextHeader::default();
+        header.take(line);
+        return header.channel.is_some();
     }
-    let mut header = TextHeader::default();
-    header.take(line);
-    header.channel.is_some()
+    !line.is_empty() && table.is_heading(line)
 }
 
 fn no_numbers() -> SurfaceError {
-    refused(
-        Place::File,
-        "no line of numbers",
-        "a line of numbers for each point or row",
-    )
+    let allowed = "a line of numbers for each point or row";
+    refused(Place::File, "no line of numbers", allowed)
 }
 
-/// Returns the index of the part and the rows of the channel with this number. Without a number,
-/// chooses the only channel, or the only one whose heights are lengths.
-fn chosen(parts: &[Part], channel: Option<u32>) -> Result<(usize, Range<usize>), SurfaceError> {
-    let with_numbers = parts
-        .iter()
-        .enumerate()
-        .filter_map(|(index, part)| Some((index, part.table.as_ref()?)));
-    let channels: Vec<(usize, Range<usize>)> = with_numbers
-        .flat_map(|(index, table)| table.parts().into_iter().map(move |rows| (index, rows)))
-        .collect();
+/// Returns the channel with this number. Without a number, chooses the only channel, or the only
+/// one whose heights are lengths.
+fn chosen(parts: &[Part], number: Option<u32>) -> Result<Channel, SurfaceError> {
+    let channels = channels(parts);
+    if channels.is_empty() {
+        return Err(no_numbers());
+    }
     if let [only] = &channels[..] {
         return Ok(only.clone());
     }
-    let is_length =
-        |(part, _): &&(usize, Range<usize>)| parts[*part].header.unit(2, None).is_some();
-    let may_be_length =
-        |(part, _): &&(usize, Range<usize>)| parts[*part].header.other_unit.is_none();
-    let wanted = channel
-        .and_then(|channel| channels.get(channel as usize))
-        .filter(may_be_length);
-    let mut lengths = channels
-        .iter()
-        .filter(is_length)
-        .filter(|_| channel.is_none());
-    match (wanted.or(lengths.next()), lengths.next()) {
-        (Some(chosen), None) => return Ok(chosen.clone()),
-        _ if channels.is_empty() => return Err(no_numbers()),
-        _ => {}
-    }
-    let describe = |(number, (part, rows)): (usize, &(usize, Range<usize>))| {
-        let Part { header, table } = &parts[*part];
-        let name = header
-            .channel
-            .as_ref()
-            .map(|name| format!(" {:?}", shown(name)))
-            .unwrap_or_default();
-        let unit = header
-            .unit(2, None)
-            .map(Unit::name)
-            .or(header.other_unit.as_deref());
-        let unit = unit
-            .map(|unit| format!(" in {}", shown(unit)))
-            .unwrap_or_default();
-        let line = table.as_ref().map_or(0, |table| table.line(rows.start));
-        format!("{number}{name}{unit} from line {line}")
+    let chosen = match number {
+        Some(number) => channels.get(number as usize).filter(|channel| {
+            // The numbers of a channel without any unit may be lengths.
+            parts[channel.part].header.other_unit.is_none()
+        }),
+        None => {
+            let is_length = |channel: &&Channel| parts[channel.part].header.unit(Z, None).is_some();
+            let mut lengths = channels.iter().filter(is_length);
+            let first = lengths.next();
+            if lengths.next().is_some() {
+                None
+            } else {
+                first
+            }
+        }
     };
+    match chosen {
+        Some(channel) => Ok(channel.clone()),
+        None => Err(undecided(parts, &channels, number)),
+    }
+}
+
+/// Returns all channels in the order of the file.
+fn channels(parts: &[Part]) -> Vec<Channel> {
+    let mut channels = Vec::new();
+    for (part, Part { table, .. }) in parts.iter().enumerate() {
+        if let Some(table) = table {
+            let rows = table.parts().into_iter();
+            channels.extend(rows.map(|rows| Channel { part, rows }));
+        }
+    }
+    channels
+}
+
+/// Returns the error of a text in which none or several of the channels may be meant.
+fn undecided(parts: &[Part], channels: &[Channel], number: Option<u32>) -> SurfaceError {
     let mut listed: Vec<String> = channels
         .iter()
         .enumerate()
         .take(MOST_LISTED)
-        .map(describe)
+        .map(|(number, channel)| description(number, &parts[channel.part], &channel.rows))
         .collect();
     if channels.len() > MOST_LISTED {
         listed.push("…".to_owned());
     }
-    let none = channel
-        .map(|channel| format!("no lengths in channel {channel} of "))
-        .unwrap_or_default();
-    let fault = format!("{none}{} channels: {}", channels.len(), listed.join(", "));
-    Err(refused(
-        Place::File,
-        fault,
-        "--channel with the number of one, in a scene roughness.channel",
-    ))
+    let missing = match number {
+        Some(number) => format!("no lengths in channel {number} of "),
+        None => String::new(),
+    };
+    let count = channels.len();
+    let found = format!("{missing}{count} channels: {}", listed.join(", "));
+    let allowed = "--channel with the number of one, in a scene roughness.channel";
+    refused(Place::File, found, allowed)
+}
+
+/// Describes a channel by its number, its name, its unit and its first line.
+fn description(number: usize, part: &Part, rows: &Range<usize>) -> String {
+    let header = &part.header;
+    let mut description = number.to_string();
+    if let Some(name) = &header.channel {
+        description += &format!(" {:?}", shown(name));
+    }
+    let unit = header.unit(Z, None).map(Unit::name);
+    if let Some(unit) = unit.or(header.other_unit.as_deref()) {
+        description += &format!(" in {}", shown(unit));
+    }
+    let line = part
+        .table
+        .as_ref()
+        .map_or(0, |table| table.line(rows.start));
+    description + &format!(" from line {line}")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::reading::ReadOptions;
+    use super::super::options::ReadOptions;
     use super::*;
 
     fn text(text: &str) -> Result<Reading, String> {
@@ -273,7 +313,7 @@ mod tests {
 
     /// Units of positions and of heights by their names.
     fn units(reading: &Reading) -> [Option<&'static str>; 2] {
-        [0, 2].map(|axis| reading.units[axis].map(Unit::name))
+        [reading.units.along, reading.units.heights].map(|unit| unit.map(Unit::name))
     }
 
     #[test]
@@ -428,13 +468,13 @@ mod tests {
             let found = text(&format!("{header}\n1\t2\t3\t4\n5\t7\t6\t8\n"))
                 .map_err(|error| format!("{header}: {error}"))
                 .unwrap();
-            let lateral = found.units[0].unwrap();
+            let lateral = found.units.along.unwrap();
             let distances = found
                 .spacing
                 .unwrap()
                 .map(|distance| (lateral.to_metres(distance) * 1e9).round() / 1e3);
             assert_eq!(
-                (distances, found.units[2].map(Unit::name)),
+                (distances, found.units.heights.map(Unit::name)),
                 (spacing, Some("nm")),
                 "{header}"
             );
@@ -488,7 +528,7 @@ mod tests {
             (points.spacing, units(&points)),
             (Some([1.0, 5.0]), [Some("mm"), Some("nm")])
         );
-        assert_eq!(points.units[1].map(Unit::name), Some("µm"));
+        assert_eq!(points.units.between.map(Unit::name), Some("µm"));
         let one = text("x [mm] y z [nm]\n0 0 1\n1 0 2\n0 5 3\n1 5 4\n").unwrap_err();
         assert!(
             one.starts_with("mm is the unit of one position, and the other one has none"),

@@ -9,9 +9,10 @@ use asperity_data::median;
 const FAR: f64 = 1e6;
 
 /// Distance of one height from the median, over the next largest distance, from which on the height
-/// is an error of the file or a spike. Also the same ratio for the last height if its line has no
-/// end.
+/// is an error of the file or a spike.
 const ALONE: f64 = 30.0;
+
+/// The same ratio for the last height if its line has no end.
 const ALONE_AT_OPEN_END: f64 = 10.0;
 
 /// Largest number of heights of which the median is computed.
@@ -24,62 +25,108 @@ pub(super) fn of_heights(
     is_open: bool,
     place: impl Fn(usize) -> Place,
 ) -> Vec<String> {
-    let step = heights.len().div_ceil(SAMPLE).max(1);
-    let finite = heights
-        .iter()
-        .step_by(step)
-        .copied()
-        .filter(|height| height.is_finite());
-    let mut sample: Vec<f64> = finite.collect();
-    let Some(level) = median(&mut sample) else {
+    let Some(spread) = Spread::new(heights) else {
         return Vec::new();
     };
-    sample
-        .iter_mut()
-        .for_each(|height| *height = (*height - level).abs());
-    let usual = median(&mut sample).unwrap_or_default();
-    let distance = |height: f64| (height - level).abs();
-    let (mut largest, mut next) = ((0.0, 0), 0.0);
-    for (index, height) in heights
-        .iter()
-        .enumerate()
-        .filter(|(_, height)| height.is_finite())
-    {
-        if distance(*height) > largest.0 {
-            (largest, next) = ((distance(*height), index), largest.0);
-        } else if distance(*height) > next {
-            next = distance(*height);
-        }
-    }
-    let ((largest, index), last) = (largest, heights.len() - 1);
+    let Farthest {
+        index,
+        largest,
+        next,
+    } = spread.farthest(heights);
+    let last = heights.len() - 1;
     if is_open && index == last && next > 0.0 && largest > ALONE_AT_OPEN_END * next {
         return vec![format!(
-            "{}the last number, {:e}, is far from all others, and its line has no end: the file may be cut off",
+            "{}the last number, {:e}, is far from all others, and its line has no end: the file \
+             may be cut off",
             place(last),
             heights[last]
         )];
     }
     if next > 0.0 && largest > ALONE * next {
         return vec![format!(
-            "{}the height {:e} is {:.0e} times as far from the median as all others: a spike, a mark of a missing point, or a \
-             number that is cut off; --robust replaces it",
+            "{}the height {:e} is {:.0e} times as far from the median as all others: a spike, a \
+             mark of a missing point, or a number that is cut off; --robust replaces it",
             place(index),
             heights[index],
             largest / next
         )];
     }
-    let mut far =
-        (0..heights.len()).filter(|index| usual > 0.0 && distance(heights[*index]) > FAR * usual);
+    let mut far = (0..heights.len()).filter(|index| spread.is_far(heights[*index]));
     let Some(first) = far.next() else {
         return Vec::new();
     };
     vec![format!(
-        "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as heights usually are: marks of \
-         missing points, or other units",
+        "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as \
+         heights usually are: marks of missing points, or other units",
         place(first),
         heights[first],
         far.count()
     )]
+}
+
+/// Median of the heights and of their distances from it.
+struct Spread {
+    level: f64,
+    usual_distance: f64,
+}
+
+/// The height farthest from the median.
+struct Farthest {
+    index: usize,
+    /// Distance of this height from the median.
+    largest: f64,
+    /// Next largest distance.
+    next: f64,
+}
+
+impl Spread {
+    /// Computes the medians of a sample; `None` without finite heights.
+    fn new(heights: &[f64]) -> Option<Self> {
+        let step = heights.len().div_ceil(SAMPLE).max(1);
+        let mut sample: Vec<f64> = heights.iter().step_by(step).copied().collect();
+        sample.retain(|height| height.is_finite());
+        let level = median(&mut sample)?;
+        for height in &mut sample {
+            *height = (*height - level).abs();
+        }
+        Some(Spread {
+            level,
+            usual_distance: median(&mut sample).unwrap_or_default(),
+        })
+    }
+
+    fn distance(&self, height: f64) -> f64 {
+        (height - self.level).abs()
+    }
+
+    fn farthest(&self, heights: &[f64]) -> Farthest {
+        let mut farthest = Farthest {
+            index: 0,
+            largest: 0.0,
+            next: 0.0,
+        };
+        for (index, height) in heights.iter().enumerate() {
+            if !height.is_finite() {
+                continue;
+            }
+            let distance = self.distance(*height);
+            if distance > farthest.largest {
+                farthest = Farthest {
+                    index,
+                    largest: distance,
+                    next: farthest.largest,
+                };
+            } else if distance > farthest.next {
+                farthest.next = distance;
+            }
+        }
+        farthest
+    }
+
+    fn is_far(&self, height: f64) -> bool {
+        let usual = self.usual_distance;
+        usual > 0.0 && self.distance(height) > FAR * usual
+    }
 }
 
 #[cfg(test)]

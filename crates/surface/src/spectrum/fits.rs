@@ -1,0 +1,159 @@
+//! Fits of spectra to the observed powers of all surfaces, and how the results change with the
+//! heights that were interpolated and with the waves that are missing.
+
+use super::analysis::AnalysisOptions;
+use super::isotropic::IsotropicSpectrum;
+use super::isotropic_fit::fit_isotropic;
+use super::last_wave::last_significant;
+use super::likelihood::Model;
+use super::no_maximum;
+use super::nodes::{End, WaveRange};
+use super::observation::Observation;
+use super::powers::Powers;
+use super::self_affine_fit::{SelfAffineFit, fit_self_affine};
+use crate::error::{Place, SurfaceError, refused};
+use crate::topography::surface::Topography;
+
+/// Number of waves before an end inside the scan that the self-affine fit leaves out.
+const BEFORE_END: f64 = 4.0;
+
+/// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved
+/// wave number.
+const CONTINUED: f64 = 4.0;
+
+/// Fits of spectra to observations over one range of wave numbers.
+#[derive(Clone, Copy)]
+pub(super) struct SpectrumFits {
+    range: WaveRange,
+    end: End,
+    /// True if the spectrum ends before the last resolved wave.
+    pub ends_inside: bool,
+}
+
+/// Largest changes of the results between several readings of the same surfaces.
+#[derive(Default)]
+pub(super) struct ReadingChanges {
+    /// Relative changes of the integrals of [`IsotropicSpectrum::integrals`].
+    pub integrals: [f64; 3],
+    /// Change of the Hurst exponent.
+    pub hurst: f64,
+}
+
+impl SpectrumFits {
+    /// Finds the range of the waves with significant power. Returns an error for a spectrum that
+    /// would continue up to a wave number which is resolved already.
+    pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
+        let range = powers.range(|waves| last_significant(waves, has_gaps));
+        let resolved = powers.range(|waves| waves.len());
+        let last = range.last;
+        if let End::Continues(to) = end
+            && (to <= last || to.is_nan())
+        {
+            let found = format!("the spectrum continues up to q = {to:e} rad/m");
+            let allowed = format!("above the last resolved wave, q = {last:e} rad/m");
+            return Err(refused(Place::File, found, allowed));
+        }
+        Ok(SpectrumFits {
+            range,
+            end,
+            ends_inside: last < resolved.last,
+        })
+    }
+
+    /// Returns the wave number of the last significant wave in rad/m.
+    pub fn last_wave_number(&self) -> f64 {
+        self.range.last
+    }
+
+    /// Fits the isotropic spectrum with nodes.
+    pub fn isotropic(
+        &self,
+        observations: &[Observation],
+    ) -> Result<IsotropicSpectrum, SurfaceError> {
+        let model = Model::new(observations, self.range, self.end);
+        fit_isotropic(&model).ok_or_else(no_maximum)
+    }
+
+    /// Fits the self-affine spectrum. `isotropic` is the fit with nodes to the same observations.
+    pub fn self_affine(
+        &self,
+        observations: &[Observation],
+        isotropic: &IsotropicSpectrum,
+    ) -> Option<SelfAffineFit> {
+        // The powers of the last waves depend on how the spectrum ends.
+        let limit = if self.ends_inside {
+            self.range.last - BEFORE_END * self.range.first
+        } else {
+            f64::INFINITY
+        };
+        let mut before_end = observations.to_vec();
+        before_end.retain(|observation| observation.wave_number < limit);
+        let model = Model::new(&before_end, self.range, self.end);
+        fit_self_affine(&model, isotropic)
+    }
+
+    /// Repeats the fits for other values of the heights that were interpolated or resampled.
+    pub fn changes_between_readings(
+        &self,
+        surfaces: &[Topography],
+        options: &AnalysisOptions,
+        isotropic: &IsotropicSpectrum,
+        power_law: Option<SelfAffineFit>,
+    ) -> Result<ReadingChanges, SurfaceError> {
+        let mut largest = ReadingChanges::default();
+        for quarters in 1..=other_readings(surfaces) {
+            let powers = Powers::of_reading(surfaces, options, quarters)?;
+            let observations = powers.observations(self.range.last);
+            let isotropic_again = self.isotropic(&observations)?;
+            let changes = isotropic.changes(&isotropic_again);
+            for (largest, change) in largest.integrals.iter_mut().zip(changes) {
+                *largest = largest.max(change.abs());
+            }
+            let power_law_again = self.self_affine(&observations, &isotropic_again);
+            if let (Some(again), Some(before)) = (power_law_again, power_law) {
+                let change = again.hurst.value - before.hurst.value;
+                largest.hurst = largest.hurst.max(change.abs());
+            }
+        }
+        Ok(largest)
+    }
+
+    /// Returns the largest relative changes of the integrals of [`IsotropicSpectrum::integrals`] if
+    /// the surface has waves beyond the last resolved one.
+    pub fn missing_waves(
+        &self,
+        observations: &[Observation],
+        isotropic: &IsotropicSpectrum,
+    ) -> [f64; 3] {
+        let last = self.range.last;
+        let continued_fits = SpectrumFits {
+            end: End::Continues(CONTINUED * last),
+            ..*self
+        };
+        // Without such a fit nothing is known of the missing waves.
+        let Ok(continued) = continued_fits.isotropic(observations) else {
+            return [f64::INFINITY; 3];
+        };
+        let mut resolved_part = continued.clone();
+        resolved_part.nodes.end = last;
+
+        let resolved_changes = isotropic.changes(&resolved_part);
+        let all_changes = isotropic.changes(&continued);
+        [0, 1, 2].map(|index| {
+            let resolved_change = resolved_changes[index].abs();
+            resolved_change.max(all_changes[index].abs())
+        })
+    }
+}
+
+/// Returns the number of other readings of the same surfaces, by the `quarters` of
+/// [`Topography::copied_heights`]. A resampled profile has only one other reading.
+fn other_readings(surfaces: &[Topography]) -> usize {
+    if surfaces.iter().any(|surface| surface.interpolated() > 0) {
+        3
+    } else if surfaces.iter().any(Topography::is_resampled) {
+        1
+    } else {
+        0
+    }
+}

@@ -1,0 +1,60 @@
+//! The last significant wave of a measured spectrum.
+
+use super::periodogram::{Wave, squared_gradient};
+
+/// Share of the squared gradient that waves beyond the end of the spectrum may have.
+const NEGLIGIBLE: f64 = 1e-4;
+
+/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points.
+const FLOOR: usize = 8;
+
+/// Share of the noise floor that is attributed to chance.
+const CHANCE: f64 = 0.25;
+
+/// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before
+/// it.
+const DROP: f64 = 0.03;
+
+/// Finds the end of a spectrum. Returns the number of waves after which the rest has a negligible
+/// share of the squared gradient and far smaller power, or the number of all waves if there is no
+/// end. With `has_floor` only the power above the level of the last waves counts, because errors of
+/// single interpolated points add the same power to all waves.
+pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
+    let floor = if has_floor { noise_floor(waves) } else { 0.0 };
+    let excess_over_floor =
+        |wave: &Wave| wave.squared_gradient() - floor * wave.wave_number * wave.wave_number;
+    let negligible = NEGLIGIBLE * squared_gradient(waves) + CHANCE * floor * sum_of_squares(waves);
+    let mut end = waves.len();
+    let mut excess = 0.0;
+    while end > 1 && excess + excess_over_floor(&waves[end - 1]) <= negligible {
+        end -= 1;
+        excess += excess_over_floor(&waves[end]);
+    }
+
+    let beyond = waves.len() - end;
+    let before = beyond.min(end);
+    let rest = squared_gradient(&waves[end..]);
+    let as_many_before = squared_gradient(&waves[end - before..end]);
+    if rest * before as f64 <= DROP * as_many_before * beyond as f64 {
+        end
+    } else {
+        waves.len()
+    }
+}
+
+/// Returns the power of the last waves, which single interpolated points add to all waves.
+fn noise_floor(waves: &[Wave]) -> f64 {
+    let last = &waves[waves.len() - waves.len() / FLOOR..];
+    if last.is_empty() {
+        return 0.0;
+    }
+    squared_gradient(last) / sum_of_squares(last)
+}
+
+/// Returns the sum of the squared wave numbers.
+fn sum_of_squares(waves: &[Wave]) -> f64 {
+    waves
+        .iter()
+        .map(|wave| wave.wave_number * wave.wave_number)
+        .sum()
+}

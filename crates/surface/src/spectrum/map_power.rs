@@ -1,0 +1,129 @@
+//! Periodograms of maps: the power of each wave in the plane.
+
+use super::axis_power::{AxisPlace, WavesByAxis};
+use super::levelled::LevelledSurface;
+use super::periodogram::{Wave, transform_rows, window};
+use crate::error::SurfaceError;
+use asperity_data::{check_room, emptied};
+use asperity_fourier::{Complex64, plan_forward};
+use std::f64::consts::{PI, TAU};
+
+/// Memory of the spectrum of a map in bytes per point.
+const BYTES: u64 = 48;
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MapPower {
+    pub windowed: bool,
+    /// Wave number of wave 1 along and between the rows in rad/m.
+    pub steps: [f64; 2],
+    /// Wave number of the sampling along and between the rows in rad/m.
+    pub sampling: [f64; 2],
+    /// The waves in half of the plane with their C2D, up to the smaller Nyquist wave number, sorted
+    /// by wave number.
+    pub waves: Vec<Wave>,
+    /// True if the waves parallel to one axis are left out, because rows or columns are offset
+    /// against each other or were levelled one by one.
+    pub offsets: bool,
+    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the
+    /// squared gradient. Waves that are left out do not count.
+    pub apart: f64,
+}
+
+impl MapPower {
+    /// Computes the power spectrum of a map. If its rows were levelled one by one, the waves
+    /// between the rows are left out.
+    pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
+        let [along, between] = map.distances;
+        let steps = [
+            TAU / (map.columns as f64 * along),
+            TAU / (map.rows as f64 * between),
+        ];
+        let mut waves = waves_by_axis(map, steps)?.without_offsets();
+        waves
+            .waves
+            .sort_unstable_by(|a, b| a.wave_number.total_cmp(&b.wave_number));
+        Ok(MapPower {
+            windowed: map.windowed,
+            steps,
+            sampling: [TAU / along, TAU / between],
+            waves: waves.waves,
+            offsets: waves.offsets,
+            apart: waves.apart,
+        })
+    }
+}
+
+/// Computes the powers of the waves in half of the plane. Wave 1 along and between the rows has the
+/// wave numbers `steps` in rad/m.
+fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, SurfaceError> {
+    let [along, between] = map.distances;
+    let columns = map.columns;
+    let rows = map.rows;
+    let points = map.heights.len();
+    let half = columns / 2 + 1;
+    check_room(BYTES * points as u64)?;
+    let coefficients = transformed_rows(map)?;
+    let plan = plan_forward(rows);
+    let mut scratch = vec![Complex64::ZERO; plan.get_inplace_scratch_len()];
+    let mut column = vec![Complex64::ZERO; rows];
+    let row_window = window(rows, map.windowed);
+
+    // A window spreads the waves parallel to an axis to their neighbours.
+    let reach = if map.windowed { 1.0 } else { 0.0 };
+    let mut waves = WavesByAxis::new(reach, emptied(Vec::new(), half * rows)?);
+    let nyquist = (PI / along).min(PI / between);
+    let scale = along * between / points as f64;
+    let first = if map.aligned { reach as usize + 1 } else { 0 };
+    for x in first..half {
+        for (y, value) in column.iter_mut().enumerate() {
+            *value = coefficients[y * half + x] * row_window[y];
+        }
+        plan.process_with_scratch(&mut column, &mut scratch);
+        for (y, value) in column.iter().enumerate() {
+            let x = x as f64;
+            let y = signed_number(y, rows);
+            // Waves and their mirror images have equal power: only one of them counts.
+            let is_first = x > 0.0 || y > 0.0;
+            let wave_number = (x * steps[0]).hypot(y * steps[1]);
+            if !is_first || wave_number >= nyquist {
+                continue;
+            }
+            let wave = Wave {
+                wave_number,
+                power: scale * value.norm_sqr(),
+            };
+            let from_columns = AxisPlace {
+                across: x,
+                along: y.abs() / rows as f64,
+            };
+            let from_rows = AxisPlace {
+                across: y.abs(),
+                along: x / columns as f64,
+            };
+            waves.add(wave, [from_columns, from_rows]);
+        }
+    }
+    Ok(waves)
+}
+
+/// Returns the Fourier coefficients of each row of a map.
+fn transformed_rows(map: &LevelledSurface) -> Result<Vec<Complex64>, SurfaceError> {
+    let columns = map.columns;
+    let mut coefficients = emptied(Vec::new(), (columns / 2 + 1) * map.rows)?;
+    let rows = map.heights.chunks_exact(columns);
+    let rows = rows.map(|row| row.iter().copied());
+    transform_rows(rows, columns, map.windowed, |row| {
+        coefficients.extend_from_slice(row);
+    })?;
+    Ok(coefficients)
+}
+
+/// Returns the number of a wave between the rows from its index in the transform. It is negative in
+/// the upper half.
+fn signed_number(index: usize, rows: usize) -> f64 {
+    if 2 * index > rows {
+        index as f64 - rows as f64
+    } else {
+        index as f64
+    }
+}

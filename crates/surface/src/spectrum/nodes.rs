@@ -1,0 +1,155 @@
+//! Nodes of a spectrum that is linear in ln q between them, and terms of sums over such a spectrum.
+
+use super::quadrature::{GaussPoint, gauss};
+
+/// Whether a spectrum continues beyond the last resolved wave, the shortest wave that the measured
+/// points resolve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum End {
+    /// The surface has no waves shorter than the last resolved one.
+    #[default]
+    Ends,
+    /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the
+    /// last two [nodes](Node).
+    Continues(f64),
+}
+
+/// First and last wave number of a spectrum in rad/m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WaveRange {
+    pub first: f64,
+    pub last: f64,
+}
+
+/// Nodes equally spaced in ln q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nodes {
+    /// ln q of the first node.
+    pub first: f64,
+    /// Distance between nodes in ln q.
+    pub step: f64,
+    pub count: usize,
+    /// Largest wave number of the spectrum in rad/m; beyond the last node for a spectrum that is
+    /// continued.
+    pub end: f64,
+}
+
+/// Place of a wave number between a node and the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct NodePlace {
+    /// Index of the node below.
+    pub index: usize,
+    /// Share of the way to the next node.
+    pub share: f64,
+}
+
+impl NodePlace {
+    /// Interpolates values at the nodes.
+    pub fn interpolate(&self, values: &[f64]) -> f64 {
+        (1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]
+    }
+
+    /// Adds the derivative of a quantity with respect to ln C2D at this place to its derivatives
+    /// with respect to ln C2D at the nodes.
+    pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
+        gradient[self.index] += (1.0 - self.share) * derivative;
+        gradient[self.index + 1] += self.share * derivative;
+    }
+}
+
+/// Interval of the wave number in rad/m in which a spectrum is a power law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Piece {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Piece {
+    /// Returns the points of the quadrature over ln q.
+    pub fn logarithms(&self) -> impl Iterator<Item = GaussPoint> {
+        gauss(self.low.ln(), self.high.ln())
+    }
+}
+
+impl Nodes {
+    /// Creates nodes over a range of wave numbers, `per_decade` of them in a decade, for a spectrum
+    /// with this end.
+    pub fn new(range: WaveRange, per_decade: f64, end: End) -> Self {
+        let ratio = range.last / range.first;
+        let pieces = (per_decade * ratio.log10()).ceil().max(2.0);
+        let end = match end {
+            End::Ends => range.last,
+            End::Continues(end) => end.max(range.last),
+        };
+        Nodes {
+            first: range.first.ln(),
+            step: ratio.ln() / pieces,
+            count: pieces as usize + 1,
+            end,
+        }
+    }
+
+    /// Returns the wave number of a node in rad/m.
+    pub fn wave_number(&self, index: usize) -> f64 {
+        (self.first + index as f64 * self.step).exp()
+    }
+
+    /// Returns the place of ln q between the nodes. A spectrum is constant below the first node and
+    /// extrapolated beyond the last.
+    pub fn place(&self, ln_q: f64) -> NodePlace {
+        let place = ((ln_q - self.first) / self.step).max(0.0);
+        let index = (place as usize).min(self.count - 2);
+        NodePlace {
+            index,
+            share: place - index as f64,
+        }
+    }
+
+    /// Returns the intervals of the wave number in rad/m, from `low` to the end of the spectrum, in
+    /// each of which it is a power law.
+    pub fn pieces_from(&self, low: f64) -> Vec<Piece> {
+        let node_number = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
+        // The logarithm of zero is below all nodes.
+        let first = (node_number(low).floor() + 1.0).max(0.0) as usize;
+        let last = node_number(self.end).ceil() as usize;
+        let bounds = (first..=last).map(|index| self.wave_number(index).min(self.end));
+
+        let mut pieces = Vec::new();
+        let mut begin = low.min(self.end);
+        for bound in bounds.chain([self.end]) {
+            if bound > begin {
+                pieces.push(Piece {
+                    low: begin,
+                    high: bound,
+                });
+                begin = bound;
+            }
+        }
+        pieces
+    }
+
+    /// Returns the term `weight` × C2D(q) of a sum over the spectrum, at a wave number q in rad/m.
+    pub fn term(&self, q: f64, weight: f64) -> Term {
+        let ln_q = q.ln();
+        Term {
+            weight,
+            ln_q,
+            place: self.place(ln_q),
+        }
+    }
+}
+
+/// A weight times C2D at ln q, which lies between a node and the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Term {
+    pub weight: f64,
+    pub ln_q: f64,
+    pub place: NodePlace,
+}
+
+impl Term {
+    /// Returns the value of the term for these values of ln C2D at the nodes.
+    pub fn value(&self, values: &[f64]) -> f64 {
+        self.weight * self.place.interpolate(values).exp()
+    }
+}

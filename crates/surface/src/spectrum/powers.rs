@@ -1,0 +1,217 @@
+//! Power spectra of all surfaces together: what the fits observe of them, and what figures show.
+
+use super::analysis::AnalysisOptions;
+use super::levelled::LevelledSurface;
+use super::map_power::MapPower;
+use super::nodes::WaveRange;
+use super::observation::{self, Observation};
+use super::periodogram::{Along, Bin, ProfilePower, Wave, bins};
+use super::point_results::SAME;
+use crate::error::SurfaceError;
+use crate::topography::surface::Topography;
+use std::f64::consts::PI;
+
+/// Smallest ratio of length to width of a map whose longest waves are taken from its rows alone.
+const NARROW: f64 = 2.0;
+
+/// Power spectra of all surfaces; profiles with equal points are summed.
+#[derive(Default)]
+pub(super) struct Powers {
+    pub profiles: Vec<ProfilePower>,
+    pub maps: Vec<MapPower>,
+    strips: Vec<Strip>,
+    /// Power spectra along the rows and along the columns of maps, for display.
+    axes: [Vec<ProfilePower>; 2],
+}
+
+/// Power spectrum along a long and narrow map.
+struct Strip {
+    power: ProfilePower,
+    /// Wave number in rad/m below which this spectrum replaces the spectrum of the map.
+    end: f64,
+}
+
+impl Powers {
+    /// Computes the power spectra of surfaces. With `quarters` above zero the heights differ by an
+    /// estimate of the error of interpolation, see [`Topography::copied_heights`].
+    pub fn of_reading(
+        surfaces: &[Topography],
+        options: &AnalysisOptions,
+        quarters: usize,
+    ) -> Result<Powers, SurfaceError> {
+        let mut powers = Powers::default();
+        for (index, surface) in surfaces.iter().enumerate() {
+            let levelled = LevelledSurface::new(index, surface, options, quarters)?;
+            powers.add(&levelled)?;
+        }
+        Ok(powers)
+    }
+
+    /// Adds the power spectra of a surface.
+    pub fn add(&mut self, surface: &LevelledSurface) -> Result<(), SurfaceError> {
+        if surface.rows == 1 {
+            return group(&mut self.profiles, surface, 0).add(rows(surface));
+        }
+        let [along_x, along_y] = &mut self.axes;
+        group(along_x, surface, 0).add(rows(surface))?;
+        group(along_y, surface, 1).add(columns(surface))?;
+
+        let map = MapPower::new(surface)?;
+        if let Some(axis) = long_axis(surface, &map) {
+            let mut power = new_power(surface, axis);
+            if axis == 0 {
+                power.add(rows(surface))?;
+            } else {
+                power.add(columns(surface))?;
+            }
+            let end = observation::least_of_map(&map);
+            self.strips.push(Strip { power, end });
+        }
+        self.maps.push(map);
+        Ok(())
+    }
+
+    /// Returns the observed powers of the waves up to this wave number in rad/m.
+    pub fn observations(&self, last: f64) -> Vec<Observation> {
+        let mut observations = Vec::new();
+        for profile in &self.profiles {
+            observations.extend(observation::of_profiles(profile, last));
+        }
+        for strip in &self.strips {
+            for mut observation in observation::of_profiles(&strip.power, strip.end) {
+                // Neighbouring rows are nearly equal in waves that long, so they count as one.
+                observation.waves /= strip.power.profiles as f64;
+                observations.push(observation);
+            }
+        }
+        for map in &self.maps {
+            observations.extend(observation::of_map(map, last));
+        }
+        observations
+    }
+
+    /// Returns the range of wave numbers from wave 1 of the longest surface to the last wave of the
+    /// finest surface, for profiles half a wave further. `count` returns the number of the waves
+    /// of a spectrum up to its last one.
+    pub fn range(&self, count: impl Fn(&[Wave]) -> usize) -> WaveRange {
+        let mut first = f64::INFINITY;
+        let mut last = 0.0_f64;
+        for profile in &self.profiles {
+            let waves = count(&profile.waves);
+            first = first.min(profile.step);
+            last = last.max((waves as f64 + 0.5) * profile.step);
+        }
+        for map in &self.maps {
+            let step = map.steps[0].min(map.steps[1]);
+            let last_of_map = match count(&map.waves) {
+                0 => step,
+                waves => map.waves[waves - 1].wave_number,
+            };
+            first = first.min(step);
+            last = last.max(last_of_map);
+        }
+        WaveRange { first, last }
+    }
+
+    /// Returns the largest [`MapPower::apart`] of all maps.
+    pub fn apart(&self) -> f64 {
+        self.maps.iter().map(|map| map.apart).fold(0.0, f64::max)
+    }
+
+    /// Returns the measured spectra for each direction of the waves, in bins of the wave number.
+    pub fn spectra(&self) -> Vec<(Along, Vec<Bin>)> {
+        let [along_x, along_y] = &self.axes;
+        let mut spectra = vec![
+            (Along::X, mean_bins(self.profiles.iter().chain(along_x))),
+            (Along::Y, mean_bins(along_y.iter())),
+            (Along::Radial, radial_bins(&self.maps)),
+        ];
+        spectra.retain(|(_, bins)| !bins.is_empty());
+        spectra
+    }
+}
+
+/// Returns the heights of each row.
+fn rows(surface: &LevelledSurface) -> impl Iterator<Item = impl Iterator<Item = f64>> {
+    surface
+        .heights
+        .chunks_exact(surface.columns)
+        .map(|row| row.iter().copied())
+}
+
+/// Returns the heights of each column.
+fn columns(surface: &LevelledSurface) -> impl Iterator<Item = impl Iterator<Item = f64>> {
+    (0..surface.columns).map(|column| {
+        let heights = surface.heights[column..].iter().copied();
+        heights.step_by(surface.columns).take(surface.rows)
+    })
+}
+
+/// Returns the axis of a long and narrow map along which the longest waves are taken from its rows
+/// or columns alone: 0 for the rows, 1 for the columns.
+fn long_axis(surface: &LevelledSurface, map: &MapPower) -> Option<usize> {
+    if !surface.windowed {
+        return None;
+    }
+    let [along_rows, along_columns] = map.steps;
+    if along_columns >= NARROW * along_rows {
+        return Some(0);
+    }
+    // Columns of levelled rows have lost their long waves.
+    if !surface.aligned && along_rows >= NARROW * along_columns {
+        return Some(1);
+    }
+    None
+}
+
+/// Returns the power spectrum of the profiles along an axis of the surface, without any profile.
+fn new_power(surface: &LevelledSurface, axis: usize) -> ProfilePower {
+    let points = [surface.columns, surface.rows];
+    ProfilePower::new(points[axis], surface.distances[axis], surface.windowed)
+}
+
+/// Returns the power spectrum of profiles with the same number and spacing of points as the
+/// profiles along an axis of the surface, a new one if there is none yet.
+fn group<'a>(
+    powers: &'a mut Vec<ProfilePower>,
+    surface: &LevelledSurface,
+    axis: usize,
+) -> &'a mut ProfilePower {
+    let new = new_power(surface, axis);
+    let is_equal = |power: &ProfilePower| {
+        power.points == new.points && (power.spacing / new.spacing - 1.0).abs() < SAME
+    };
+    let index = match powers.iter().position(is_equal) {
+        Some(index) => index,
+        None => {
+            powers.push(new);
+            powers.len() - 1
+        }
+    };
+    &mut powers[index]
+}
+
+/// Returns the mean power of profiles in bins of the wave number.
+fn mean_bins<'a>(powers: impl Iterator<Item = &'a ProfilePower>) -> Vec<Bin> {
+    let mut waves = Vec::new();
+    for power in powers {
+        for wave in &power.waves {
+            waves.push(Bin {
+                wave_number: wave.wave_number,
+                power: wave.power / power.profiles as f64,
+                waves: power.profiles,
+            });
+        }
+    }
+    bins(waves)
+}
+
+/// Returns q C2D/π of maps in bins of the wave number q.
+fn radial_bins(maps: &[MapPower]) -> Vec<Bin> {
+    let waves = maps.iter().flat_map(|map| &map.waves).map(|wave| Bin {
+        wave_number: wave.wave_number,
+        power: wave.wave_number * wave.power / PI,
+        waves: 1,
+    });
+    bins(waves)
+}

@@ -1,0 +1,288 @@
+//! The self-affine spectrum of largest likelihood: C2D is constant below a roll-off wave number and
+//! ∝ q^(−2−2H) above.
+
+use super::isotropic::{IsotropicSpectrum, cut};
+use super::likelihood::Model;
+use super::moments::ValueWithError;
+use super::scoring::{Linearised, Minimum, Objective, descend};
+use std::f64::consts::LN_10;
+
+/// Gain of the log-likelihood that justifies a roll-off. With one more parameter, chance exceeds
+/// this gain once in a hundred times.
+const LEAST_GAIN: f64 = 3.3;
+
+/// Number of initial roll-off wave numbers per decade.
+const STARTS_PER_DECADE: f64 = 4.0;
+
+/// Number of steps from each initial wave number.
+const FEW_STEPS: usize = 6;
+
+/// Largest number of steps from the best of these results.
+const MOST_STEPS: usize = 60;
+
+/// Smallest and largest Hurst exponent of the search.
+const HURST: [f64; 2] = [-0.5, 1.5];
+
+/// Hurst exponent from which the search begins.
+const INITIAL_HURST: f64 = 0.7;
+
+/// Largest share of the range of ln q below the roll-off. Above a third of the range no exponent
+/// could be determined.
+const LARGEST_ROLL_OFF: f64 = 0.67;
+
+/// Number of the parameters with a roll-off: level, exponent and roll-off.
+const WITH_ROLL_OFF: usize = 3;
+
+/// Number of the parameters without a roll-off: level and exponent.
+const WITHOUT_ROLL_OFF: usize = 2;
+
+/// Self-affine spectrum fitted to the powers of measured waves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelfAffineFit {
+    /// Hurst exponent H.
+    pub hurst: ValueWithError,
+    /// Roll-off wave number in rad/m; `None` if the fitted spectrum has no roll-off.
+    pub roll_off: Option<ValueWithError>,
+    /// Two-dimensional spectral density C2D in m⁴ at the roll-off wave number. If there is no
+    /// roll-off, it is C2D at the first wave number of the fit.
+    pub level: ValueWithError,
+}
+
+impl SelfAffineFit {
+    /// Returns the power spectral density in m³ of a cut, a profile across the surface, at a wave
+    /// number. `range` has the first and the last wave number of the surface. All wave numbers are
+    /// in rad/m.
+    pub fn cut(&self, wave_number: f64, range: [f64; 2]) -> f64 {
+        let [first, last] = range;
+        let corner = match self.roll_off {
+            Some(roll_off) => roll_off.value,
+            None => first,
+        };
+        let level = self.level.value;
+        let exponent = -2.0 - 2.0 * self.hurst.value;
+        let c2d = |q: f64| level * (q / corner).max(1.0).powf(exponent);
+        cut(c2d, wave_number, last)
+    }
+}
+
+/// Fits a self-affine spectrum to the observations of a model. `isotropic` is the fit with nodes to
+/// the same observations. `None` if the fit does not converge or no exponent between 0 and 1 fits.
+pub(super) fn fit_self_affine(
+    model: &Model<'_>,
+    isotropic: &IsotropicSpectrum,
+) -> Option<SelfAffineFit> {
+    let search = Search::new(model);
+    let without = search.without_roll_off()?;
+    let with = search.with_roll_off();
+    let hurst_with = match with {
+        Some(with) => with.parameters.hurst,
+        None => without.parameters.hurst,
+    };
+    let (best, free) = match with {
+        Some(with) if without.value - with.value > LEAST_GAIN => (with, WITH_ROLL_OFF),
+        _ => (without, WITHOUT_ROLL_OFF),
+    };
+    let parameters = best.parameters;
+
+    // For a self-affine surface the mean of twice the difference is the number of further
+    // parameters of the isotropic spectrum.
+    let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
+    let excess = 2.0 * (best.value - misfit_of_nodes);
+    let further = isotropic.values.len() - free;
+    let scale = (excess / further as f64).max(1.0).sqrt();
+    let information = search.likelihood(free).linearise(&parameters).factor()?;
+    let error = |index: usize| scale * information.standard_error(index);
+    let is_possible = 0.0 < parameters.hurst && parameters.hurst < 1.0;
+    if !is_possible {
+        return None;
+    }
+    let roll_off = if free == WITH_ROLL_OFF {
+        Some(exponential(parameters.roll_off, error(2)))
+    } else {
+        None
+    };
+    Some(SelfAffineFit {
+        hurst: ValueWithError {
+            value: parameters.hurst,
+            // The surface may have a roll-off that the data cannot tell from chance.
+            error: error(1).hypot(hurst_with - parameters.hurst),
+        },
+        roll_off,
+        level: exponential(parameters.level, error(0)),
+    })
+}
+
+/// Returns the exponential of a value with a standard error.
+fn exponential(value: f64, error: f64) -> ValueWithError {
+    ValueWithError {
+        value: value.exp(),
+        error: value.exp() * error,
+    }
+}
+
+/// Parameters of the self-affine fit.
+#[derive(Clone, Copy, Debug)]
+struct Parameters {
+    /// ln C2D at the roll-off.
+    level: f64,
+    /// Hurst exponent H.
+    hurst: f64,
+    /// ln q of the roll-off.
+    roll_off: f64,
+}
+
+impl Parameters {
+    /// Returns C2D in m⁴ at ln q.
+    fn c2d(&self, ln_q: f64) -> f64 {
+        (self.level - self.exponent() * (ln_q - self.roll_off).max(0.0)).exp()
+    }
+
+    fn exponent(&self) -> f64 {
+        2.0 + 2.0 * self.hurst
+    }
+
+    /// Returns the parameters from which a search for this roll-off begins.
+    fn initial(model: &Model<'_>, roll_off: f64) -> Parameters {
+        let mut parameters = Parameters {
+            level: 0.0,
+            hurst: INITIAL_HURST,
+            roll_off,
+        };
+        let mut sum = 0.0;
+        let mut waves = 0.0;
+        for (observed, mean) in model.observations.iter().zip(means(model, &parameters)) {
+            if observed.power > 0.0 && mean > 0.0 {
+                sum += observed.waves * (observed.power / mean).ln();
+                waves += observed.waves;
+            }
+        }
+        parameters.level = sum / waves.max(1.0);
+        parameters
+    }
+}
+
+/// Returns the means of the observed powers.
+fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<Item = f64> + 'a {
+    model.terms.iter().map(|terms| {
+        terms
+            .iter()
+            .map(|term| term.weight * parameters.c2d(term.ln_q))
+            .sum()
+    })
+}
+
+/// Searches for the parameters over a range of roll-off wave numbers.
+struct Search<'a> {
+    model: &'a Model<'a>,
+    /// Smallest and largest ln q of a roll-off.
+    roll_off: [f64; 2],
+}
+
+impl<'a> Search<'a> {
+    fn new(model: &'a Model<'_>) -> Self {
+        let low = model.nodes.first;
+        let high = low + model.nodes.step * (model.nodes.count - 1) as f64;
+        Search {
+            model,
+            roll_off: [low, low + LARGEST_ROLL_OFF * (high - low)],
+        }
+    }
+
+    fn without_roll_off(&self) -> Option<Minimum<Parameters>> {
+        let start = Parameters::initial(self.model, self.model.nodes.first);
+        descend(&self.likelihood(WITHOUT_ROLL_OFF), start, MOST_STEPS)
+    }
+
+    /// Searches from several roll-off wave numbers, and from the best result with more steps.
+    fn with_roll_off(&self) -> Option<Minimum<Parameters>> {
+        let [low, high] = self.roll_off;
+        let starts = (STARTS_PER_DECADE * (high - low) / LN_10).ceil().max(1.0);
+        let mut best: Option<Minimum<Parameters>> = None;
+        for index in 1..=starts as usize {
+            let roll_off = low + (high - low) * index as f64 / starts;
+            let Some(found) = self.near(roll_off) else {
+                continue;
+            };
+            if best.is_none_or(|best| found.value < best.value) {
+                best = Some(found);
+            }
+        }
+        let likelihood = self.likelihood(WITH_ROLL_OFF);
+        descend(&likelihood, best?.parameters, MOST_STEPS)
+    }
+
+    /// Searches near a roll-off: level and exponent first, then all three parameters.
+    fn near(&self, roll_off: f64) -> Option<Minimum<Parameters>> {
+        let start = Parameters::initial(self.model, roll_off);
+        let fixed = descend(&self.likelihood(WITHOUT_ROLL_OFF), start, FEW_STEPS)?;
+        let likelihood = self.likelihood(WITH_ROLL_OFF);
+        descend(&likelihood, fixed.parameters, FEW_STEPS)
+    }
+
+    /// Returns the negative log-likelihood as a function of the first `free` parameters.
+    fn likelihood(&self, free: usize) -> SelfAffineLikelihood<'a> {
+        SelfAffineLikelihood {
+            model: self.model,
+            free,
+            roll_off: self.roll_off,
+        }
+    }
+}
+
+/// The negative log-likelihood as a function of the first `free` parameters.
+struct SelfAffineLikelihood<'a> {
+    model: &'a Model<'a>,
+    free: usize,
+    /// Smallest and largest ln q of a roll-off.
+    roll_off: [f64; 2],
+}
+
+impl Objective for SelfAffineLikelihood<'_> {
+    type Parameters = Parameters;
+
+    fn value(&self, parameters: &Parameters) -> f64 {
+        self.model.misfit(means(self.model, parameters))
+    }
+
+    fn linearise(&self, parameters: &Parameters) -> Linearised {
+        let free = self.free;
+        let mut linearised = Linearised::zeros(free);
+        for (observed, terms) in self.model.observations.iter().zip(&self.model.terms) {
+            let mut mean = 0.0;
+            let mut slope = [0.0; WITH_ROLL_OFF];
+            for term in terms {
+                let value = term.weight * parameters.c2d(term.ln_q);
+                let above = (term.ln_q - parameters.roll_off).max(0.0);
+                mean += value;
+                slope[0] += value;
+                slope[1] -= 2.0 * above * value;
+                if above > 0.0 {
+                    slope[2] += parameters.exponent() * value;
+                }
+            }
+            let residual = observed.waves * (1.0 - observed.power / mean);
+            for row in 0..free {
+                linearised.gradient[row] += residual * slope[row] / mean;
+                for column in 0..=row {
+                    let product = observed.waves * slope[row] * slope[column];
+                    linearised.information[row * free + column] += product / (mean * mean);
+                }
+            }
+        }
+        linearised
+    }
+
+    fn moved(&self, parameters: &Parameters, step: &[f64], share: f64) -> Parameters {
+        // A parameter that is not free has no step.
+        let limited = |index: usize, most: f64| match step.get(index) {
+            Some(step) => (share * step).clamp(-most, most),
+            None => 0.0,
+        };
+        let [low, high] = self.roll_off;
+        Parameters {
+            level: parameters.level - limited(0, 3.0),
+            hurst: (parameters.hurst - limited(1, 0.3)).clamp(HURST[0], HURST[1]),
+            roll_off: (parameters.roll_off - limited(2, 0.7)).clamp(low, high),
+        }
+    }
+}

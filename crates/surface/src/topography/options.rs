@@ -1,0 +1,36 @@
+//! Options for reading a surface.
+
+use super::cut::Cut;
+use super::unit::Unit;
+
+/// Options for reading a surface: units and distances that a file may omit, the part of the file to
+/// read, and corrections of the heights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Unit of positions and heights if the file states none.
+    pub unit: Option<Unit>,
+    /// Unit of the heights if the file states none for them; `None` means the unit in `unit`.
+    pub height_unit: Option<Unit>,
+    /// Unit of positions and heights that is assumed if the file states none and `unit` is `None`.
+    pub convention: Option<Unit>,
+    /// Distance between neighbouring points in m if the file states none.
+    pub spacing: Option<f64>,
+    /// True if missing heights are interpolated from their neighbours. Otherwise a missing height
+    /// is an error.
+    pub interpolate: bool,
+    /// Number, from 0, of the channel to read from a file with several channels.
+    pub channel: Option<u32>,
+    /// Row or column of a map that is read as a profile. With `None` the whole map is read.
+    pub cut: Option<Cut>,
+    /// True if a profile with uneven distances between points is interpolated at evenly spaced
+    /// points.
+    pub resample: bool,
+    /// True if the median height of each row of a map is subtracted from the row, which removes
+    /// offsets between rows.
+    pub align_rows: bool,
+    /// True if outliers, such as spikes of the instrument, are replaced by heights interpolated
+    /// from their neighbours.
+    pub robust: bool,
+    /// Name of the surface or of the measurement to read from an archive with several measurements.
+    pub surface_name: Option<String>,
+}

@@ -1,0 +1,55 @@
+//! Positions of points: whether they lie on an even grid, and interpolation between them.
+
+use asperity_data::between;
+
+/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them,
+/// lengths and mean squares could overflow.
+pub(super) const LARGEST: f64 = 1.0e9;
+
+/// Share of the spacing by which points of an even grid may be displaced because of rounding.
+pub(crate) const UNEVEN: f64 = 1.0e-3;
+
+/// Returns the index of the first position that lies off the even grid with this first position (m)
+/// and distance (m).
+pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
+    let most = UNEVEN * distance.abs();
+    let is_even = |index: usize, position: f64| {
+        let off = position - first - index as f64 * distance;
+        off.abs() <= most
+    };
+    (0..positions.len()).find(|index| !is_even(*index, positions[*index]))
+}
+
+/// Returns the mean distance between at least two positions.
+pub(super) fn mean_distance(positions: &[f64]) -> f64 {
+    (positions[positions.len() - 1] - positions[0]) / (positions.len() - 1) as f64
+}
+
+/// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between
+/// at least two points. At a point it is its own height, bit for bit. Beyond the first and the last
+/// point it is the height of that point.
+pub(crate) fn interpolated(
+    positions: &[f64],
+    heights: &[f64],
+    level: f64,
+    places: impl Iterator<Item = f64>,
+) -> impl Iterator<Item = f64> {
+    let mut piece = 0;
+    places.map(move |x| {
+        while piece + 2 < positions.len() && positions[piece + 1] < x {
+            piece += 1;
+        }
+        let before = positions[piece];
+        let after = positions[piece + 1];
+        let height_before = heights[piece] - level;
+        let height_after = heights[piece + 1] - level;
+        if x <= before {
+            height_before
+        } else if x >= after {
+            height_after
+        } else {
+            let share = (x - before) / (after - before);
+            between(height_before, height_after, share)
+        }
+    })
+}

@@ -1,0 +1,317 @@
+//! Meaning of lines of numbers: heights, a profile, points of a map, or rows of a map.
+
+use super::super::grid::PointList;
+use super::super::printed::{Digits, move_to_printed_grid};
+use super::super::reading::Reading;
+use super::super::stated_units::StatedUnits;
+use super::super::transpose::transposed;
+use super::super::unit::Unit;
+use super::columns::{List, list_of};
+use super::header::{TextHeader, X, Y, Z};
+use super::table::{FEW_COLUMNS, Table};
+use super::{matrix, warnings};
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::text_table::{Role, TextColumn};
+use asperity_data::{gathered, shown};
+use std::ops::Range;
+
+const COLUMNS: &str = "text columns";
+
+const MATRIX: &str = "text matrix";
+
+impl Table {
+    /// Returns the surface in these rows. `is_open` is true if the last line has no line end.
+    pub fn reading(
+        mut self,
+        header: &TextHeader,
+        rows: Range<usize>,
+        is_open: bool,
+    ) -> Result<Reading, SurfaceError> {
+        self.decimal.check()?;
+        if rows.len() < self.rows() {
+            self.keep_rows(rows);
+        }
+        let names = &header.lines;
+        let columns = names.columns(self.columns(), self.cells(), self.separator, Unit::is_name);
+        let reading = match list_of(&columns)? {
+            Some(list) => self.list(header, &columns, list, is_open)?,
+            None => self.map(header, is_open)?,
+        };
+        Ok(reading.scaled(|_| false, header.scale()))
+    }
+
+    /// Returns the surface in a list of points.
+    fn list(
+        self,
+        header: &TextHeader,
+        columns: &[TextColumn],
+        list: List,
+        is_open: bool,
+    ) -> Result<Reading, SurfaceError> {
+        self.check_counts(self.rows(), self.columns())?;
+        let heights = self.heights(columns, list)?;
+        let missing = heights.iter().position(|height| height.is_nan());
+        let first_missing = missing.map(|row| self.place(row));
+        let warnings = warnings::of_heights(&heights, is_open, |row| self.place(row));
+        let units = ColumnUnits::new(header, columns, list);
+        let reading = match (list.x, list.y) {
+            (Some(x), Some(y)) => self.points(x, y, heights, units)?,
+            (Some(x), None) => self.profile(x, heights, units)?,
+            (None, _) => even(heights, header, units),
+        };
+        Ok(Reading {
+            first_missing,
+            warnings,
+            ..reading
+        })
+    }
+
+    /// Returns the heights of a list, with NaN for the points that its column `valid` leaves out.
+    fn heights(&self, columns: &[TextColumn], list: List) -> Result<Vec<f64>, SurfaceError> {
+        let mut heights = self.column(list.height)?;
+        let Some(valid) = list.valid else {
+            return Ok(heights);
+        };
+        for (row, height) in heights.iter_mut().enumerate() {
+            let mark = self.values[row * self.cells() + valid];
+            if mark == 0.0 {
+                *height = f64::NAN;
+            } else if mark != 1.0 {
+                let name = shown(&columns[valid].name);
+                let found = format!("{mark:e} in the column {name:?}");
+                let allowed = "1 for a measured point, or 0";
+                return Err(refused(self.place(row), found, allowed));
+            }
+        }
+        Ok(heights)
+    }
+
+    /// Returns the map of points with positions of their own.
+    fn points(
+        mut self,
+        x: usize,
+        y: usize,
+        heights: Vec<f64>,
+        units: ColumnUnits,
+    ) -> Result<Reading, SurfaceError> {
+        let x_positions = self.column(x)?;
+        let y_positions = self.take_column(y);
+        self.check_measured(&y_positions)?;
+        self.check_measured(&x_positions)?;
+        let list = PointList {
+            x: &x_positions,
+            y: &y_positions,
+            heights: &heights,
+            digits: [self.digits_of(x), self.digits_of(y)],
+            place: |row: usize| self.place(row),
+        };
+        let map = list.map()?;
+        let units = StatedUnits {
+            along: units.x,
+            between: units.y,
+            heights: units.heights,
+        };
+        check_both(units)?;
+        let heights = map.heights;
+        Ok(Reading::even(
+            COLUMNS,
+            heights,
+            map.columns,
+            map.distances,
+            units,
+        ))
+    }
+
+    fn profile(
+        mut self,
+        x: usize,
+        heights: Vec<f64>,
+        units: ColumnUnits,
+    ) -> Result<Reading, SurfaceError> {
+        let mut positions = self.take_column(x);
+        self.check_measured(&positions)?;
+        move_to_printed_grid(&mut positions, self.digits_of(x))?;
+        self.check_order(&positions)?;
+        let units = StatedUnits::new(units.x, units.heights);
+        Ok(Reading::profile(COLUMNS, positions, heights, units))
+    }
+
+    /// Returns the surface in rows of a map.
+    fn map(mut self, header: &TextHeader, is_open: bool) -> Result<Reading, SurfaceError> {
+        let columns_with_positions = self.columns();
+        self.keep_columns(columns_with_positions);
+        let values = std::mem::take(&mut self.values);
+        let digits = [self.first_line, self.digits[0]];
+        let place = |row: usize| self.place(row);
+        let map = matrix::without_positions(values, columns_with_positions, digits, place)?;
+        let columns = map.columns;
+        let rows = map.heights.len() / columns;
+        self.check_counts(rows, columns)?;
+        check_stated(columns, header.counts[0], "columns")?;
+        check_stated(rows, header.counts[1], "rows")?;
+
+        // Positions take the first row and column.
+        let rows_above = columns_with_positions - columns;
+        let place_of_point = |index: usize| place(index / columns + rows_above);
+        let warnings = warnings::of_heights(&map.heights, is_open, place_of_point);
+        let first_missing = map.heights.iter().position(|height| height.is_nan());
+
+        let stated = header.distances(columns, rows);
+        let mut units = StatedUnits {
+            along: header.unit(X, None),
+            between: header.unit(Y, None),
+            heights: header.unit(Z, None),
+        };
+        if stated.is_some() {
+            // The header has converted them.
+            units.along = Some(Unit::METRE);
+            units.between = Some(Unit::METRE);
+        }
+        if stated.is_some() || map.distances.is_some() {
+            check_both(units)?;
+        }
+        let reading = if header.is_along_y {
+            let heights = transposed(&map.heights, columns)?;
+            let stated = stated.map(|[along, between]| [between, along]);
+            Reading::even(MATRIX, heights, rows, stated.or(map.distances), units)
+        } else {
+            let distances = stated.or(map.distances);
+            Reading::even(MATRIX, map.heights, columns, distances, units)
+        };
+        Ok(Reading {
+            first_missing: first_missing.map(place_of_point),
+            warnings,
+            ..reading
+        })
+    }
+
+    fn place(&self, row: usize) -> Place {
+        Place::Line(self.line(row))
+    }
+
+    fn column(&self, column: usize) -> Result<Vec<f64>, SurfaceError> {
+        let values = self.values.iter().skip(column).step_by(self.cells());
+        Ok(gathered(self.rows(), values.copied())?)
+    }
+
+    fn digits_of(&self, column: usize) -> Digits {
+        self.digits[column.min(FEW_COLUMNS - 1)]
+    }
+
+    fn check_measured(&self, positions: &[f64]) -> Result<(), SurfaceError> {
+        let Some(row) = positions.iter().position(|x| x.is_nan()) else {
+            return Ok(());
+        };
+        let place = self.place(row);
+        Err(refused(
+            place,
+            "a position is missing",
+            "a number for each position",
+        ))
+    }
+
+    /// Returns an error unless the numbers before the first row are the numbers of rows, of
+    /// distances between them, of columns or of points.
+    fn check_counts(&self, rows: usize, columns: usize) -> Result<(), SurfaceError> {
+        let Some(counts) = &self.counts else {
+            return Ok(());
+        };
+        let known = [rows, rows - 1, columns, rows * columns].map(|count| count as f64);
+        let are_known = counts.values.iter().all(|count| known.contains(count));
+        if are_known || counts.values.iter().product::<f64>() == rows as f64 {
+            return Ok(());
+        }
+        let numbers: Vec<String> = counts.values.iter().map(f64::to_string).collect();
+        let numbers = numbers.join(" ");
+        let found =
+            format!("{numbers} is no count of the {rows} lines of {columns} columns that follow");
+        let allowed =
+            format!("numbers of lines, of columns or of points, or {columns} columns throughout");
+        Err(refused(Place::Line(counts.line), found, allowed))
+    }
+
+    /// Returns an error unless the positions of a profile all ascend or all descend.
+    fn check_order(&self, positions: &[f64]) -> Result<(), SurfaceError> {
+        let [first, second, ..] = positions else {
+            return Ok(());
+        };
+        let ascends = first < second;
+        let descends = first > second;
+        for (row, pair) in positions.windows(2).enumerate() {
+            let is_ordered = (ascends && pair[0] < pair[1]) || (descends && pair[0] > pair[1]);
+            if is_ordered {
+                continue;
+            }
+            let allowed = if ascends {
+                "ascending positions, as before"
+            } else if descends {
+                "descending positions, as before"
+            } else {
+                "another position than before"
+            };
+            let found = format!("x = {:e} after {:e}", pair[1], pair[0]);
+            return Err(refused(self.place(row + 1), found, allowed));
+        }
+        Ok(())
+    }
+}
+
+/// Units of the columns of a list.
+#[derive(Clone, Copy)]
+struct ColumnUnits {
+    /// Unit of the positions of a profile, or of x.
+    x: Option<Unit>,
+    y: Option<Unit>,
+    heights: Option<Unit>,
+}
+
+impl ColumnUnits {
+    fn new(header: &TextHeader, columns: &[TextColumn], list: List) -> Self {
+        let unit = |axis: usize, column: usize| header.unit(axis, Some(&columns[column]));
+        let is_y = |column: usize| columns[column].role == Role::Y;
+        let mut heights = unit(Z, list.height);
+        if heights.is_none() && is_y(list.height) {
+            // Of the columns X and Y the second one is the height.
+            heights = unit(Y, list.height);
+        }
+        let x = list.x.and_then(|x| match list.y {
+            None if is_y(x) => unit(Y, x),
+            _ => unit(X, x),
+        });
+        ColumnUnits {
+            x,
+            y: list.y.and_then(|y| unit(Y, y)),
+            heights,
+        }
+    }
+}
+
+/// Returns evenly spaced heights without positions.
+fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
+    let points = heights.len();
+    let units = StatedUnits::new(header.unit(X, None), units.heights);
+    Reading::even(COLUMNS, heights, points, None, units)
+}
+
+/// Returns an error if one of the two axes of positions has a unit and the other has none.
+fn check_both(units: StatedUnits) -> Result<(), SurfaceError> {
+    let unit = match (units.along, units.between) {
+        (Some(unit), None) | (None, Some(unit)) => unit,
+        _ => return Ok(()),
+    };
+    let found = format!("{unit} is the unit of one position, and the other one has none");
+    let allowed = "units of both x and y in the file, or of none";
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Returns an error unless there are as many columns or rows as the header states.
+fn check_stated(count: usize, stated: Option<usize>, name: &str) -> Result<(), SurfaceError> {
+    match stated {
+        Some(stated) if stated != count => {
+            let found = format!("{count} {name} of numbers, {stated} in the header");
+            let allowed = "as many as the header states";
+            Err(refused(Place::File, found, allowed))
+        }
+        _ => Ok(()),
+    }
+}

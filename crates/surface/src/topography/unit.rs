@@ -1,0 +1,157 @@
+//! Units of length.
+
+use crate::error::{Place, SurfaceError, refused};
+use asperity_data::shown;
+use std::fmt;
+use std::str::FromStr;
+
+/// A unit with its spellings.
+struct KnownUnit {
+    unit: Unit,
+    other_names: &'static str,
+}
+
+const fn known(name: &'static str, per_metre: f64, other_names: &'static str) -> KnownUnit {
+    KnownUnit {
+        unit: Unit { name, per_metre },
+        other_names,
+    }
+}
+
+const UNITS: [KnownUnit; 7] = [
+    known("m", 1.0, "meter metre meters metres"),
+    known("cm", 1e2, "centimeter centimetre"),
+    known("mm", 1e3, "millimeter millimetre millimeters millimetres"),
+    known(
+        "µm",
+        1e6,
+        "μm um mum micron microns micrometer micrometre micrometers micrometres",
+    ),
+    known("nm", 1e9, "nanometer nanometre nanometers nanometres"),
+    known("Å", 1e10, "\u{212b} Ang angstrom ångström angstroms"),
+    known("pm", 1e12, "picometer picometre"),
+];
+
+/// Number of letters up to which the name of a unit is a symbol, in which capitals matter.
+const LONGEST_SYMBOL: usize = 3;
+
+/// A unit of length that a file or an option may state, such as µm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    name: &'static str,
+    /// Exact power of ten, so that a division rounds once.
+    per_metre: f64,
+}
+
+impl Unit {
+    /// Names of all units of length that can be read, for messages of errors.
+    pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
+
+    /// The unit metre.
+    pub const METRE: Unit = Unit {
+        name: "m",
+        per_metre: 1.0,
+    };
+
+    /// Returns true for the name of a unit of length.
+    pub(crate) fn is_name(text: &str) -> bool {
+        text.parse::<Unit>().is_ok()
+    }
+
+    /// Returns the usual symbol of the unit, such as `µm`.
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// Returns the unit that a file states at this place; `None` for an empty text.
+    pub(super) fn stated(text: &str, place: Place) -> Result<Option<Unit>, SurfaceError> {
+        if text.is_empty() {
+            return Ok(None);
+        }
+        Unit::named(text, place).map(Some)
+    }
+
+    fn named(text: &str, place: Place) -> Result<Unit, SurfaceError> {
+        let text = text.trim();
+        let known = UNITS.iter().find(|known| known.has_name(text));
+        match known {
+            Some(known) => Ok(known.unit),
+            None => {
+                let found = format!("{:?} is not a unit of length", shown(text));
+                Err(refused(place, found, Unit::ALLOWED))
+            }
+        }
+    }
+
+    /// Converts a length in this unit to m.
+    ///
+    /// ```
+    /// let micrometres: asperity_surface::Unit = "um".parse()?;
+    /// assert_eq!((micrometres.name(), micrometres.to_metres(5.0)), ("µm", 5e-6));
+    /// assert!("px".parse::<asperity_surface::Unit>().is_err());
+    /// # Ok::<(), asperity_surface::SurfaceError>(())
+    /// ```
+    pub fn to_metres(self, value: f64) -> f64 {
+        value / self.per_metre
+    }
+}
+
+impl KnownUnit {
+    fn has_name(&self, text: &str) -> bool {
+        let is_name = |name: &str| {
+            let is_symbol = name.chars().count() <= LONGEST_SYMBOL;
+            name == text || (!is_symbol && name.eq_ignore_ascii_case(text))
+        };
+        self.unit.name == text || self.other_names.split(' ').any(is_name)
+    }
+}
+
+impl FromStr for Unit {
+    type Err = SurfaceError;
+
+    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`; words are
+    /// not.
+    fn from_str(text: &str) -> Result<Unit, SurfaceError> {
+        Unit::named(text, Place::File)
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_names_and_values() {
+        for (text, metres) in [
+            ("m", 1.0),
+            ("mm", 1e-3),
+            ("um", 1e-6),
+            ("\u{b5}m", 1e-6),
+            ("\u{3bc}m", 1e-6),
+            (" Micron ", 1e-6),
+            ("nm", 1e-9),
+            ("Å", 1e-10),
+        ] {
+            assert_eq!(
+                text.parse::<Unit>().unwrap().to_metres(1.0),
+                metres,
+                "{text}"
+            );
+        }
+        for text in ["", "Mm", "V", "MM", "px", "a.u.", "m²"] {
+            assert!(
+                text.parse::<Unit>()
+                    .unwrap_err()
+                    .to_string()
+                    .contains("allowed: m, cm"),
+                "{text}"
+            );
+        }
+    }
+}
