@@ -279,7 +279,9 @@ fn separation(first: Parameter, second: Parameter) -> String {
     let first = first.row().symbol;
     let second = second.row().symbol;
     if first == second {
-        return format!("The curve does not determine {first} within its range. It needs {remedy}.");
+        return format!(
+            "The curve does not determine {first} within its range. It needs {remedy}."
+        );
     }
     format!("The curve does not separate {first} and {second}. That needs {remedy}.")
 }

@@ -99,8 +99,7 @@ impl ReferenceProgress {
                 let threads = counted(threads as u64, "thread");
                 let time = in_words(seconds);
                 let memory = memory_size(bytes);
-                let line =
-                    format!("{squares} on {threads}: about {time} and {memory} of memory");
+                let line = format!("{squares} on {threads}: about {time} and {memory} of memory");
                 return (line, seconds >= LONG);
             }
             ReferenceEvent::Profiles { count, lines } => {
