@@ -26,7 +26,6 @@ const INDEPENDENT: &str = "Each curve counts as a place with a profile of its ow
 /// computed curves of random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Result of [`fit_ensemble`](asperity_experiment::fit_ensemble).
     pub fit: &'a EnsembleFit,

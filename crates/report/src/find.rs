@@ -19,7 +19,6 @@ const MOST_LISTED: usize = 8;
 /// value of a result, such as the adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene in which the number is varied.
     pub scene: &'a Scene,
@@ -226,7 +225,8 @@ fn at_touch_in_words(found: &Found) -> String {
 }
 
 /// Returns a range of values of a quantity in words.
-fn values_in_words(quantity: Quantity, (least, most): (f64, f64)) -> String {
+fn values_in_words(quantity: Quantity, range: (f64, f64)) -> String {
+    let (least, most) = range;
     one_unit([least, most].map(|value| rounded(quantity, value, 4)))
 }
 

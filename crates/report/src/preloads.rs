@@ -23,7 +23,6 @@ const MOST_DECADES: f64 = 6.0;
 /// Report on the adhesion force as a function of the preload, for one or more random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
     /// tolerance was given.

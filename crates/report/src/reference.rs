@@ -21,7 +21,6 @@ use std::time::{Duration, Instant};
 /// does, and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene that is computed in both ways.
     pub scene: &'a Scene,

@@ -24,7 +24,6 @@ const MOST_CELLS: usize = 128;
 /// turning point, and F(d_r, d) is the force at d on the unloading from d_r.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,

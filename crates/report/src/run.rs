@@ -21,9 +21,7 @@ use serde::Serialize;
 /// Report on all results of one computed scene, such as its force curve and adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
-    /// Scene that was computed.
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,

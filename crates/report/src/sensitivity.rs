@@ -29,7 +29,6 @@ const PROFILES: &str = "profiles";
 /// least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,

@@ -40,7 +40,6 @@ impl Sheet {
         sheet.into_text()
     }
 
-    /// Returns the finished text.
     pub fn into_text(self) -> String {
         self.text
     }

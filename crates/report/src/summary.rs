@@ -28,8 +28,8 @@ pub(crate) struct Summary<'a> {
     pub(crate) choice: Option<&'a Choice>,
     /// Results over random profiles; `None` if they were not computed.
     pub(crate) ensemble: Option<&'a Ensemble>,
-    /// Deviation of the adhesion force due to the spectrum of a measured surface, in N; `None` if it
-    /// was not computed.
+    /// Deviation of the adhesion force due to the spectrum of a measured surface, in N; `None` if
+    /// it was not computed.
     pub(crate) deviation: Option<f64>,
 }
 
@@ -56,7 +56,14 @@ impl Summary<'_> {
         add_line(&mut sheet, outcome);
         add_bodies(&mut sheet, outcome);
         self.add_adhesion(&mut sheet);
-        add_trust(&mut sheet, self);
+        add_trust(
+            &mut sheet,
+            self.scene,
+            outcome,
+            self.estimate,
+            self.ensemble,
+            self.deviation,
+        );
         add_contact(&mut sheet, outcome);
         add_cost(&mut sheet, &outcome.history.work, &outcome.timings);
         if let Some(choice) = self.choice {

@@ -3,7 +3,6 @@
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
-use crate::summary::Summary;
 use asperity_data::{Warning, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
@@ -12,15 +11,14 @@ use asperity_study::trust::{Budget, criteria};
 
 /// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their
 /// sources.
-pub(crate) fn add_trust(sheet: &mut Sheet, summary: &Summary<'_>) {
-    let Summary {
-        scene,
-        outcome,
-        estimate,
-        ensemble,
-        deviation,
-        ..
-    } = *summary;
+pub(crate) fn add_trust(
+    sheet: &mut Sheet,
+    scene: &Scene,
+    outcome: &Outcome,
+    estimate: Option<&Estimate>,
+    ensemble: Option<&Ensemble>,
+    deviation: Option<f64>,
+) {
     let theories = theory_rows(scene, outcome, ensemble);
     let heading = "Adhesion without a preload, by several theories";
     add_rows(sheet, heading, theories);

