@@ -433,7 +433,7 @@ impl Report for FitsReport<'_> {
     }
 
     /// Returns a histogram of the first parameter, in which bars of curves that are not described
-    /// stand on bars of described curves.
+    /// are on top of the bars of described curves.
     fn figure(&self) -> Option<Figure> {
         let row = self.free.first()?.row();
         let values = self.first_parameter();
@@ -475,7 +475,7 @@ type Bar = ((f64, f64), (f64, f64));
 /// Numbers of curves over the first parameter.
 struct Histogram {
     described: Vec<Bar>,
-    /// Bars of curves that are not described, which stand on the bars of described curves.
+    /// Bars of curves that are not described, on top of the bars of described curves.
     others: Vec<Bar>,
     /// Largest number of curves in a bar of the parameter, at least 1.
     most: f64,

@@ -179,7 +179,7 @@ impl ScenesReport<'_> {
                 None => "-".to_owned(),
             });
         }
-        // The quartiles stand below the median of the adhesion force, which is the first row.
+        // The quartiles follow the median of the adhesion force, which is the first row.
         rows.insert(1.min(rows.len()), quartiles);
         rows
     }

@@ -167,7 +167,7 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
         present_row(sensitivity, has_profiles),
     ];
     for side in sides(sensitivity, 0, most) {
-        // Name and value stand in the first of both rows.
+        // Only the first of both rows has name and value.
         let mut name = String::new();
         let mut value = String::new();
         if side.side == 0 {

@@ -49,7 +49,7 @@ fn add_shards(sheet: &mut Sheet, status: &Status) {
     let mut rows = vec![header.map(String::from)];
     for shard in &status.shards {
         for (index, attempt) in shard.attempts.iter().enumerate() {
-            // The numbers of a shard stand in the first of its rows.
+            // Only the first row of a shard has its numbers.
             let [name, done, total] = if index == 0 {
                 [
                     shard.shard.clone(),

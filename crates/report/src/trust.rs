@@ -53,7 +53,7 @@ pub fn theory_rows(
         let words = "do not apply: the body is smooth".to_owned();
         rows.push(("criteria of roughness", words));
     }
-    // The name of a theory stands in the first of its rows.
+    // Only the first row of a theory has its name.
     let mut last_name = "";
     for criterion in criteria {
         let name = if criterion.name == last_name {
