@@ -19,7 +19,7 @@ use super::text_line::TextLine;
 use super::theme::Appearance;
 use asperity_contact::{LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
-use asperity_report::{LoopQuantities, Section, counted_texts, warning_texts};
+use asperity_report::{LoopQuantities, Section, counted_texts, percent, warning_texts};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
@@ -515,5 +515,5 @@ impl App {
 }
 
 fn share_in_words(share: f64) -> String {
-    format!("F_a/F_a,max {} %", format_rounded(100.0 * share, 2, "1"))
+    format!("F_a/F_a,max {}", percent(share, 2))
 }

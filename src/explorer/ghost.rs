@@ -22,8 +22,3 @@ impl Ghost {
         }
     }
 }
-
-pub fn letter(number: usize) -> &'static str {
-    const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
-    LETTERS[number % LETTERS.len()]
-}

@@ -3,7 +3,7 @@
 //! ratatui breaks lines too, but where a word has wide characters or begins with a combining mark,
 //! as in titles and typed values, it overruns its area and panics.
 
-use asperity_data::{belong_together, grouped};
+use asperity_data::belong_together;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 
@@ -135,12 +135,6 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
         }
     }
     lines
-}
-
-/// A number of things: `1 spring`, `1 024 springs`.
-pub fn counted(number: u64, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{} {thing}{plural}", grouped(number))
 }
 
 #[cfg(test)]

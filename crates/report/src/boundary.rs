@@ -10,107 +10,120 @@ use std::cmp::Ordering;
 
 impl Report for Boundaries {
     fn text(&self) -> Option<String> {
-        let mut heading: Vec<String> = self
+        let symbol = self.symbol();
+        let mut header: Vec<String> = self
             .others
             .iter()
             .map(|axis| axis.symbol_or_path())
             .collect();
-        heading.extend(["protocol", "level", self.symbol(), "95 %"].map(String::from));
-        let mut rows = vec![heading];
-        for boundary in &self.found {
-            let Crossing {
-                value,
-                side,
-                interval,
-            } = boundary.crossing;
-            let beyond = ["< ", "", "> "][(side as i8 + 1) as usize];
-            let interval =
-                interval.map_or_else(String::new, |(low, high)| format!("{low:.2} to {high:.2}"));
-            let mut row: Vec<String> = boundary.others.iter().map(ToString::to_string).collect();
-            row.extend([
-                boundary.protocol_name().to_owned(),
-                boundary.level.to_string(),
-                format!("{beyond}{value:.2}"),
-                interval,
-            ]);
-            rows.push(row);
-        }
+        header.extend(["protocol", "level", symbol, "95 %"].map(String::from));
+        let mut rows = vec![header];
+        rows.extend(self.found.iter().map(row));
         let mut sheet = Sheet::default();
         sheet.table(&rows);
-        let is_kappa = self.over == RoughnessParameter::Kappa;
-        let paper = if is_kappa {
+        let paper = if self.over == RoughnessParameter::Kappa {
             "; the paper gives 0.6"
         } else {
             ""
         };
-        sheet.paragraph(&format!(
-            "{} over {} random profiles{paper}.",
-            self.symbol(),
-            self.lines
-        ));
+        let lines = self.lines;
+        sheet.paragraph(&format!("{symbol} over {lines} random profiles{paper}."));
         Some(sheet.into_text())
     }
 
     /// Returns an entry for each boundary: the κ or e_el/γ at which adhesion without a preload
     /// falls to a stated share of F_a,max.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let object = |boundary: &AdhesionBoundary| {
-            let mut object = Map::new();
-            let mut set = |name: &str, value: Value| drop(object.insert(name.to_owned(), value));
-            for (axis, value) in self.others.iter().zip(&boundary.others) {
-                set(&axis.symbol_or_path(), json!(value));
-            }
-            set("protocol", json!(boundary.protocol_name()));
-            set("level", json!(boundary.level));
-            let Crossing {
-                value,
-                side,
-                interval,
-            } = boundary.crossing;
-            match side {
-                Ordering::Equal => {
-                    set(self.over.name(), json!(value));
-                    set("confidence_interval", json!(interval));
-                }
-                Ordering::Less => set("below", json!(value)),
-                Ordering::Greater => set("above", json!(value)),
-            }
-            Value::Object(object)
-        };
-        let found: Vec<Value> = self.found.iter().map(object).collect();
+        let boundaries: Vec<Value> = self
+            .found
+            .iter()
+            .map(|boundary| boundary_object(self, boundary))
+            .collect();
         Some(Box::new(
-            json!({ "lines": self.lines, "boundaries": found }),
+            json!({ "lines": self.lines, "boundaries": boundaries }),
         ))
     }
 
     fn table(&self) -> Option<Table<'_>> {
         let mut table = Table::of(|| self.found.iter());
         for (place, axis) in self.others.iter().enumerate() {
-            table = match axis.is_whole() {
-                true => table.with(axis.symbol_or_path(), Kind::Whole, move |one| {
-                    one.others[place] as u64
-                }),
-                false => table.with(axis.symbol_or_path(), Kind::Real, move |one| {
-                    one.others[place]
-                }),
+            let name = axis.symbol_or_path();
+            table = if axis.is_whole() {
+                table.with(name, Kind::Whole, move |boundary| {
+                    boundary.others[place] as u64
+                })
+            } else {
+                table.with(name, Kind::Real, move |boundary| boundary.others[place])
             };
         }
-        table = table
-            .with("protocol", Kind::Text("zero force".len()), |one| {
-                one.protocol_name()
+        let table = table
+            .with("protocol", Kind::Text("zero force".len()), |boundary| {
+                boundary.protocol_name()
             })
-            .real("level", |one| one.level);
-        table = table.real(self.over.name(), |one| {
-            one.crossing.known().map(|(value, _)| value)
-        });
-        let beyond = |one: &AdhesionBoundary, side| {
-            (one.crossing.side == side).then_some(one.crossing.value)
-        };
-        table = table
-            .real("low", |one| Some(one.crossing.interval?.0))
-            .real("high", |one| Some(one.crossing.interval?.1))
-            .real("below", move |one| beyond(one, Ordering::Less))
-            .real("above", move |one| beyond(one, Ordering::Greater));
+            .real("level", |boundary| boundary.level)
+            .real(self.over.name(), |boundary| {
+                boundary.crossing.known().map(|(value, _)| value)
+            })
+            .real("low", |boundary| Some(boundary.crossing.interval?.0))
+            .real("high", |boundary| Some(boundary.crossing.interval?.1))
+            .real("below", |boundary| beyond(boundary, Ordering::Less))
+            .real("above", |boundary| beyond(boundary, Ordering::Greater));
         Some(table.done())
     }
+}
+
+/// Returns the row of a boundary in the table of the text.
+fn row(boundary: &AdhesionBoundary) -> Vec<String> {
+    let Crossing {
+        value,
+        side,
+        interval,
+    } = boundary.crossing;
+    let sign = match side {
+        Ordering::Less => "< ",
+        Ordering::Equal => "",
+        Ordering::Greater => "> ",
+    };
+    let interval = match interval {
+        Some((low, high)) => format!("{low:.2} to {high:.2}"),
+        None => String::new(),
+    };
+    let mut row: Vec<String> = boundary.others.iter().map(ToString::to_string).collect();
+    row.push(boundary.protocol_name().to_owned());
+    row.push(boundary.level.to_string());
+    row.push(format!("{sign}{value:.2}"));
+    row.push(interval);
+    row
+}
+
+/// Returns the JSON object of a boundary. The names of some entries are the symbols of the axes.
+fn boundary_object(boundaries: &Boundaries, boundary: &AdhesionBoundary) -> Value {
+    let mut object = Map::new();
+    for (axis, value) in boundaries.others.iter().zip(&boundary.others) {
+        object.insert(axis.symbol_or_path(), json!(value));
+    }
+    object.insert("protocol".to_owned(), json!(boundary.protocol_name()));
+    object.insert("level".to_owned(), json!(boundary.level));
+    let crossing = &boundary.crossing;
+    let value = json!(crossing.value);
+    match crossing.side {
+        Ordering::Equal => {
+            object.insert(boundaries.over.name().to_owned(), value);
+            let interval = json!(crossing.interval);
+            object.insert("confidence_interval".to_owned(), interval);
+        }
+        Ordering::Less => {
+            object.insert("below".to_owned(), value);
+        }
+        Ordering::Greater => {
+            object.insert("above".to_owned(), value);
+        }
+    }
+    Value::Object(object)
+}
+
+/// Returns the end of the computed values beyond which the boundary lies; `None` if it does not lie
+/// on this side.
+fn beyond(boundary: &AdhesionBoundary, side: Ordering) -> Option<f64> {
+    (boundary.crossing.side == side).then_some(boundary.crossing.value)
 }

@@ -2,92 +2,98 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
-use asperity_data::object;
-use asperity_study::checks::{Case, Check, Verdict};
+use asperity_contact::Edges;
+use asperity_study::checks::{Case, Verdict};
+use serde::Serialize;
 
 impl Report for [Verdict] {
-    /// Returns a table with a row for each [`Check`], then what each [`Case`] shows by which
-    /// evidence, then why checks failed.
+    /// Returns a table with a row for each [`Check`](asperity_study::checks::Check), then what each
+    /// [`Case`] shows by which evidence, then why checks failed.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
-        let head = ["case", "edges", "error", "bound", "", "time"].map(String::from);
-        let mut rows = vec![head];
-        rows.extend(self.iter().map(|verdict| {
-            let Check { case, edges, bound } = verdict.check;
-            [
-                case.name.to_owned(),
-                edges.name().to_owned(),
-                verdict
-                    .error
-                    .as_ref()
-                    .map_or_else(|_| "–".to_owned(), |&error| figure(error)),
-                figure(bound),
-                if verdict.passes() { "pass" } else { "FAIL" }.to_owned(),
-                format!("{:.2} s", verdict.seconds),
-            ]
-        }));
-        sheet.table(&rows);
+        add_verdicts(&mut sheet, self);
         sheet.heading("Claims");
-        let mut sentences = Vec::new();
-        for case in Case::all() {
-            if self
-                .iter()
-                .any(|verdict| verdict.check.case.name == case.name)
-            {
-                let evidence = format!(
-                    "{} Evidence: {}; error of {}.",
-                    case.holds, case.evidence, case.error_of
-                );
-                sentences.push([case.name.to_owned(), evidence]);
-            }
-        }
-        sheet.table(&sentences);
-        let failed: Vec<&Verdict> = self.iter().filter(|verdict| !verdict.passes()).collect();
-        if !failed.is_empty() {
-            sheet.heading("Failures");
-            let why = |verdict: &&Verdict| {
-                let Check { case, edges, bound } = verdict.check;
-                let name = format!("{} {}", case.name, edges.name());
-                let why = match &verdict.error {
-                    Ok(error) => {
-                        format!("error {} above the bound {}", figure(*error), figure(bound))
-                    }
-                    Err(fault) => fault.clone(),
-                };
-                [name, why]
-            };
-            sheet.table(&failed.iter().map(why).collect::<Vec<_>>());
-        }
+        add_claims(&mut sheet, self);
+        add_failures(&mut sheet, self);
+        let passed = self.iter().filter(|verdict| verdict.passes()).count();
+        let seconds: f64 = self.iter().map(|verdict| verdict.seconds).sum();
         sheet.heading(&format!(
-            "{} of {} checks pass, in {:.1} s.",
-            self.len() - failed.len(),
-            self.len(),
-            self.iter().map(|verdict| verdict.seconds).sum::<f64>()
+            "{passed} of {} checks pass, in {seconds:.1} s.",
+            self.len()
         ));
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let row = |verdict: &Verdict| {
-            let Check { case, edges, bound } = verdict.check;
-            object! {
-                "case": case.name,
-                "family": case.family,
-                "edges": edges,
-                "holds": case.holds,
-                "evidence": [case.evidence.replace(' ', "-")],
-                "error_of": case.error_of,
-                "error": verdict.error.as_ref().ok().copied().filter(|error| error.is_finite()),
-                "bound": bound,
-                "passes": verdict.passes(),
-                "fault": verdict.error.as_ref().err().cloned(),
-                "seconds": verdict.seconds,
-            }
+        Some(Box::new(ChecksJson {
+            passes: self.iter().all(Verdict::passes),
+            checks: self.iter().map(CheckJson::new).collect(),
+        }))
+    }
+}
+
+/// Adds a table with the error of each check.
+fn add_verdicts(sheet: &mut Sheet, verdicts: &[Verdict]) {
+    let header = ["case", "edges", "error", "bound", "", "time"];
+    let mut rows = vec![header.map(String::from)];
+    for verdict in verdicts {
+        let error = match &verdict.error {
+            Ok(error) => figure(*error),
+            Err(_) => "–".to_owned(),
         };
-        let passes = self.iter().all(Verdict::passes);
-        Some(Box::new(
-            object! { "passes": passes, "checks": self.iter().map(row).collect::<Vec<_>>() },
-        ))
+        let passes = if verdict.passes() { "pass" } else { "FAIL" };
+        rows.push([
+            verdict.check.case.name.to_owned(),
+            verdict.check.edges.name().to_owned(),
+            error,
+            figure(verdict.check.bound),
+            passes.to_owned(),
+            format!("{:.2} s", verdict.seconds),
+        ]);
+    }
+    sheet.table(&rows);
+}
+
+/// Adds a table of what the checked cases show, each with its evidence.
+fn add_claims(sheet: &mut Sheet, verdicts: &[Verdict]) {
+    let mut rows = Vec::new();
+    for case in Case::all() {
+        let is_checked = verdicts
+            .iter()
+            .any(|verdict| verdict.check.case.name == case.name);
+        if is_checked {
+            let claim = format!(
+                "{} Evidence: {}; error of {}.",
+                case.holds, case.evidence, case.error_of
+            );
+            rows.push([case.name.to_owned(), claim]);
+        }
+    }
+    sheet.table(&rows);
+}
+
+/// Adds the reasons why checks failed; nothing if all pass.
+fn add_failures(sheet: &mut Sheet, verdicts: &[Verdict]) {
+    let mut rows = Vec::new();
+    for verdict in verdicts {
+        if verdict.passes() {
+            continue;
+        }
+        let check = verdict.check;
+        let name = format!("{} {}", check.case.name, check.edges.name());
+        let reason = match &verdict.error {
+            Ok(error) => {
+                let error = figure(*error);
+                let bound = figure(check.bound);
+                format!("error {error} above the bound {bound}")
+            }
+            Err(fault) => fault.clone(),
+        };
+        rows.push([name, reason]);
+    }
+    if !rows.is_empty() {
+        sheet.heading("Failures");
+        sheet.table(&rows);
     }
 }
 
@@ -97,6 +103,49 @@ fn figure(value: f64) -> String {
         "0".to_owned()
     } else {
         format!("{value:.1e}")
+    }
+}
+
+#[derive(Serialize)]
+struct ChecksJson<'a> {
+    passes: bool,
+    checks: Vec<CheckJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct CheckJson<'a> {
+    case: &'static str,
+    family: &'static str,
+    edges: Edges,
+    holds: &'static str,
+    evidence: [String; 1],
+    error_of: &'static str,
+    /// Error that was measured; `None` if it could not be measured or is not finite.
+    error: Option<f64>,
+    bound: f64,
+    passes: bool,
+    /// Reason why the error could not be measured.
+    fault: Option<&'a str>,
+    seconds: f64,
+}
+
+impl<'a> CheckJson<'a> {
+    fn new(verdict: &'a Verdict) -> Self {
+        let case = verdict.check.case;
+        let error = verdict.error.as_ref().ok().copied();
+        CheckJson {
+            case: case.name,
+            family: case.family,
+            edges: verdict.check.edges,
+            holds: case.holds,
+            evidence: [case.evidence.replace(' ', "-")],
+            error_of: case.error_of,
+            error: error.filter(|error| error.is_finite()),
+            bound: verdict.check.bound,
+            passes: verdict.passes(),
+            fault: verdict.error.as_ref().err().map(String::as_str),
+            seconds: verdict.seconds,
+        }
     }
 }
 

@@ -18,7 +18,6 @@ const ERRORS: [&str; 4] = ["F_a", "curve", "energy", "contact"];
 /// such as numbers of springs.
 #[derive(Clone, Debug, Serialize)]
 pub struct CostReport<'a> {
-    /// Title of the scene.
     #[serde(skip)]
     pub title: &'a str,
     /// Scene whose computing time was measured.
@@ -48,68 +47,61 @@ impl<'a> CostReport<'a> {
             reference,
         }
     }
-}
 
-impl Report for CostReport<'_> {
-    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their
-    /// computing times.
-    fn text(&self) -> Option<String> {
-        let table = self.table;
-        let mut sheet = Sheet::default();
-        table
-            .answer()
-            .iter()
-            .for_each(|sentence| sheet.paragraph(sentence));
-        if let Some(model) = self.reference.and_then(model_sentence) {
-            sheet.paragraph(&model);
-        }
+    /// Adds the relative errors with each kind of setting.
+    fn add_errors(&self, sheet: &mut Sheet) {
         sheet.heading(
             "Relative errors, with the observed order of convergence since the row before",
         );
-        sheet.paragraph(&counted_from(table));
-        if table.is_over_loads(self.scene) {
+        sheet.paragraph(&counted_from(self.table));
+        if self.table.is_over_loads(self.scene) {
             sheet.paragraph(
                 "The errors of F_a with springs are the largest at half, once and twice the loads of the scene, so \
                  that none is small by chance. At the loads of the scene alone, asperity run estimates the error.",
             );
         }
         for knob in Knob::ALL {
-            let rows: Vec<_> = table.rows_of(knob).collect();
-            if rows.is_empty() {
-                continue;
+            let rows: Vec<&Row> = self.table.rows_of(knob).collect();
+            if let Some(first) = rows.first() {
+                sheet.heading(&heading(knob, first.springs));
+                add_rows(sheet, knob, &rows);
             }
-            let mut setting = "springs";
-            let mut heading = format!("With {}", knob.name());
-            if knob == Knob::Step {
-                setting = "step";
-                let springs = grouped(rows.first().map_or(0, |row| row.springs));
-                heading += &format!(
-                    ", compared with the exact solver on the same {springs} springs, edges Grid"
-                );
-            }
-            sheet.heading(&heading);
-            let [force, curve, energy, contact] = ERRORS;
-            let mut lines =
-                vec![[setting, "time", force, curve, energy, contact].map(String::from)];
-            lines.extend(rows.iter().map(|row| cells(row)));
-            sheet.table(&lines);
         }
-        let (spent, budget) = (
-            format_rounded(table.spent, 3, "s"),
-            format_rounded(table.budget, 3, "s"),
-        );
+    }
+
+    /// Adds what the measurements took, and what was left out.
+    fn add_times(&self, sheet: &mut Sheet) {
+        let table = self.table;
+        let transform = format_rounded(table.transform_seconds, 3, "s");
+        let spent = format_rounded(table.spent, 3, "s");
+        let budget = format_rounded(table.budget, 3, "s");
         sheet.heading(&format!(
             "A time is the shortest of several whole runs from the scene to the curve; an FFT of 2^20 real numbers takes \
-             {} here. All measurements together took {spent} of {budget}.",
-            format_rounded(table.transform_seconds, 3, "s")
+             {transform} here. All measurements together took {spent} of {budget}."
         ));
-        if !table.left_out.is_empty() {
-            sheet.heading(&format!("Left out, as {budget} was too short for them:"));
-            table
-                .left_out
-                .iter()
-                .for_each(|what| sheet.paragraph(&format!("- {what}")));
+        if table.left_out.is_empty() {
+            return;
         }
+        sheet.heading(&format!("Left out, as {budget} was too short for them:"));
+        for setting in &table.left_out {
+            sheet.paragraph(&format!("- {setting}"));
+        }
+    }
+}
+
+impl Report for CostReport<'_> {
+    /// Returns text on the numbers of springs that give errors of 1 % and 0.1 %, with their
+    /// computing times.
+    fn text(&self) -> Option<String> {
+        let mut sheet = Sheet::default();
+        for sentence in &self.answer {
+            sheet.paragraph(sentence);
+        }
+        if let Some(model) = self.reference.and_then(model_sentence) {
+            sheet.paragraph(&model);
+        }
+        self.add_errors(&mut sheet);
+        self.add_times(&mut sheet);
         Some(sheet.into_text())
     }
 
@@ -120,8 +112,9 @@ impl Report for CostReport<'_> {
     /// Returns a table with a row for each setting. A row has computing times in s and relative
     /// errors.
     fn table(&self) -> Option<Table<'_>> {
+        let longest_knob = "sub-cell-springs".len();
         let mut table = Table::of(|| self.table.rows.iter())
-            .with("knob", Kind::Text("sub-cell-springs".len()), |row| {
+            .with("knob", Kind::Text(longest_knob), |row| {
                 <&str>::from(row.knob)
             })
             .real("setting", |row| row.setting)
@@ -132,20 +125,17 @@ impl Report for CostReport<'_> {
             .real("median_seconds", |row| row.seconds.map(|time| time.median))
             .real("transforms", |row| row.transforms);
         for (index, name) in CostTable::QUANTITIES.into_iter().enumerate() {
-            let error = move |row: &&Row| row.errors[index];
             table = table
                 .with(format!("{name}_error"), Kind::Real, move |row| {
-                    error(row).map(|one| one.error)
+                    row.errors[index].map(|figure| figure.error)
                 })
                 .with(
                     format!("{name}_resolved"),
                     Kind::Text("false".len()),
-                    move |row| {
-                        error(row).map_or("", |one| if one.resolved { "true" } else { "false" })
-                    },
+                    move |row| is_resolved(row.errors[index]),
                 )
                 .with(format!("{name}_order"), Kind::Real, move |row| {
-                    error(row).and_then(|one| one.order)
+                    row.errors[index].and_then(|figure| figure.order)
                 });
         }
         Some(table.done())
@@ -156,59 +146,97 @@ impl Report for CostReport<'_> {
     }
 }
 
+/// Returns whether an error is resolved, as text; empty for an unknown error.
+fn is_resolved(figure: Option<ErrorFigure>) -> &'static str {
+    match figure {
+        Some(figure) if figure.resolved => "true",
+        Some(_) => "false",
+        None => "",
+    }
+}
+
+/// Returns the heading of the errors with one kind of setting, of which the first has this number
+/// of springs.
+fn heading(knob: Knob, springs: u64) -> String {
+    let name = knob.name();
+    if knob != Knob::Step {
+        return format!("With {name}");
+    }
+    let springs = grouped(springs);
+    format!("With {name}, compared with the exact solver on the same {springs} springs, edges Grid")
+}
+
+/// Adds a table of the errors with one kind of setting.
+fn add_rows(sheet: &mut Sheet, knob: Knob, rows: &[&Row]) {
+    let setting = if knob == Knob::Step {
+        "step"
+    } else {
+        "springs"
+    };
+    let [force, curve, energy, contact] = ERRORS;
+    let header = [setting, "time", force, curve, energy, contact];
+    let mut table = vec![header.map(String::from)];
+    for row in rows {
+        table.push(cells(row));
+    }
+    sheet.table(&table);
+}
+
+/// Returns sentences on the solution from which the errors are counted, and on its own errors.
 fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
-    let finest = format!(
-        "the solution with {} springs and edges SubCell",
-        grouped(reference.springs)
-    );
-    let from = match reference.adhesion_force {
-        Some(force) if reference.closed_form => {
-            format!(
-                "the closed form of the adhesion force, {}, and {finest}",
-                format_quantity(force, "N")
-            )
+    let springs = grouped(reference.springs);
+    let mut solution = format!("the solution with {springs} springs and edges SubCell");
+    if let Some(force) = reference.adhesion_force
+        && reference.closed_form
+    {
+        let force = format_quantity(force, "N");
+        solution = format!("the closed form of the adhesion force, {force}, and {solution}");
+    }
+    let mut own_errors = Vec::new();
+    for (error, name) in reference.errors.into_iter().zip(ERRORS) {
+        // A closed form of the adhesion force has no error.
+        let is_exact = reference.closed_form && name == ERRORS[0];
+        if let Some(error) = error
+            && !is_exact
+        {
+            own_errors.push(format!("{name} {error:.0e}"));
         }
-        _ => finest,
-    };
-    let own = reference
-        .errors
-        .into_iter()
-        .zip(ERRORS)
-        .filter_map(|(error, name)| {
-            let error = error.filter(|_| !(reference.closed_form && name == ERRORS[0]))?;
-            Some(format!("{name} {error:.0e}"))
-        });
-    let own: Vec<_> = own.collect();
-    let own = if own.is_empty() {
-        "none is known".into()
+    }
+    let own_errors = if own_errors.is_empty() {
+        "none is known".to_owned()
     } else {
-        own.join(", ")
+        own_errors.join(", ")
     };
     format!(
-        "Counted from {from}. Its own errors, estimated from the last refinements: {own}. An error below that \
+        "Counted from {solution}. Its own errors, estimated from the last refinements: {own_errors}. An error below that \
          is shown as < that error."
     )
 }
 
+/// Returns the row of a setting in the table of the text.
 fn cells(row: &Row) -> [String; 6] {
     let setting = match row.knob {
         Knob::Step => format_quantity(row.setting, "m"),
         _ => grouped(row.setting as u64),
     };
-    let time = row
-        .seconds
-        .map_or_else(String::new, |time| format_rounded(time.minimum, 3, "s"));
-    let [force, curve, energy, contact] = row
-        .errors
-        .map(|error| error.map_or_else(String::new, error_cell));
+    let time = match row.seconds {
+        Some(time) => format_rounded(time.minimum, 3, "s"),
+        None => String::new(),
+    };
+    let [force, curve, energy, contact] = row.errors.map(error_cell);
     [setting, time, force, curve, energy, contact]
 }
 
-fn error_cell(figure: ErrorFigure) -> String {
-    match (figure.resolved, figure.order) {
-        (false, _) => format!("<{:.0e}", figure.error),
-        (true, None) => format!("{:.1e}", figure.error),
-        (true, Some(order)) => format!("{:.1e} ({order:.1})", figure.error),
+/// Returns an error with its order of convergence; empty for an unknown error.
+fn error_cell(figure: Option<ErrorFigure>) -> String {
+    let Some(figure) = figure else {
+        return String::new();
+    };
+    let error = figure.error;
+    match figure.order {
+        _ if !figure.resolved => format!("<{error:.0e}"),
+        None => format!("{error:.1e}"),
+        Some(order) => format!("{error:.1e} ({order:.1})"),
     }
 }

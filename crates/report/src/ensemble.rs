@@ -4,10 +4,11 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::counted_texts;
-use asperity_data::{Kind, Table, format_range, format_rounded, grouped, object, one_unit};
+use crate::words::percent;
+use asperity_data::{Kind, Table, format_range, format_rounded, grouped, one_unit};
 use asperity_plot::Label;
-use asperity_scene::Regime;
-use asperity_study::{Ensemble, Plan, Quantity, RegimeCounts, Results, Statistics};
+use asperity_scene::{Regime, Scene};
+use asperity_study::{Ensemble, Quantity, RegimeCounts, Results, Statistics};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -23,64 +24,51 @@ pub(crate) const NAMES: [&str; 5] = [
 /// Returns random profiles in words, given their number and the seed of the first one:
 /// `16 random profiles, seeds 5 to 20`.
 pub(crate) fn profiles_named(count: u64, first: u64) -> String {
-    match count {
-        1 => format!("One random profile, seed {first}"),
-        _ => {
-            format!(
-                "{} random profiles, seeds {first} to {}",
-                grouped(count),
-                first.wrapping_add(count - 1)
-            )
-        }
+    if count == 1 {
+        return format!("One random profile, seed {first}");
     }
+    let last = first.wrapping_add(count - 1);
+    let count = grouped(count);
+    format!("{count} random profiles, seeds {first} to {last}")
 }
 
 /// Writes a value of a quantity to this number of digits; a share in per cent.
 pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
-    match quantity.bounds() {
-        (0.0, 1.0) => format!("{} %", format_rounded(100.0 * value, digits, "1")),
-        _ => format_rounded(value, digits, quantity.unit()),
+    if quantity.bounds() == (0.0, 1.0) {
+        percent(value, digits)
+    } else {
+        format_rounded(value, digits, quantity.unit())
     }
 }
 
 /// Adds the main numbers of a scene: median, quartiles and range over its random profiles, and the
 /// regimes of the profiles.
 pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
-    sheet.heading(&profiles_named(
-        ensemble.profiles(),
-        ensemble.results().plan().seed,
-    ));
+    let seed = ensemble.results().plan().seed;
+    sheet.heading(&profiles_named(ensemble.profiles(), seed));
     let mut rows = vec![["", "median", "quartiles", "range", "profiles"].map(String::from)];
     for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
-        let Some(all) = ensemble.statistics(quantity) else {
+        let Some(statistics) = ensemble.statistics(quantity) else {
             continue;
         };
-        let Statistics {
-            quartiles: [lower, median, upper],
-            range,
-            count,
-            ..
-        } = all;
-        let shown = |value, digits| rounded(quantity, value, digits);
-        let ends = |(low, high)| one_unit([low, high].map(|end| shown(end, 2)));
-        let median = shown(median, 3);
+        let [lower, median, upper] = statistics.quartiles;
+        let (least, most) = statistics.range;
         rows.push([
             (*name).to_owned(),
-            median,
-            ends((lower, upper)),
-            ends(range),
-            grouped(count as u64),
+            rounded(quantity, median, 3),
+            one_unit([lower, upper].map(|quartile| rounded(quantity, quartile, 2))),
+            one_unit([least, most].map(|end| rounded(quantity, end, 2))),
+            grouped(statistics.count as u64),
         ]);
     }
     if rows.len() > 1 {
         sheet.table(&rows);
     }
-    let headings = ["regimes, first touch", "regimes, zero force"];
-    for (heading, counts) in headings.into_iter().zip(ensemble.regimes()) {
-        sheet.row(heading, regimes_in_words(counts));
-    }
-    let failed = ensemble.failed().count();
+    let [from_touch, after_zero_force] = ensemble.regimes();
+    sheet.row("regimes, first touch", regimes_in_words(from_touch));
+    sheet.row("regimes, zero force", regimes_in_words(after_zero_force));
     if let Some((seed, reason)) = ensemble.failed().next() {
+        let failed = ensemble.failed().count();
         sheet.paragraph(&format!(
             "{failed} of them cannot follow the loading: seed {seed}: {reason}."
         ));
@@ -89,59 +77,93 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
 
 /// Returns the numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
 fn regimes_in_words(counts: RegimeCounts) -> String {
-    counts
+    let regimes: Vec<String> = counts
         .present()
         .map(|(name, count)| format!("{name} {count}"))
-        .collect::<Vec<_>>()
-        .join(", ")
+        .collect();
+    regimes.join(", ")
 }
 
 /// Returns median and quartiles of the adhesion force over random profiles, as a caption; `None`
 /// without an adhesion force.
 pub(crate) fn caption(ensemble: &Ensemble) -> Option<Label> {
     let force = Quantity::AdhesionForce;
-    let all = ensemble.statistics(force)?;
-    let [lower, median, upper] = all.quartiles;
+    let [lower, median, upper] = ensemble.statistics(force)?.quartiles;
     let median = format_rounded(median, 3, force.unit());
     let quartiles = format_range((lower, upper), 2, force.unit());
-    let (profiles, seed) = (grouped(ensemble.profiles()), ensemble.results().plan().seed);
+    let profiles = grouped(ensemble.profiles());
+    let seed = ensemble.results().plan().seed;
     let text = format!(
         ": median {median} of {profiles} random profiles, quartiles {quartiles}; curve: seed {seed}"
     );
     Some(Label::symbol(force.symbol()).then(&text))
 }
 
-/// Returns an ensemble as a JSON value.
-pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
-    let of = |quantity| {
-        ensemble.statistics(quantity).map(|all: Statistics| {
-            let [lower, median, upper] = all.quartiles;
-            object! {
-                "count": all.count,
-                "median": median,
-                "quartiles": [lower, upper],
-                "range": all.range,
-                "median_interval": all.median_interval,
-                "mean": all.mean,
-                "standard_deviation": all.spread.map(|spread| spread.standard_deviation),
-                "confidence_interval": all.confidence_interval(),
-            }
-        })
-    };
-    let regimes = |counts: RegimeCounts| counts.present().collect::<BTreeMap<_, _>>();
-    let [from_touch, after_zero_force] = ensemble.regimes().map(regimes);
-    let [force, share, touch, zero_force, energy] = Ensemble::NUMBERS.map(of);
-    object! {
-        "profiles": ensemble.profiles(),
-        "adhesion_force": force,
-        "adhesion_share": share,
-        "first_touch_adhesion_force": touch,
-        "zero_force_adhesion_force": zero_force,
-        "dissipated_energy": energy,
-        "warnings": counted_texts(&ensemble.warnings(), ensemble.profiles()),
-        "regimes": from_touch,
-        "regimes_after_zero_force": after_zero_force,
-        "lines": ensemble.table(),
+/// JSON object of an ensemble, in SI units.
+#[derive(Serialize)]
+pub(crate) struct EnsembleJson<'a> {
+    profiles: u64,
+    adhesion_force: Option<StatisticsJson>,
+    adhesion_share: Option<StatisticsJson>,
+    first_touch_adhesion_force: Option<StatisticsJson>,
+    zero_force_adhesion_force: Option<StatisticsJson>,
+    dissipated_energy: Option<StatisticsJson>,
+    warnings: Vec<String>,
+    /// Number of profiles in each regime that occurs.
+    regimes: BTreeMap<&'static str, usize>,
+    regimes_after_zero_force: BTreeMap<&'static str, usize>,
+    lines: Option<Table<'a>>,
+}
+
+/// Statistics of one quantity over random profiles.
+#[derive(Serialize)]
+struct StatisticsJson {
+    count: usize,
+    median: f64,
+    quartiles: [f64; 2],
+    range: (f64, f64),
+    median_interval: Option<(f64, f64)>,
+    mean: f64,
+    standard_deviation: Option<f64>,
+    confidence_interval: Option<(f64, f64)>,
+}
+
+impl<'a> EnsembleJson<'a> {
+    pub(crate) fn new(ensemble: &'a Ensemble) -> Self {
+        let numbers = Ensemble::NUMBERS.map(|quantity| {
+            let statistics = ensemble.statistics(quantity)?;
+            Some(StatisticsJson::new(&statistics))
+        });
+        let [force, share, first_touch_force, zero_force_force, energy] = numbers;
+        let [from_touch, after_zero_force] = ensemble.regimes();
+        EnsembleJson {
+            profiles: ensemble.profiles(),
+            adhesion_force: force,
+            adhesion_share: share,
+            first_touch_adhesion_force: first_touch_force,
+            zero_force_adhesion_force: zero_force_force,
+            dissipated_energy: energy,
+            warnings: counted_texts(&ensemble.warnings(), ensemble.profiles()),
+            regimes: from_touch.present().collect(),
+            regimes_after_zero_force: after_zero_force.present().collect(),
+            lines: ensemble.table(),
+        }
+    }
+}
+
+impl StatisticsJson {
+    fn new(statistics: &Statistics) -> Self {
+        let [lower, median, upper] = statistics.quartiles;
+        StatisticsJson {
+            count: statistics.count,
+            median,
+            quartiles: [lower, upper],
+            range: statistics.range,
+            median_interval: statistics.median_interval,
+            mean: statistics.mean,
+            standard_deviation: statistics.spread.map(|spread| spread.standard_deviation),
+            confidence_interval: statistics.confidence_interval(),
+        }
     }
 }
 
@@ -149,37 +171,53 @@ pub(crate) fn ensemble_value(ensemble: &Ensemble) -> impl Serialize + '_ {
 /// profile.
 impl Report for Ensemble {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(ensemble_value(self)))
+        Some(Box::new(EnsembleJson::new(self)))
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let (results, plan) = (self.results(), self.results().plan());
+        let results = self.results();
+        let plan = results.plan();
         let mut table = Table::of(|| 0..plan.lines).whole("seed", |line| plan.seed_of(*line));
-        for quantity in plan.record.iter() {
-            let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
-            let regime = |line| results.regime(0, line, *quantity);
-            table = match quantity.is_regime() {
-                true => table.with(name, text, move |line| {
-                    regime(*line).map_or("", Regime::name)
-                }),
-                false => table.real(name, |line| results.value(0, *line, *quantity)),
-            };
+        for quantity in &plan.record {
+            let name = quantity.name();
+            if quantity.is_regime() {
+                table = table.with(name, Kind::Text(Regime::LONGEST_NAME), |line| {
+                    let regime = results.regime(0, *line, *quantity);
+                    regime.map_or("", Regime::name)
+                });
+            } else {
+                table = table.real(name, |line| results.value(0, *line, *quantity));
+            }
         }
         Some(table.done())
     }
+}
+
+/// JSON object of a parameter study, in SI units.
+#[derive(Serialize)]
+struct ResultsJson<'a> {
+    scene: &'a Scene,
+    /// Values on each axis of the study, by the path of its field.
+    axes: BTreeMap<&'a str, &'a [f64]>,
+    profiles: u64,
+    records: Table<'a>,
 }
 
 /// Results of a parameter study, all held in memory. The table has a row for each combination of
 /// values on the axes of the study, on each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let Plan {
-            scene, axes, lines, ..
-        } = self.plan();
-        let axes: BTreeMap<_, _> = axes.iter().map(|axis| (&axis.path, &axis.values)).collect();
-        Some(Box::new(
-            object! { "scene": scene, "axes": axes, "profiles": lines, "records": self.table() },
-        ))
+        let plan = self.plan();
+        let mut axes = BTreeMap::new();
+        for axis in &plan.axes {
+            axes.insert(axis.path.as_str(), axis.values.as_slice());
+        }
+        Some(Box::new(ResultsJson {
+            scene: &plan.scene,
+            axes,
+            profiles: plan.lines,
+            records: Results::table(self),
+        }))
     }
 
     fn table(&self) -> Option<Table<'_>> {

@@ -2,24 +2,30 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::words::{plural, whole_percent};
 use asperity_data::{
     AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, per_cent,
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 
-/// Changes of the roughness whose effect is reported.
+/// Relative change of the rms height whose effect is reported.
 const HEIGHT_CHANGE: f64 = 0.05;
+
+/// Change of the Hurst exponent whose effect is reported.
 const HURST_CHANGE: f64 = 0.05;
+
 /// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random
 /// profiles.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
+
+const INDEPENDENT: &str = "Each curve counts as a place with a profile of its own: places closer than the contact or the \
+    longest wave are fewer than they seem.";
 
 /// Report on the work of adhesion of a rough body, found by comparing measured force curves with
 /// computed curves of random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct EnsembleFitReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Result of [`fit_ensemble`](asperity_experiment::fit_ensemble).
     pub fit: &'a EnsembleFit,
@@ -29,158 +35,30 @@ pub struct EnsembleFitReport<'a> {
 
 impl Report for EnsembleFitReport<'_> {
     fn text(&self) -> Option<String> {
-        let EnsembleFitReport {
-            title,
-            fit,
-            has_roughness_errors,
-        } = *self;
+        let fit = self.fit;
         let mut sheet = Sheet::default();
-        if let Some(text) = self.not_described() {
-            sheet.paragraph(&text);
+        if let Some(sentence) = self.not_described() {
+            sheet.paragraph(&sentence);
         }
         if let Some(reason) = &fit.unsuitable_profile {
             sheet.paragraph(&reason.to_string());
         }
-        sheet.heading(&format!("Many random profiles of {title}"));
-        fit.instrument.iter().for_each(|text| sheet.paragraph(text));
-        let number = fit.curves.len();
-        let curves = if number == 1 {
-            "1 curve".to_owned()
-        } else {
-            format!("{number} curves")
-        };
-        let spectrum = if has_roughness_errors {
-            "this roughness"
-        } else {
-            "exactly this roughness"
-        };
-        let profiles = format!(
-            "from {curves} and {} random profiles of {spectrum}",
-            grouped(fit.lines)
-        );
-        sheet.paragraph(&match fit.work_at_most {
-            Some(most) => format!(
-                "γ is at most {} (95 %), {profiles}: curves without adhesion do not differ from these.",
-                format_rounded(most, 2, "J/m²")
-            ),
-            None => format!("γ = {}, {profiles}.", with_interval(&fit.work, "J/m²")),
-        });
-        let modulus = if fit.modulus_is_given {
-            format!("E* = {}, given.", format_quantity(fit.modulus.value, "Pa"))
-        } else {
-            format!(
-                "E* = {}. Correlation of γ and E*: {:.2}.",
-                with_interval(&fit.modulus, "Pa"),
-                fit.correlation
-            )
-        };
-        sheet.paragraph(&modulus);
-        if (fit.closing_over_opening - 1.0).abs() > 1e-9 {
-            let ratio = format_quantity(fit.closing_over_opening, "1");
-            sheet.paragraph(&format!(
-                "Work of adhesion on closing over that on opening: {ratio}, as in the scene."
-            ));
+        sheet.heading(&format!("Many random profiles of {}", self.title));
+        if let Some(sentence) = &fit.instrument {
+            sheet.paragraph(sentence);
         }
-        let share = |share: f64| format!("{:.0} %", 100.0 * share);
-        let mut parts = vec![
-            format!("{} by the number of curves", share(fit.shares.places)),
-            format!("{} by the number of profiles", share(fit.shares.profiles)),
-        ];
-        if has_roughness_errors {
-            parts.push(format!(
-                "{} by the errors of the roughness",
-                share(fit.shares.roughness)
-            ));
-        }
-        if fit.work_at_most.is_none() {
-            sheet.paragraph(&format!(
-                "The squared width of the interval of γ: {}.",
-                parts.join(", ")
-            ));
-        }
-        let prospects = fit
-            .prospects
-            .iter()
-            .map(|of| format!("{} curves ± {}", of.curves, per_cent(of.half_width)));
-        let prospects: Vec<String> = prospects.collect();
-        if !prospects.is_empty() {
-            let profiles = grouped(fit.lines);
-            sheet.paragraph(&format!(
-                "With {profiles} profiles γ by {}.",
-                prospects.join(", ")
-            ));
-        }
-        if fit.at_end_of_table && fit.work_at_most.is_none() {
-            sheet.paragraph(
-                "The interval reaches the end of the computed values, and may be wider: more curves, or E* from another \
-                 measurement.",
-            );
-        }
-        if let Some(of) = fit.roughness {
-            let change = |by: f64, step: f64| format!("{:+.0} %", 100.0 * (by * step).exp_m1());
-            sheet.paragraph(&format!(
-                "If the rms height h is larger by {}, γ changes by {}; if the Hurst exponent H is larger by {HURST_CHANGE}, \
-                 by {}. The curves cannot show it.",
-                per_cent(HEIGHT_CHANGE),
-                change(of.work_by_height, HEIGHT_CHANGE),
-                change(of.work_by_hurst, HURST_CHANGE)
-            ));
-        }
-        if !has_roughness_errors {
-            let text = "The interval leaves out errors of the roughness";
-            // Those of a measured roughness cannot be stated.
-            let options = fit
-                .roughness
-                .map_or("", |_| ": --height-error, --hurst-error state them");
-            sheet.paragraph(&format!("{text}{options}."));
-        }
+        self.add_values(&mut sheet);
+        self.add_causes_of_width(&mut sheet);
+        self.add_effect_of_roughness(&mut sheet);
         sheet.heading("Each curve by itself");
-        let header = [
-            "curve",
-            "pull-off",
-            "loop area",
-            "stiffness",
-            "γ",
-            "95 % interval",
-        ];
-        let rows = fit.curves.iter().map(row);
-        sheet.table(
-            &std::iter::once(header.map(String::from))
-                .chain(rows)
-                .collect::<Vec<_>>(),
-        );
-        let ends = fit
-            .curves
-            .iter()
-            .filter(|curve| curve.at_end_of_table)
-            .count();
-        if ends > 0 {
-            let reach = if ends == 1 { "reaches" } else { "reach" };
-            sheet.paragraph(&format!(
-                "{ends} of these intervals {reach} the end of the computed values, and may be wider."
-            ));
-        }
+        self.add_curves(&mut sheet);
         sheet.heading(&self.preloads());
-        if let Some(ratio) = fit.scatter_ratio {
-            let usual = (USUAL_SCATTER[0]..=USUAL_SCATTER[1]).contains(&ratio);
-            let why = if usual {
-                ""
-            } else if ratio < 1.0 {
-                ": the places may share parts of their profiles, or the roughness differs"
-            } else {
-                ": the work of adhesion or the roughness may vary from place to place"
-            };
-            sheet.paragraph(&format!(
-                "Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."
-            ));
+        self.add_scatter(&mut sheet);
+        if let Some(sentence) = self.foreign() {
+            sheet.paragraph(&sentence);
         }
-        self.foreign()
-            .into_iter()
-            .for_each(|text| sheet.paragraph(&text));
-        sheet.paragraph(&format!(
-            "{} curves were computed. {INDEPENDENT}",
-            grouped(fit.computed as u64)
-        ));
+        let computed = grouped(fit.computed as u64);
+        sheet.paragraph(&format!("{computed} curves were computed. {INDEPENDENT}"));
         Some(sheet.into_text())
     }
 
@@ -190,163 +68,205 @@ impl Report for EnsembleFitReport<'_> {
 
     fn table(&self) -> Option<Table<'_>> {
         let curves = &self.fit.curves;
-        let names = curves
+        let longest_name = curves
             .iter()
             .map(|curve| curve.name.chars().count())
             .max()?;
         let table = Table::of(|| curves.iter())
-            .with("curve", Kind::Text(names), |curve| curve.name.clone());
-        let table = table.real("preload", |curve| curve.preload);
-        let table = table.real("pull_off_force", |curve| {
-            curve.pull_off_force.unwrap_or(f64::NAN)
-        });
-        let table = table
+            .with("curve", Kind::Text(longest_name), |curve| {
+                curve.name.clone()
+            })
+            .real("preload", |curve| curve.preload)
+            .real("pull_off_force", |curve| {
+                curve.pull_off_force.unwrap_or(f64::NAN)
+            })
             .real("loop_area", |curve| curve.loop_area)
-            .real("stiffness", |curve| curve.stiffness);
-        let table = table
+            .real("stiffness", |curve| curve.stiffness)
             .real("work", |curve| curve.work.value)
-            .real("work_low", |curve| curve.work.low);
-        let table = table.real("work_high", |curve| curve.work.high);
-        Some(
-            table
-                .whole("foreign", |curve| u64::from(curve.foreign))
-                .done(),
-        )
+            .real("work_low", |curve| curve.work.low)
+            .real("work_high", |curve| curve.work.high)
+            .whole("foreign", |curve| u64::from(curve.foreign));
+        Some(table.done())
     }
 
+    /// Returns a chart of the work of adhesion of each curve with its interval, before a band with
+    /// the interval of all curves.
     fn figure(&self) -> Option<Figure> {
-        let EnsembleFitReport { title, fit, .. } = *self;
-        let last = fit.curves.len() as f64;
-        let places = || (1..).map(f64::from).zip(&fit.curves);
-        let points = |is_foreign: bool| -> Vec<(f64, f64)> {
-            let of = places().filter(|(_, curve)| curve.foreign == is_foreign);
-            of.map(|(place, curve)| (place, curve.work.value)).collect()
-        };
-        let IntervalEstimate { value, low, high } = fit.work;
-        // The axis is logarithmic: an interval that begins at 0 is drawn from the lowest end of all
-        // curves.
-        let lowest = fit
-            .curves
-            .iter()
-            .map(|curve| curve.work.low)
-            .fold(value, f64::min);
-        let low = if low > 0.0 { low } else { lowest };
-        let band = Shape::Band([0.5, last + 0.5].map(|place| (place, low, high)).to_vec());
-        let bars = places().map(|(place, curve)| {
-            let ends = vec![(place, curve.work.low), (place, curve.work.high)];
-            Layer::unnamed(Ink::Kept, Shape::line(ends, Stroke::Solid))
-        });
-        let mut layers = vec![Layer::new("95 % interval of all".into(), Ink::Quiet, band)];
-        layers.extend(bars);
-        layers.push(Layer::new(
-            "all curves".into(),
-            Ink::Contact,
-            Shape::Level(value),
-        ));
-        for (name, ink, is_foreign) in [
-            ("one curve, 95 % interval", Ink::Text, false),
-            ("foreign curve", Ink::Cursor, true),
-        ] {
-            let points = points(is_foreign);
-            if !points.is_empty() {
-                layers.push(Layer::new(
-                    name.into(),
-                    ink,
-                    Shape::signs(points, Sign::Dot),
-                ));
+        let low = self.lowest_drawn();
+        let note = match self.fit.work_at_most {
+            Some(most) => {
+                let most = format_rounded(most, 2, "J/m²");
+                format!("all curves: γ is at most {most} (95 %)")
             }
-        }
-        let ends = fit
-            .curves
-            .iter()
-            .flat_map(|curve| [curve.work.low, curve.work.high])
-            .chain([low, high]);
-        let scale = AxisScale::Logarithmic;
-        let span = Span::around(ends.map(|work| scale.coordinate(work)), 0.06);
-        let x = ChartAxis::new(
-            AxisScale::Linear,
-            Span {
-                low: 0.5,
-                high: last + 0.5,
-            },
-            "number of the curve",
-            "",
-            "1",
-        );
-        let y = ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²");
-        let note = match fit.work_at_most {
-            Some(most) => format!(
-                "all curves: γ is at most {} (95 %)",
-                format_rounded(most, 2, "J/m²")
-            ),
-            None => format!("all curves: γ = {}", with_interval(&fit.work, "J/m²")),
+            None => format!("all curves: γ = {}", with_interval(&self.fit.work, "J/m²")),
         };
-        let charts = vec![Chart::new(x, y, layers)];
-        let notes = vec![Label::plain(&note)];
+        let chart = Chart::new(self.curve_axis(), self.work_axis(low), self.layers(low));
         Some(Figure {
-            title: title.to_owned(),
-            notes,
-            charts,
+            title: self.title.to_owned(),
+            notes: vec![Label::plain(&note)],
+            charts: vec![chart],
             size: Figure::SMALL,
             ..Figure::default()
         })
     }
 }
 
-const INDEPENDENT: &str = "Each curve counts as a place with a profile of its own: places closer than the contact or the \
-    longest wave are fewer than they seem.";
-
-/// Writes `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
-fn with_interval(of: &IntervalEstimate, unit: &str) -> String {
-    let value = format_rounded(of.value, 3, unit);
-    format!(
-        "{value}, {} (95 %)",
-        format_range((of.low, of.high), 3, unit)
-    )
-}
-
-fn row(curve: &CurveOfEnsemble) -> [String; 6] {
-    let quantity = |value: f64, unit: &str| format_rounded(value, 3, unit);
-    let mark = if curve.foreign { ", foreign" } else { "" };
-    [
-        curve.name.clone(),
-        curve
-            .pull_off_force
-            .map_or("-".to_owned(), |force| quantity(force, "N")),
-        quantity(curve.loop_area, "J"),
-        quantity(curve.stiffness, "N/m"),
-        quantity(curve.work.value, "J/m²"),
-        format!(
-            "{}{mark}",
-            format_range((curve.work.low, curve.work.high), 2, "J/m²")
-        ),
-    ]
-}
-
 impl EnsembleFitReport<'_> {
-    fn not_described(&self) -> Option<String> {
-        let deviating = self.fit.deviations.iter().filter(|one| one.deviates);
-        let words = |one: &SummaryDeviation| {
-            let direction = if one.logarithm > 0.0 {
-                "larger"
-            } else {
-                "smaller"
-            };
-            let factor = 100.0 * one.logarithm.abs().exp_m1();
-            format!(
-                "{} {direction} by {factor:.0} % ({:.1} standard errors)",
-                one.summary,
-                one.deviation.abs()
-            )
+    /// Adds the work of adhesion and the modulus, with the curves and profiles that gave them.
+    fn add_values(&self, sheet: &mut Sheet) {
+        let fit = self.fit;
+        let count = fit.curves.len();
+        let curves = plural("curve", count as u64);
+        let profiles = grouped(fit.lines);
+        let spectrum = if self.has_roughness_errors {
+            "this roughness"
+        } else {
+            "exactly this roughness"
         };
-        let all: Vec<String> = deviating.map(words).collect();
-        (!all.is_empty()).then(|| {
-            format!(
-                "Random profiles of this roughness do not describe the curves; in the mean over all curves: {}. Roughness, \
-                 form, stiffness of the instrument or model differ, and the interval does not contain it.",
-                all.join("; ")
-            )
-        })
+        let origin = format!("from {count} {curves} and {profiles} random profiles of {spectrum}");
+        match fit.work_at_most {
+            Some(most) => {
+                let most = format_rounded(most, 2, "J/m²");
+                sheet.paragraph(&format!(
+                    "γ is at most {most} (95 %), {origin}: curves without adhesion do not differ from these."
+                ));
+            }
+            None => {
+                let work = with_interval(&fit.work, "J/m²");
+                sheet.paragraph(&format!("γ = {work}, {origin}."));
+            }
+        }
+        if fit.modulus_is_given {
+            let modulus = format_quantity(fit.modulus.value, "Pa");
+            sheet.paragraph(&format!("E* = {modulus}, given."));
+        } else {
+            let modulus = with_interval(&fit.modulus, "Pa");
+            let correlation = fit.correlation;
+            sheet.paragraph(&format!(
+                "E* = {modulus}. Correlation of γ and E*: {correlation:.2}."
+            ));
+        }
+        if (fit.closing_over_opening - 1.0).abs() > 1e-9 {
+            let ratio = format_quantity(fit.closing_over_opening, "1");
+            sheet.paragraph(&format!(
+                "Work of adhesion on closing over that on opening: {ratio}, as in the scene."
+            ));
+        }
+    }
+
+    /// Adds the causes of the width of the interval, and how more curves would narrow it.
+    fn add_causes_of_width(&self, sheet: &mut Sheet) {
+        let fit = self.fit;
+        if fit.work_at_most.is_none() {
+            let curves = whole_percent(fit.shares.places);
+            let profiles = whole_percent(fit.shares.profiles);
+            let mut causes =
+                format!("{curves} by the number of curves, {profiles} by the number of profiles");
+            if self.has_roughness_errors {
+                let roughness = whole_percent(fit.shares.roughness);
+                causes += &format!(", {roughness} by the errors of the roughness");
+            }
+            sheet.paragraph(&format!(
+                "The squared width of the interval of γ: {causes}."
+            ));
+        }
+        let mut prospects = Vec::with_capacity(fit.prospects.len());
+        for prospect in &fit.prospects {
+            let half_width = per_cent(prospect.half_width);
+            prospects.push(format!("{} curves ± {half_width}", prospect.curves));
+        }
+        if !prospects.is_empty() {
+            let profiles = grouped(fit.lines);
+            let prospects = prospects.join(", ");
+            sheet.paragraph(&format!("With {profiles} profiles γ by {prospects}."));
+        }
+        if fit.at_end_of_table && fit.work_at_most.is_none() {
+            sheet.paragraph(
+                "The interval reaches the end of the computed values, and may be wider: more curves, or E* from another \
+                 measurement.",
+            );
+        }
+    }
+
+    /// Adds the effect of errors of the roughness, which the curves cannot show.
+    fn add_effect_of_roughness(&self, sheet: &mut Sheet) {
+        let mut options = "";
+        if let Some(shifts) = self.fit.roughness {
+            // Errors of a measured roughness cannot be stated.
+            options = ": --height-error, --hurst-error state them";
+            let step = per_cent(HEIGHT_CHANGE);
+            let by_height = relative_change(shifts.work_by_height * HEIGHT_CHANGE);
+            let by_hurst = relative_change(shifts.work_by_hurst * HURST_CHANGE);
+            sheet.paragraph(&format!(
+                "If the rms height h is larger by {step}, γ changes by {by_height}; if the Hurst exponent H is larger by \
+                 {HURST_CHANGE}, by {by_hurst}. The curves cannot show it."
+            ));
+        }
+        if !self.has_roughness_errors {
+            sheet.paragraph(&format!(
+                "The interval leaves out errors of the roughness{options}."
+            ));
+        }
+    }
+
+    /// Adds a table with the result of each curve by itself.
+    fn add_curves(&self, sheet: &mut Sheet) {
+        let header = [
+            "curve",
+            "pull-off",
+            "loop area",
+            "stiffness",
+            "γ",
+            "95 % interval",
+        ];
+        let mut rows = vec![header.map(String::from)];
+        rows.extend(self.fit.curves.iter().map(row));
+        sheet.table(&rows);
+
+        let curves = self.fit.curves.iter();
+        let at_end = curves.filter(|curve| curve.at_end_of_table).count();
+        if at_end > 0 {
+            let reach = if at_end == 1 { "reaches" } else { "reach" };
+            sheet.paragraph(&format!(
+                "{at_end} of these intervals {reach} the end of the computed values, and may be wider."
+            ));
+        }
+    }
+
+    /// Adds the scatter of the curves, and the reason for an unusual scatter.
+    fn add_scatter(&self, sheet: &mut Sheet) {
+        let Some(ratio) = self.fit.scatter_ratio else {
+            return;
+        };
+        let [smallest_usual, largest_usual] = USUAL_SCATTER;
+        let why = if (smallest_usual..=largest_usual).contains(&ratio) {
+            ""
+        } else if ratio < 1.0 {
+            ": the places may share parts of their profiles, or the roughness differs"
+        } else {
+            ": the work of adhesion or the roughness may vary from place to place"
+        };
+        sheet.paragraph(&format!(
+            "Scatter of the curves over scatter of the profiles: {ratio:.2}{why}."
+        ));
+    }
+
+    /// Returns sentences on the summaries in which the curves differ from the random profiles;
+    /// `None` if the profiles describe the curves.
+    fn not_described(&self) -> Option<String> {
+        let deviations = self.fit.deviations.iter();
+        let deviating: Vec<String> = deviations
+            .filter(|deviation| deviation.deviates)
+            .map(deviation_in_words)
+            .collect();
+        if deviating.is_empty() {
+            return None;
+        }
+        Some(format!(
+            "Random profiles of this roughness do not describe the curves; in the mean over all curves: {}. Roughness, \
+             form, stiffness of the instrument or model differ, and the interval does not contain it.",
+            deviating.join("; ")
+        ))
     }
 
     fn preloads(&self) -> String {
@@ -360,15 +280,128 @@ impl EnsembleFitReport<'_> {
         }
     }
 
+    /// Returns sentences on curves that are foreign to the ensemble; `None` without such a curve.
     fn foreign(&self) -> Option<String> {
         let foreign = self.fit.curves.iter().filter(|curve| curve.foreign);
         let names: Vec<&str> = foreign.map(|curve| curve.name.as_str()).collect();
-        (!names.is_empty()).then(|| {
-            format!(
-                "Foreign to this ensemble, as one curve in a thousand: {}. They count like the others; a fit without them \
-                 shows what they change.",
-                names.join(", ")
-            )
-        })
+        if names.is_empty() {
+            return None;
+        }
+        Some(format!(
+            "Foreign to this ensemble, as one curve in a thousand: {}. They count like the others; a fit without them \
+             shows what they change.",
+            names.join(", ")
+        ))
     }
+
+    /// Returns the lower end of the drawn interval of all curves, J/m². The axis is logarithmic, so
+    /// that an interval from 0 is drawn from the lowest end of all curves.
+    fn lowest_drawn(&self) -> f64 {
+        let work = self.fit.work;
+        if work.low > 0.0 {
+            return work.low;
+        }
+        let lows = self.fit.curves.iter().map(|curve| curve.work.low);
+        lows.fold(work.value, f64::min)
+    }
+
+    fn curve_axis(&self) -> ChartAxis {
+        let span = Span {
+            low: 0.5,
+            high: self.fit.curves.len() as f64 + 0.5,
+        };
+        ChartAxis::new(AxisScale::Linear, span, "number of the curve", "", "1")
+    }
+
+    /// Returns the axis of the work of adhesion, on which the interval of all curves begins at
+    /// `low` in J/m².
+    fn work_axis(&self, low: f64) -> ChartAxis {
+        let mut ends = Vec::with_capacity(2 * self.fit.curves.len() + 2);
+        for curve in &self.fit.curves {
+            ends.extend([curve.work.low, curve.work.high]);
+        }
+        ends.extend([low, self.fit.work.high]);
+        let scale = AxisScale::Logarithmic;
+        let coordinates = ends.into_iter().map(|work| scale.coordinate(work));
+        let span = Span::around(coordinates, 0.06);
+        ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²")
+    }
+
+    /// Returns the interval and the value of all curves, and the intervals and values of single
+    /// curves. The interval of all curves begins at `low` in J/m².
+    fn layers(&self, low: f64) -> Vec<Layer> {
+        let IntervalEstimate { value, high, .. } = self.fit.work;
+        let left = 0.5;
+        let right = self.fit.curves.len() as f64 + 0.5;
+        let band = Shape::Band(vec![(left, low, high), (right, low, high)]);
+        let mut layers = vec![Layer::new("95 % interval of all".into(), Ink::Quiet, band)];
+
+        let mut usual = Vec::new();
+        let mut foreign = Vec::new();
+        for (number, curve) in (1..).map(f64::from).zip(&self.fit.curves) {
+            let ends = vec![(number, curve.work.low), (number, curve.work.high)];
+            layers.push(Layer::unnamed(Ink::Kept, Shape::line(ends, Stroke::Solid)));
+            let points = if curve.foreign {
+                &mut foreign
+            } else {
+                &mut usual
+            };
+            points.push((number, curve.work.value));
+        }
+        let level = Shape::Level(value);
+        layers.push(Layer::new("all curves".into(), Ink::Contact, level));
+        if !usual.is_empty() {
+            let name = "one curve, 95 % interval".into();
+            layers.push(Layer::new(name, Ink::Text, Shape::signs(usual, Sign::Dot)));
+        }
+        if !foreign.is_empty() {
+            let signs = Shape::signs(foreign, Sign::Dot);
+            layers.push(Layer::new("foreign curve".into(), Ink::Cursor, signs));
+        }
+        layers
+    }
+}
+
+/// Returns the relative change of a quantity whose natural logarithm changes by `change`.
+fn relative_change(change: f64) -> String {
+    format!("{:+.0} %", 100.0 * change.exp_m1())
+}
+
+/// Writes `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
+fn with_interval(estimate: &IntervalEstimate, unit: &str) -> String {
+    let value = format_rounded(estimate.value, 3, unit);
+    let interval = format_range((estimate.low, estimate.high), 3, unit);
+    format!("{value}, {interval} (95 %)")
+}
+
+/// Returns the row of a curve in the table of the text.
+fn row(curve: &CurveOfEnsemble) -> [String; 6] {
+    let pull_off_force = curve
+        .pull_off_force
+        .map_or("-".to_owned(), |force| format_rounded(force, 3, "N"));
+    let interval = format_range((curve.work.low, curve.work.high), 2, "J/m²");
+    let mark = if curve.foreign { ", foreign" } else { "" };
+    [
+        curve.name.clone(),
+        pull_off_force,
+        format_rounded(curve.loop_area, 3, "J"),
+        format_rounded(curve.stiffness, 3, "N/m"),
+        format_rounded(curve.work.value, 3, "J/m²"),
+        format!("{interval}{mark}"),
+    ]
+}
+
+/// Writes `pull-off force larger by 12 % (3.1 standard errors)`.
+fn deviation_in_words(deviation: &SummaryDeviation) -> String {
+    let direction = if deviation.logarithm > 0.0 {
+        "larger"
+    } else {
+        "smaller"
+    };
+    let change = whole_percent(deviation.logarithm.abs().exp_m1());
+    format!(
+        "{} {direction} by {change} ({:.1} standard errors)",
+        deviation.summary,
+        deviation.deviation.abs()
+    )
 }

@@ -12,37 +12,49 @@ const NEAR: f64 = 0.01;
 /// Returns `None` if the body does not move on this branch.
 pub fn event(legs: &[LegRecord], branch: &Branch, point: CurvePoint) -> Option<&'static str> {
     let stages = &legs[branch.stages.clone()];
-    let (first, last) = (stages.first()?.curve.first()?, stages.last()?.curve.last()?);
-    let in_contact = |point: &&CurvePoint| point.springs > 0;
-    let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
+    let first = stages.first()?.curve.first()?;
+    let last = stages.last()?.curve.last()?;
     let range = (last.indentation - first.indentation).abs();
+    if range == 0.0 {
+        return None;
+    }
     let is_near =
         |other: &CurvePoint| (point.indentation - other.indentation).abs() <= NEAR * range;
-    match branch.direction {
-        _ if range == 0.0 => None,
-        Direction::Loading => Some(match point {
-            CurvePoint { springs: 0, .. } => "approach",
-            _ if is_near(last) => "turning point",
-            _ if stages
-                .iter()
-                .flat_map(|stage| &stage.curve)
-                .find(in_contact)
-                .is_some_and(is_near) =>
-            {
+    let is_under_tension = point.force < 0.0;
+    let event = match branch.direction {
+        Direction::Loading => {
+            let mut points = stages.iter().flat_map(|stage| &stage.curve);
+            let first_in_contact = points.find(|point| point.springs > 0);
+            if point.springs == 0 {
+                "approach"
+            } else if is_near(last) {
+                "turning point"
+            } else if first_in_contact.is_some_and(is_near) {
                 "jump-in"
+            } else if is_under_tension {
+                "spreads under tension"
+            } else {
+                "contact spreads"
             }
-            CurvePoint { force, .. } if force < 0.0 => "spreads under tension",
-            _ => "contact spreads",
-        }),
-        Direction::Unloading => Some(match point {
-            CurvePoint { springs: 0, .. } => "separated",
-            _ if is_near(first) => "turning point",
-            _ if is_near(&smallest) => "pull-off",
-            _ if point.indentation < smallest.indentation => "detachment",
-            CurvePoint { force, .. } if force < 0.0 => "under tension",
-            _ => "contact shrinks",
-        }),
-    }
+        }
+        Direction::Unloading => {
+            let smallest = branch.smallest(legs).map_or(*last, |(_, point)| point);
+            if point.springs == 0 {
+                "separated"
+            } else if is_near(first) {
+                "turning point"
+            } else if is_near(&smallest) {
+                "pull-off"
+            } else if point.indentation < smallest.indentation {
+                "detachment"
+            } else if is_under_tension {
+                "under tension"
+            } else {
+                "contact shrinks"
+            }
+        }
+    };
+    Some(event)
 }
 
 #[cfg(test)]

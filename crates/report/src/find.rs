@@ -6,10 +6,11 @@ use crate::sensitivity::others_stay;
 use crate::sheet::Sheet;
 use crate::warnings::{counted_section, counted_texts};
 use asperity_data::{
-    Kind, Table, format_quantity, format_range, format_rounded, grouped, object, one_unit,
+    Kind, Table, format_quantity, format_range, format_rounded, grouped, one_unit,
 };
 use asperity_scene::Scene;
-use asperity_study::{Answer, Ensemble, Found};
+use asperity_study::{Answer, Ensemble, Found, Quantity};
+use serde::Serialize;
 
 /// Largest number of listed profiles with several crossings. Further ones are counted.
 const MOST_LISTED: usize = 8;
@@ -18,7 +19,6 @@ const MOST_LISTED: usize = 8;
 /// value of a result, such as the adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct FindReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene in which the number is varied.
     pub scene: &'a Scene,
@@ -30,149 +30,204 @@ pub struct FindReport<'a> {
 /// over the profiles, of the number at which the result reaches the wanted value, and state how
 /// many profiles have no such number and where a crossing may be missed.
 pub fn found_in_words(found: &Found) -> String {
-    let question = &found.question;
-    let count = found.answers.len();
-    let (name, quantity) = (
-        question.axis.symbol_or_name(),
-        question.quantity.symbol_or_name(),
-    );
-    let (target, searched) = (
-        target_in_words(found),
-        format_range(question.searched, 4, question.axis.unit),
-    );
-    let reachable = found
-        .reachable()
-        .map_or_else(String::new, |ends| values_in_words(found, ends));
-    let is_enough = |answer: &Answer| answer.crossings.is_empty() && answer.reached == [true; 2];
-    if question.seeks_least_preload() && found.answers.iter().all(is_enough) {
-        let touch = at_touch_in_words(found);
-        return format!(
-            "{target} is reached at any preload from {searched}{touch}: {quantity} is {reachable}."
-        );
+    let words = SearchWords::new(found);
+    let reaches_always = found.answers.iter().all(reaches_everywhere);
+    if found.question.seeks_least_preload() && reaches_always {
+        return words.at_any_preload(found);
     }
-    let with_value = count - found.unreached();
+    let with_value = found.answers.len() - found.unreached();
     if with_value == 0 {
-        let never = never_in_words(found);
-        let missed = missed_in_words(found).map_or_else(String::new, |missed| format!(" {missed}"));
-        return format!(
-            "{target} is {never} with {name} from {searched}: {quantity} is {reachable}.{missed}"
-        );
+        return words.nowhere(found);
     }
     let Some(median) = found.quantile(0.5) else {
-        let range = found.range().map_or_else(String::new, |ends| {
-            format!(", at {}", format_range(ends, 3, question.axis.unit))
-        });
-        return format!(
+        return words.on_too_few(found, with_value);
+    };
+    let median = format_quantity(median, found.question.axis.unit);
+    match &found.answers[..] {
+        [answer] => words.on_one(answer, &median),
+        _ => words.on_several(found, &median),
+    }
+}
+
+/// Returns true if the quantity is larger than the target at all searched numbers.
+fn reaches_everywhere(answer: &Answer) -> bool {
+    answer.crossings.is_empty() && answer.reached == [true; 2]
+}
+
+/// Returns true if the quantity is smaller than the target at all searched numbers.
+fn reaches_nowhere(answer: &Answer) -> bool {
+    answer.crossings.is_empty() && answer.reached == [false; 2]
+}
+
+/// Words on a question, of which its answers are made.
+struct SearchWords {
+    /// Number that is sought.
+    name: String,
+    quantity: String,
+    /// Wanted value of the quantity: `F_a/F_a,max = 80 %`.
+    target: String,
+    /// Range of the searched numbers.
+    searched: String,
+    /// Range of the quantity at the searched numbers; empty if it has no value there.
+    reachable: String,
+    /// Sentence on profiles on which a crossing may be missed, after a blank; otherwise empty.
+    missed: String,
+}
+
+impl SearchWords {
+    fn new(found: &Found) -> Self {
+        let question = &found.question;
+        let quantity = question.quantity.symbol_or_name();
+        let target = rounded(question.quantity, question.target, 4);
+        SearchWords {
+            name: question.axis.symbol_or_name().to_owned(),
+            target: format!("{quantity} = {target}"),
+            quantity: quantity.to_owned(),
+            searched: format_range(question.searched, 4, question.axis.unit),
+            reachable: match found.reachable() {
+                Some(ends) => values_in_words(question.quantity, ends),
+                None => String::new(),
+            },
+            missed: missed_in_words(found),
+        }
+    }
+
+    /// Returns the answer if no preload of the range is needed.
+    fn at_any_preload(&self, found: &Found) -> String {
+        let SearchWords {
+            quantity,
+            target,
+            searched,
+            reachable,
+            ..
+        } = self;
+        let touch = at_touch_in_words(found);
+        format!(
+            "{target} is reached at any preload from {searched}{touch}: {quantity} is {reachable}."
+        )
+    }
+
+    /// Returns the answer if the quantity reaches the target on no profile.
+    fn nowhere(&self, found: &Found) -> String {
+        let SearchWords {
+            name,
+            quantity,
+            target,
+            searched,
+            reachable,
+            missed,
+        } = self;
+        let is_certain = |answer: &Answer| answer.is_proven && !answer.may_miss;
+        let never = if found.answers.iter().all(is_certain) {
+            "never reached"
+        } else {
+            "reached at none of the computed values"
+        };
+        format!(
+            "{target} is {never} with {name} from {searched}: {quantity} is {reachable}.{missed}"
+        )
+    }
+
+    /// Returns the answer if the quantity reaches the target on less than half of the profiles.
+    fn on_too_few(&self, found: &Found, with_value: usize) -> String {
+        let SearchWords {
+            name,
+            quantity,
+            target,
+            searched,
+            reachable,
+            ..
+        } = self;
+        let count = found.answers.len();
+        let range = match found.range() {
+            Some(ends) => format!(", at {}", format_range(ends, 3, found.question.axis.unit)),
+            None => String::new(),
+        };
+        format!(
             "{target} is reached on {with_value} of {count} profiles with {name} from {searched}{range}, which is too few \
              for a median: {quantity} is {reachable}."
-        );
-    };
-    let median = format_quantity(median, question.axis.unit);
-    if count == 1 {
-        let crossings = found.answers[0].crossings.len();
-        let at_least = match (found.answers[0].may_miss, crossings) {
+        )
+    }
+
+    /// Returns the answer on a single profile.
+    fn on_one(&self, answer: &Answer, value: &str) -> String {
+        let SearchWords { name, target, .. } = self;
+        let at_least = match (answer.may_miss, answer.crossings.len()) {
             (false, _) => String::new(),
             (true, 1) => ", the first of at least 1 crossing".to_owned(),
-            (true, _) => format!(", the first of at least {crossings} crossings"),
+            (true, crossings) => format!(", the first of at least {crossings} crossings"),
         };
-        return format!("{name} = {median} for {target}{at_least}.");
+        format!("{name} = {value} for {target}{at_least}.")
     }
-    let mut beside = vec![quartiles_in_words(found)];
-    if found.unreached() > 0 {
-        beside.push(format!(
-            "{} of {count} profiles without a value",
-            found.unreached()
-        ));
+
+    /// Returns the answer on several profiles, of which at least half reach the target.
+    fn on_several(&self, found: &Found, median: &str) -> String {
+        let SearchWords {
+            name,
+            target,
+            missed,
+            ..
+        } = self;
+        let count = found.answers.len();
+        let mut beside = quartiles_in_words(found);
+        if found.unreached() > 0 {
+            let unreached = found.unreached();
+            beside += &format!("; {unreached} of {count} profiles without a value");
+        }
+        format!("{name} = {median} ({beside}) for {target}: median of {count} profiles.{missed}")
     }
-    let beside = beside.join("; ");
-    let missed = missed_in_words(found).map_or_else(String::new, |missed| format!(" {missed}"));
-    format!("{name} = {median} ({beside}) for {target}: median of {count} profiles.{missed}")
 }
 
 /// Returns the quartiles in words: `quartiles 6.71 to 17.3 µN`.
 fn quartiles_in_words(found: &Found) -> String {
     let unit = found.question.axis.unit;
-    match [0.25, 0.75].map(|share| found.quantile(share)) {
-        [Some(low), Some(high)] => format!("quartiles {}", format_range((low, high), 3, unit)),
-        [Some(low), None] => {
-            format!(
-                "lower quartile {}, the upper one beyond the searched range",
-                format_rounded(low, 3, unit)
-            )
+    match (found.quantile(0.25), found.quantile(0.75)) {
+        (Some(low), Some(high)) => format!("quartiles {}", format_range((low, high), 3, unit)),
+        (Some(low), None) => {
+            let low = format_rounded(low, 3, unit);
+            format!("lower quartile {low}, the upper one beyond the searched range")
         }
-        [None, Some(high)] => {
-            format!(
-                "upper quartile {}, the lower one beyond the searched range",
-                format_rounded(high, 3, unit)
-            )
+        (None, Some(high)) => {
+            let high = format_rounded(high, 3, unit);
+            format!("upper quartile {high}, the lower one beyond the searched range")
         }
-        [None, None] => "both quartiles beyond the searched range".to_owned(),
+        (None, None) => "both quartiles beyond the searched range".to_owned(),
     }
 }
 
-/// Returns words for a target without a crossing on any profile.
-fn never_in_words(found: &Found) -> &'static str {
-    let is_proven = found
-        .answers
-        .iter()
-        .all(|answer| answer.is_proven && !answer.may_miss);
-    if is_proven {
-        "never reached"
+/// Returns a sentence, after a blank, on the profiles on which a crossing may be missed. It is
+/// empty without such a profile.
+fn missed_in_words(found: &Found) -> String {
+    let answers = found.answers.iter();
+    let count = answers.filter(|answer| answer.may_miss).count();
+    let profiles = found.answers.len();
+    if count == 0 {
+        String::new()
+    } else if profiles == 1 {
+        " Crossings may be missed.".to_owned()
     } else {
-        "reached at none of the computed values"
-    }
-}
-
-/// Returns a sentence on the profiles on which a crossing may be missed; `None` without such a
-/// profile.
-fn missed_in_words(found: &Found) -> Option<String> {
-    let count = found
-        .answers
-        .iter()
-        .filter(|answer| answer.may_miss)
-        .count();
-    let all = found.answers.len();
-    match (count, all) {
-        (0, _) => None,
-        (_, 1) => Some("Crossings may be missed.".to_owned()),
-        _ => Some(format!(
-            "On {count} of {all} profiles crossings may be missed."
-        )),
+        format!(" On {count} of {profiles} profiles crossings may be missed.")
     }
 }
 
 /// Returns words on the profiles that reach the target without a preload.
 fn at_touch_in_words(found: &Found) -> String {
-    match found
-        .answers
-        .iter()
-        .filter(|answer| answer.at_touch)
-        .count()
-    {
-        0 => String::new(),
-        touch if touch == found.answers.len() => ", and also turned at first touch".to_owned(),
-        touch => {
-            format!(
-                ", and on {touch} of {} profiles also turned at first touch",
-                found.answers.len()
-            )
-        }
+    let answers = found.answers.iter();
+    let count = answers.filter(|answer| answer.at_touch).count();
+    let profiles = found.answers.len();
+    if count == 0 {
+        String::new()
+    } else if count == profiles {
+        ", and also turned at first touch".to_owned()
+    } else {
+        format!(", and on {count} of {profiles} profiles also turned at first touch")
     }
 }
 
-/// Returns the target in words: `F_a/F_a,max = 80 %`.
-fn target_in_words(found: &Found) -> String {
-    let quantity = found.question.quantity;
-    format!(
-        "{} = {}",
-        quantity.symbol_or_name(),
-        rounded(quantity, found.question.target, 4)
-    )
-}
-
-/// Returns the range of possible values of the quantity in words.
-fn values_in_words(found: &Found, (least, most): (f64, f64)) -> String {
-    one_unit([least, most].map(|value| rounded(found.question.quantity, value, 4)))
+/// Returns a range of values of a quantity in words.
+fn values_in_words(quantity: Quantity, range: (f64, f64)) -> String {
+    let (least, most) = range;
+    one_unit([least, most].map(|value| rounded(quantity, value, 4)))
 }
 
 /// Returns words on the numbers at which the quantity was computed. They are empty if the crossings
@@ -189,13 +244,13 @@ fn computed_in_words(found: &Found) -> String {
             tried.push(answer.tried);
         }
     }
-    let (Some(least), Some(most)) = (tried.iter().min(), tried.iter().max()) else {
+    let (Some(&least), Some(&most)) = (tried.iter().min(), tried.iter().max()) else {
         return waves.to_owned();
     };
     let count = if least == most {
-        grouped(*most)
+        grouped(most)
     } else {
-        format!("{} to {}", grouped(*least), grouped(*most))
+        format!("{} to {}", grouped(least), grouped(most))
     };
     let each = if found.answers.len() > 1 {
         " on each profile"
@@ -206,197 +261,230 @@ fn computed_in_words(found: &Found) -> String {
 }
 
 impl FindReport<'_> {
+    /// Returns `On 3 of 16 profiles` for the profiles whose answers have a property. Returns `None`
+    /// if there are none, or if there is a single profile in all.
+    fn on_profiles(&self, has_property: impl Fn(&Answer) -> bool) -> Option<String> {
+        let answers = self.found.answers.iter();
+        let count = answers.filter(|answer| has_property(answer)).count();
+        let profiles = self.found.answers.len();
+        if count == 0 || profiles == 1 {
+            return None;
+        }
+        Some(format!("On {count} of {profiles} profiles"))
+    }
+
     /// Returns sentences on the profiles whose answer is not a single number.
     fn exceptions(&self) -> Vec<String> {
-        let (found, question) = (self.found, &self.found.question);
-        let (name, quantity) = (
-            question.axis.symbol_or_name(),
-            question.quantity.symbol_or_name(),
-        );
-        let all = found.answers.len();
-        let of_profiles = |is: &dyn Fn(&Answer) -> bool| {
-            let count = found.answers.iter().filter(|answer| is(answer)).count();
-            (count > 0 && all > 1).then(|| format!("On {count} of {all} profiles"))
-        };
-        let is_free = |answer: &Answer| answer.crossings.is_empty();
-        let mut sentences = Vec::new();
-        let alike = |answer: &Answer| is_free(answer) && answer.reached == found.answers[0].reached;
-        if found.answers.iter().all(alike) {
+        let answers = &self.found.answers;
+        let is_like_first =
+            |answer: &Answer| answer.crossings.is_empty() && answer.reached == answers[0].reached;
+        if answers.iter().all(is_like_first) {
             // The answer itself says so.
-            return sentences;
+            return Vec::new();
         }
+        let question = &self.found.question;
+        let name = question.axis.symbol_or_name();
+        let quantity = question.quantity.symbol_or_name();
+        let mut sentences = Vec::new();
         if question.seeks_least_preload() {
-            let least = format_quantity(question.searched.0, question.axis.unit);
-            let enough = of_profiles(&|answer| answer.reached[0]);
-            sentences.extend(enough.map(|on| format!("{on} {least} is enough, and counts.")));
-            let touch = of_profiles(&|answer| answer.at_touch);
-            sentences.extend(touch.map(|on| format!("{on} first touch is enough.")));
-        } else {
-            let larger = of_profiles(&|answer| is_free(answer) && answer.reached == [true; 2]);
-            sentences.extend(
-                larger.map(|on| format!("{on} {quantity} is larger at any {name} of the range.")),
-            );
-        }
-        let never = |answer: &Answer| is_free(answer) && answer.reached == [false; 2];
-        let most = found
-            .answers
-            .iter()
-            .filter(|answer| never(answer))
-            .filter_map(|answer| answer.reachable);
-        if let (Some(on), Some(most)) = (
-            of_profiles(&never),
-            most.map(|ends| ends.1).reduce(f64::max),
-        ) {
-            let most = values_in_words(found, (most, most));
+            if let Some(on_profiles) = self.on_profiles(|answer| answer.reached[0]) {
+                let least = format_quantity(question.searched.0, question.axis.unit);
+                sentences.push(format!("{on_profiles} {least} is enough, and counts."));
+            }
+            if let Some(on_profiles) = self.on_profiles(|answer| answer.at_touch) {
+                sentences.push(format!("{on_profiles} first touch is enough."));
+            }
+        } else if let Some(on_profiles) = self.on_profiles(reaches_everywhere) {
             sentences.push(format!(
-                "{on} {quantity} never reaches that value: it is at most {most}."
+                "{on_profiles} {quantity} is larger at any {name} of the range."
+            ));
+        }
+        let never = answers.iter().filter(|answer| reaches_nowhere(answer));
+        let largest = never
+            .filter_map(|answer| answer.reachable)
+            .map(|(_, most)| most)
+            .reduce(f64::max);
+        if let Some(on_profiles) = self.on_profiles(reaches_nowhere)
+            && let Some(largest) = largest
+        {
+            let most = values_in_words(question.quantity, (largest, largest));
+            sentences.push(format!(
+                "{on_profiles} {quantity} never reaches that value: it is at most {most}."
             ));
         }
         sentences
     }
 
-    /// Returns rows of the profiles whose quantity crosses the target more than once, or falls
-    /// below it again.
-    fn several(&self) -> Vec<(String, String)> {
-        let unit = self.found.question.axis.unit;
-        let several = self
-            .found
-            .answers
-            .iter()
-            .filter(|answer| answer.crossings.len() > 1);
-        let row = |answer: &Answer| {
-            let numbers: Vec<String> = answer
-                .crossings
-                .iter()
-                .map(|number| format_rounded(*number, 3, unit))
-                .collect();
-            let at_least = if answer.may_miss {
-                format!("at least {}: ", numbers.len())
-            } else {
-                String::new()
+    /// Adds the profiles whose quantity crosses the target more than once, or falls below it again;
+    /// nothing without such a profile.
+    fn add_several_crossings(&self, sheet: &mut Sheet) {
+        let answers = self.found.answers.iter();
+        let several: Vec<&Answer> = answers
+            .filter(|answer| answer.crossings.len() > 1)
+            .collect();
+        if several.is_empty() {
+            return;
+        }
+        sheet.heading("Several crossings, of which the first counts");
+        for answer in several.iter().take(MOST_LISTED) {
+            let profile = match answer.seed {
+                Some(seed) => format!("seed {seed}"),
+                None => "this profile".to_owned(),
             };
-            let seed = answer
-                .seed
-                .map_or("this profile".to_owned(), |seed| format!("seed {seed}"));
-            (seed, format!("{at_least}{}", numbers.join(", ")))
+            sheet.row(&profile, self.crossings_in_words(answer));
+        }
+        if several.len() > MOST_LISTED {
+            let more = grouped((several.len() - MOST_LISTED) as u64);
+            sheet.row("and more", format!("{more} profiles"));
+        }
+    }
+
+    /// Returns all crossings on a profile: `at least 2: 1.2 µN, 3.4 µN`.
+    fn crossings_in_words(&self, answer: &Answer) -> String {
+        let unit = self.found.question.axis.unit;
+        let numbers: Vec<String> = answer
+            .crossings
+            .iter()
+            .map(|number| format_rounded(*number, 3, unit))
+            .collect();
+        let all = numbers.join(", ");
+        if answer.may_miss {
+            format!("at least {}: {all}", numbers.len())
+        } else {
+            all
+        }
+    }
+
+    /// Returns sentences on the searched range, on what stays constant, and on the profiles.
+    fn conditions(&self) -> String {
+        let found = self.found;
+        let question = &found.question;
+        let axis = &question.axis;
+        let name = &axis.name;
+        let range = format_range(question.searched, 4, axis.unit);
+        let computed = computed_in_words(found);
+        let refused = match &found.refused {
+            Some(reason) => format!(" Not all of these numbers are allowed: {reason}."),
+            None => String::new(),
         };
-        several.map(row).collect()
+        let others = if question.is_of_preload() {
+            "The preload replaces the loading of the scene.".to_owned()
+        } else if axis.path.starts_with("adhesion.") {
+            others_stay(None)
+        } else {
+            others_stay(self.scene.adhesion)
+        };
+        let profiles = match found.answers.first().and_then(|answer| answer.seed) {
+            Some(first) => {
+                let profiles = profiles_named(question.profiles(), first);
+                let springs = grouped(self.scene.numerics.points);
+                format!("{profiles}, {springs} springs.")
+            }
+            None => Ensemble::FIXED.to_owned(),
+        };
+        format!("Searched: {name} from {range}{computed}.{refused} {others} {profiles}")
     }
 }
 
 impl Report for FindReport<'_> {
     fn text(&self) -> Option<String> {
-        let (found, question) = (self.found, &self.found.question);
-        let axis = &question.axis;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
-        sheet.heading(&found_in_words(found));
-        self.exceptions()
-            .iter()
-            .for_each(|sentence| sheet.paragraph(sentence));
-        counted_section(
-            &mut sheet,
-            &self.found.warnings,
-            self.found.question.profiles(),
-        );
-        let several = self.several();
-        if !several.is_empty() {
-            sheet.heading("Several crossings, of which the first counts");
-            several
-                .iter()
-                .take(MOST_LISTED)
-                .for_each(|(seed, all)| sheet.row(seed, all));
-            let more = several.len().saturating_sub(MOST_LISTED);
-            sheet.row_of(
-                "and more",
-                (more > 0).then(|| format!("{} profiles", grouped(more as u64))),
-            );
+        sheet.heading(&found_in_words(self.found));
+        for sentence in self.exceptions() {
+            sheet.paragraph(&sentence);
         }
-        let refused = found
-            .refused
-            .as_ref()
-            .map(|why| format!(" Not all of these numbers are allowed: {why}."));
-        let searched = format!(
-            "Searched: {} from {}{}.",
-            axis.name,
-            format_range(question.searched, 4, axis.unit),
-            computed_in_words(found)
-        );
-        let profiles = match found.answers.first().and_then(|answer| answer.seed) {
-            Some(first) => format!(
-                "{}, {} springs.",
-                profiles_named(question.profiles(), first),
-                grouped(self.scene.numerics.points)
-            ),
-            None => Ensemble::FIXED.to_owned(),
-        };
-        let others = if question.is_of_preload() {
-            "The preload replaces the loading of the scene.".to_owned()
-        } else {
-            others_stay(
-                self.scene
-                    .adhesion
-                    .filter(|_| !axis.path.starts_with("adhesion.")),
-            )
-        };
-        sheet.heading(&format!(
-            "{searched}{} {others} {profiles}",
-            refused.unwrap_or_default()
-        ));
+        let profiles = self.found.question.profiles();
+        counted_section(&mut sheet, &self.found.warnings, profiles);
+        self.add_several_crossings(&mut sheet);
+        sheet.heading(&self.conditions());
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let (found, question) = (self.found, &self.found.question);
-        let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share));
-        Some(Box::new(object! {
-            "scene": self.scene,
-            "warnings": counted_texts(&self.found.warnings, self.found.question.profiles()),
-            "field": &question.axis.path,
-            "unit": question.axis.unit,
-            "quantity": question.quantity,
-            "target": question.target,
-            "value": median,
-            "profiles": question.profiles(),
-            "unreached": found.unreached(),
-            "quartiles": [low, high],
-            "range": found.range(),
-            "values": found.values(),
-            "crossings": found.answers.iter().map(|answer| answer.crossings.len()).collect::<Vec<_>>(),
-            "at_least": found.answers.iter().map(|answer| answer.may_miss).collect::<Vec<_>>(),
-            "all_crossings": found.answers.iter().map(|answer| &answer.crossings).collect::<Vec<_>>(),
-            "at_first_touch": question.is_of_preload().then(|| found.answers.iter().filter(|answer| answer.at_touch).count()),
-            "reachable": found.reachable(),
-            "searched": question.searched,
-            "answer": found_in_words(found),
-        }))
+        Some(Box::new(FindJson::new(self.scene, self.found)))
     }
 
     /// Returns a table with a row for each profile: the number that was found, how often the result
     /// crosses the wanted value in the searched range, 1 if it may cross it more often and
     /// otherwise 0, and the smallest and largest result in this range.
     fn table(&self) -> Option<Table<'_>> {
+        let answers = &self.found.answers;
         let values = self.found.values();
-        let rows = move || self.found.answers.iter().zip(values.clone());
-        let mut table = Table::of(rows);
-        if self
-            .found
-            .answers
-            .iter()
-            .all(|answer| answer.seed.is_some())
-        {
+        let mut table = Table::of(move || answers.iter().zip(values.clone()));
+        if answers.iter().all(|answer| answer.seed.is_some()) {
             table = table.whole("seed", |(answer, _)| answer.seed.unwrap_or_default());
         }
+        let path = self.found.question.axis.path.clone();
         let table = table
-            .with(
-                self.found.question.axis.path.clone(),
-                Kind::Real,
-                |(_, value)| *value,
-            )
+            .with(path, Kind::Real, |(_, value)| *value)
             .whole("crossings", |(answer, _)| answer.crossings.len() as u64)
             .whole("at_least", |(answer, _)| u64::from(answer.may_miss))
             .real("least", |(answer, _)| answer.reachable.map(|ends| ends.0))
             .real("most", |(answer, _)| answer.reachable.map(|ends| ends.1));
         Some(table.done())
+    }
+}
+
+/// JSON object of a search, in SI units. A list has an entry for each profile.
+#[derive(Serialize)]
+struct FindJson<'a> {
+    scene: &'a Scene,
+    warnings: Vec<String>,
+    field: &'a str,
+    unit: &'static str,
+    quantity: Quantity,
+    target: f64,
+    /// Median of the number over the profiles.
+    value: Option<f64>,
+    profiles: u64,
+    unreached: usize,
+    quartiles: [Option<f64>; 2],
+    range: Option<(f64, f64)>,
+    values: Vec<Option<f64>>,
+    crossings: Vec<usize>,
+    at_least: Vec<bool>,
+    all_crossings: Vec<&'a [f64]>,
+    /// Number of profiles that need no preload; `None` if no preload is sought.
+    at_first_touch: Option<usize>,
+    reachable: Option<(f64, f64)>,
+    searched: (f64, f64),
+    answer: String,
+}
+
+impl<'a> FindJson<'a> {
+    fn new(scene: &'a Scene, found: &'a Found) -> Self {
+        let question = &found.question;
+        let mut crossings = Vec::new();
+        let mut at_least = Vec::new();
+        let mut all_crossings = Vec::new();
+        let mut at_first_touch = 0;
+        for answer in &found.answers {
+            crossings.push(answer.crossings.len());
+            at_least.push(answer.may_miss);
+            all_crossings.push(answer.crossings.as_slice());
+            at_first_touch += usize::from(answer.at_touch);
+        }
+        FindJson {
+            scene,
+            warnings: counted_texts(&found.warnings, question.profiles()),
+            field: &question.axis.path,
+            unit: question.axis.unit,
+            quantity: question.quantity,
+            target: question.target,
+            value: found.quantile(0.5),
+            profiles: question.profiles(),
+            unreached: found.unreached(),
+            quartiles: [0.25, 0.75].map(|share| found.quantile(share)),
+            range: found.range(),
+            values: found.values(),
+            crossings,
+            at_least,
+            all_crossings,
+            at_first_touch: question.is_of_preload().then_some(at_first_touch),
+            reachable: found.reachable(),
+            searched: question.searched,
+            answer: found_in_words(found),
+        }
     }
 }

@@ -3,11 +3,15 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::warnings_section;
+use crate::words::percent;
 use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
 use std::f64::consts::PI;
+
+const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
+    dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
 /// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
 /// figure with the measured curve, the computed curve and their difference.
@@ -38,105 +42,24 @@ struct FitJson<'a> {
 
 impl Report for FitReport<'_> {
     fn text(&self) -> Option<String> {
-        let FitReport { title, curve, fit } = *self;
+        let fit = self.fit;
         let mut sheet = Sheet::default();
-        if let Some(reason) = &fit.reason {
-            let intervals = if fit.has_other_profile() {
-                "are the whole ranges of the search, since each profile gives other values"
-            } else {
-                "are by the scatter over parts of the curve"
-            };
-            sheet.paragraph(&format!(
-                "The model does not describe the curve: the misfit is {}, above {}. {reason} The intervals {intervals}.",
-                format_rounded(fit.misfit, 3, "1"),
-                FitResult::MOST_MISFIT,
-            ));
+        if let Some(sentences) = self.not_described() {
+            sheet.paragraph(&sentences);
         }
-        sheet.heading(&format!("Curve {title}"));
-        curve
-            .statements
-            .iter()
-            .chain(&fit.assumptions)
-            .for_each(|sentence| sheet.paragraph(sentence));
+        sheet.heading(&format!("Curve {}", self.title));
+        for sentence in self.assumptions() {
+            sheet.paragraph(sentence);
+        }
         sheet.heading(&format!("Fit of {}", fit.document.title()));
-        let quantity =
-            |one: &FittedParameter, value: f64| format_quantity(value, one.parameter.row().unit);
-        let header = ["", "value", "95 % interval", "standard error", "start"];
-        let row = |one: &FittedParameter| {
-            [
-                format!(
-                    "{} {}",
-                    one.parameter.row().term,
-                    one.parameter.row().symbol
-                ),
-                one.text(one.value),
-                format!(
-                    "{} to {}",
-                    one.text(one.interval.0),
-                    one.text(one.interval.1)
-                ),
-                quantity(one, one.noise_error),
-                quantity(one, one.start),
-            ]
-        };
-        let rows = fit.parameters.iter().map(row);
-        sheet.table(
-            &std::iter::once(header.map(String::from))
-                .chain(rows)
-                .collect::<Vec<_>>(),
-        );
-        let [residual, noise] =
-            [fit.residual, curve.noise].map(|force| format_quantity(force, "N"));
-        sheet.heading(&format!(
-            "Residual {residual}, {} times the noise of {noise}; {} of the points deviate by more than 5 times the noise. {} \
-             curves were computed.",
-            format_quantity(fit.residual_over_noise, "1"),
-            format_args!("{} %", format_rounded(100.0 * fit.beyond_five_sigma, 2, "1")),
-            grouped(fit.evaluations as u64)
-        ));
-        sheet.paragraph(&format!(
-            "Misfit {}: residual in contact over the noise, in which points near jumps and outliers count less. Up to {} the \
-             model describes the curve.",
-            format_rounded(fit.misfit, 3, "1"),
-            FitResult::MOST_MISFIT,
-        ));
-        if let Some(work) = fit.work_at_most {
-            let work = format_rounded(work, 2, "J/m²");
-            sheet.paragraph(&format!(
-                "γ is at most {work}: a model without adhesion describes the curve equally well."
-            ));
-        }
-        if let Some(force) = curve.pull_off_force() {
-            let work = self.pull_off_work(force).map_or_else(String::new, |work| {
-                let work = format_quantity(work, "J/m²");
-                format!("; by itself, for any E* and k, it gives γ = F/(1.5πR) = {work}")
-            });
-            sheet.paragraph(&format!(
-                "Pull-off force of the curve {}{work}.",
-                format_quantity(force, "N")
-            ));
-        }
+        self.add_parameters(&mut sheet);
+        self.add_residual(&mut sheet);
+        self.add_adhesion(&mut sheet);
         if let Some(number) = fit.tabor {
-            sheet.paragraph(&format!(
-                "Tabor number μ = {}.",
-                format_quantity(number, "1")
-            ));
+            let number = format_quantity(number, "1");
+            sheet.paragraph(&format!("Tabor number μ = {number}."));
         }
-        let strongest = fit
-            .correlations
-            .iter()
-            .max_by(|one, other| one.2.abs().total_cmp(&other.2.abs()));
-        if let Some((one, other, value)) = strongest {
-            let (one, other) = (one.row().symbol, other.row().symbol);
-            sheet.paragraph(&format!(
-                "Largest correlation: {one} and {other}, {value:.2}."
-            ));
-        }
-        let is_bound = |pair: &&(Parameter, Parameter)| {
-            fit.work_at_most.is_some() && **pair == (Parameter::Work, Parameter::Work)
-        };
-        let named = fit.not_distinguished.iter().filter(|pair| !is_bound(pair));
-        named.for_each(|&(one, other)| sheet.paragraph(&separation(one, other)));
+        self.add_correlations(&mut sheet);
         if fit.document.scene().roughness.is_some() {
             sheet.paragraph(ROUGH);
         }
@@ -145,94 +68,70 @@ impl Report for FitReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let FitReport { curve, fit, .. } = *self;
-        let pull_off_force = curve.pull_off_force();
+        let pull_off_force = self.curve.pull_off_force();
         Some(Box::new(FitJson {
-            described: fit.describes(),
-            fit,
-            noise: curve.noise,
+            described: self.fit.describes(),
+            fit: self.fit,
+            noise: self.curve.noise,
             pull_off_force,
             pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
-            points_used: curve.points,
-            points_left_out: curve.missing,
-            reading: curve.statements.iter().chain(&fit.assumptions).collect(),
+            points_used: self.curve.points,
+            points_left_out: self.curve.missing,
+            reading: self.assumptions().collect(),
         }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let FitReport { curve, fit, .. } = *self;
-        let (force, model) = (&curve.force, &fit.model);
-        let table =
-            Table::of(|| 0..force.len()).real("displacement", |&point| curve.displacement[point]);
-        let table = table
-            .real("force", |&point| force[point])
-            .real("model", |&point| model[point]);
-        let table = table.real("residual", |&point| force[point] - model[point]);
-        Some(
-            table
-                .whole("segment", |&point| curve.segment[point] as u64)
-                .done(),
-        )
+        let curve = self.curve;
+        let model = &self.fit.model;
+        let table = Table::of(|| 0..curve.force.len())
+            .real("displacement", |&point| curve.displacement[point])
+            .real("force", |&point| curve.force[point])
+            .real("model", |&point| model[point])
+            .real("residual", |&point| curve.force[point] - model[point])
+            .whole("segment", |&point| curve.segment[point] as u64);
+        Some(table.done())
     }
 
     fn figure(&self) -> Option<Figure> {
-        let FitReport { title, curve, fit } = *self;
-        let points = |force: &dyn Fn(usize) -> f64| -> Vec<(f64, f64)> {
-            curve
-                .displacement
-                .iter()
-                .enumerate()
-                .map(|(index, at)| (*at, force(index)))
-                .collect()
-        };
-        let measured = points(&|index| curve.force[index]);
-        let residuals = points(&|index| (curve.force[index] - fit.model[index]) / curve.noise);
-        let model = points(&|index| fit.model[index]);
-        let span = |points: &[(f64, f64)]| Span::around(points.iter().map(|point| point.1), 0.06);
-        let x = Span::around(measured.iter().map(|point| point.0), 0.03);
-        let x = || ChartAxis::new(AxisScale::Linear, x, "displacement", "D", "m");
-        let force = ChartAxis::new(AxisScale::Linear, span(&measured), "force", "F", "N");
-        let rest = ChartAxis::new(
-            AxisScale::Linear,
-            span(&residuals),
-            "residual over noise",
-            "",
-            "1",
-        );
-        let layers = vec![
-            Layer::new(
-                "measured".into(),
-                Ink::Kept,
-                Shape::signs(measured, Sign::Dot),
-            ),
-            Layer::new(
-                "model".into(),
-                Ink::Contact,
-                Shape::line(model, Stroke::Solid),
-            ),
+        let curve = self.curve;
+        let model = &self.fit.model;
+        let points = curve.displacement.len();
+        let mut measured = Vec::with_capacity(points);
+        let mut computed = Vec::with_capacity(points);
+        let mut residuals = Vec::with_capacity(points);
+        for (index, &displacement) in curve.displacement.iter().enumerate() {
+            let residual = curve.force[index] - model[index];
+            measured.push((displacement, curve.force[index]));
+            computed.push((displacement, model[index]));
+            residuals.push((displacement, residual / curve.noise));
+        }
+
+        let span = Span::around(curve.displacement.iter().copied(), 0.03);
+        let x = ChartAxis::new(AxisScale::Linear, span, "displacement", "D", "m");
+        let force = vertical_axis(&measured, "force", "F", "N");
+        let residual = vertical_axis(&residuals, "residual over noise", "", "1");
+        let measured = Shape::signs(measured, Sign::Dot);
+        let computed = Shape::line(computed, Stroke::Solid);
+        let forces = vec![
+            Layer::new("measured".into(), Ink::Kept, measured),
+            Layer::new("model".into(), Ink::Contact, computed),
         ];
-        let rests = vec![
+        let residuals = Shape::signs(residuals, Sign::Dot);
+        let residuals = vec![
             Layer::unnamed(Ink::Quiet, Shape::Level(0.0)),
-            Layer::new(
-                "measured".into(),
-                Ink::Kept,
-                Shape::signs(residuals, Sign::Dot),
-            ),
+            Layer::new("measured".into(), Ink::Kept, residuals),
         ];
-        let found = fit.parameters.iter().map(|one| {
-            let [value, half] =
-                [one.value, 0.5 * (one.interval.1 - one.interval.0)].map(|value| one.text(value));
-            format!("{} = {value} ± {half}", one.parameter.row().symbol).replace(' ', "\u{a0}")
-        });
-        let notes = vec![Label::plain(&format!(
-            "95 % intervals: {}",
-            found.collect::<Vec<_>>().join(", ")
-        ))];
-        let charts = vec![Chart::new(x(), force, layers), Chart::new(x(), rest, rests)];
+
+        let parameters: Vec<String> = self.fit.parameters.iter().map(with_half_width).collect();
+        let note = format!("95 % intervals: {}", parameters.join(", "));
         Some(Figure {
-            title: title.to_owned(),
-            notes,
-            charts,
+            title: self.title.to_owned(),
+            notes: vec![Label::plain(&note)],
+            charts: vec![
+                Chart::new(x.clone(), force, forces),
+                Chart::new(x, residual, residuals),
+            ],
             size: Figure::SMALL,
             ..Figure::default()
         })
@@ -240,26 +139,149 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
+    /// Returns sentences on a curve that the model does not describe; `None` if it describes the
+    /// curve.
+    fn not_described(&self) -> Option<String> {
+        let reason = self.fit.reason.as_ref()?;
+        let intervals = if self.fit.has_other_profile() {
+            "are the whole ranges of the search, since each profile gives other values"
+        } else {
+            "are by the scatter over parts of the curve"
+        };
+        let misfit = format_rounded(self.fit.misfit, 3, "1");
+        let most = FitResult::MOST_MISFIT;
+        Some(format!(
+            "The model does not describe the curve: the misfit is {misfit}, above {most}. {reason} The intervals {intervals}."
+        ))
+    }
+
+    /// Returns what was assumed when the curve was read, and when it was fitted.
+    fn assumptions(&self) -> impl Iterator<Item = &String> {
+        self.curve.statements.iter().chain(&self.fit.assumptions)
+    }
+
+    /// Adds a table of the fitted parameters.
+    fn add_parameters(&self, sheet: &mut Sheet) {
+        let header = ["", "value", "95 % interval", "standard error", "start"];
+        let mut rows = vec![header.map(String::from)];
+        for fitted in &self.fit.parameters {
+            let parameter = fitted.parameter.row();
+            let (low, high) = fitted.interval;
+            rows.push([
+                format!("{} {}", parameter.term, parameter.symbol),
+                fitted.text(fitted.value),
+                format!("{} to {}", fitted.text(low), fitted.text(high)),
+                format_quantity(fitted.noise_error, parameter.unit),
+                format_quantity(fitted.start, parameter.unit),
+            ]);
+        }
+        sheet.table(&rows);
+    }
+
+    /// Adds sentences on the residual and on the misfit.
+    fn add_residual(&self, sheet: &mut Sheet) {
+        let fit = self.fit;
+        let residual = format_quantity(fit.residual, "N");
+        let over_noise = format_quantity(fit.residual_over_noise, "1");
+        let noise = format_quantity(self.curve.noise, "N");
+        let beyond = percent(fit.beyond_five_sigma, 2);
+        let curves = grouped(fit.evaluations as u64);
+        sheet.heading(&format!(
+            "Residual {residual}, {over_noise} times the noise of {noise}; {beyond} of the points deviate by more than 5 times \
+             the noise. {curves} curves were computed."
+        ));
+        let misfit = format_rounded(fit.misfit, 3, "1");
+        let most = FitResult::MOST_MISFIT;
+        sheet.paragraph(&format!(
+            "Misfit {misfit}: residual in contact over the noise, in which points near jumps and outliers count less. Up to \
+             {most} the model describes the curve."
+        ));
+    }
+
+    /// Adds the upper bound of the work of adhesion, and the pull-off force with the work of
+    /// adhesion that follows from it.
+    fn add_adhesion(&self, sheet: &mut Sheet) {
+        if let Some(work) = self.fit.work_at_most {
+            let work = format_rounded(work, 2, "J/m²");
+            sheet.paragraph(&format!(
+                "γ is at most {work}: a model without adhesion describes the curve equally well."
+            ));
+        }
+        let Some(force) = self.curve.pull_off_force() else {
+            return;
+        };
+        let work = match self.pull_off_work(force) {
+            Some(work) => {
+                let work = format_quantity(work, "J/m²");
+                format!("; by itself, for any E* and k, it gives γ = F/(1.5πR) = {work}")
+            }
+            None => String::new(),
+        };
+        let force = format_quantity(force, "N");
+        sheet.paragraph(&format!("Pull-off force of the curve {force}{work}."));
+    }
+
+    /// Adds the largest correlation, and the parameters that the curve does not separate.
+    fn add_correlations(&self, sheet: &mut Sheet) {
+        let fit = self.fit;
+        let strongest = fit
+            .correlations
+            .iter()
+            .max_by(|first, second| first.2.abs().total_cmp(&second.2.abs()));
+        if let Some((first, second, correlation)) = strongest {
+            let first = first.row().symbol;
+            let second = second.row().symbol;
+            sheet.paragraph(&format!(
+                "Largest correlation: {first} and {second}, {correlation:.2}."
+            ));
+        }
+        for &(first, second) in &fit.not_distinguished {
+            // The upper bound of the work of adhesion has a sentence of its own.
+            let is_work = first == Parameter::Work && second == Parameter::Work;
+            if !(is_work && fit.work_at_most.is_some()) {
+                sheet.paragraph(&separation(first, second));
+            }
+        }
+    }
+
     /// Returns the work of adhesion in J/m² of a smooth sphere with this pull-off force in N
     /// (Johnson, Kendall and Roberts); `None` for another body.
     pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;
-        scene
-            .roughness
-            .is_none()
-            .then_some(force / (1.5 * PI * radius))
+        if scene.roughness.is_some() {
+            return None;
+        }
+        Some(force / (1.5 * PI * radius))
     }
 }
 
-const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
-    dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
+/// Writes a fitted value with half the width of its interval: `γ = 50 ± 2 mJ/m²`. No line breaks
+/// inside.
+fn with_half_width(fitted: &FittedParameter) -> String {
+    let symbol = fitted.parameter.row().symbol;
+    let (low, high) = fitted.interval;
+    let value = fitted.text(fitted.value);
+    let half_width = fitted.text(0.5 * (high - low));
+    format!("{symbol} = {value} ± {half_width}").replace(' ', "\u{a0}")
+}
 
-fn separation(one: Parameter, other: Parameter) -> String {
-    let remedy = Parameter::remedy(one, other);
-    let (one, other) = (one.row().symbol, other.row().symbol);
-    if one == other {
-        return format!("The curve does not determine {one} within its range. It needs {remedy}.");
+/// Returns a linear axis with a margin around the second numbers of these points.
+fn vertical_axis(points: &[(f64, f64)], name: &str, symbol: &str, unit: &str) -> ChartAxis {
+    let span = Span::around(points.iter().map(|point| point.1), 0.06);
+    ChartAxis::new(AxisScale::Linear, span, name, symbol, unit)
+}
+
+/// Returns a sentence on two parameters that the curve does not separate, or on one parameter that
+/// it does not determine.
+fn separation(first: Parameter, second: Parameter) -> String {
+    let remedy = Parameter::remedy(first, second);
+    let first = first.row().symbol;
+    let second = second.row().symbol;
+    if first == second {
+        return format!(
+            "The curve does not determine {first} within its range. It needs {remedy}."
+        );
     }
-    format!("The curve does not separate {one} and {other}. That needs {remedy}.")
+    format!("The curve does not separate {first} and {second}. That needs {remedy}.")
 }

@@ -4,17 +4,20 @@
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::words::counted;
 use asperity_data::{AxisScale, Control, Kind, Table};
 use asperity_data::{
-    format_quantity, format_range, format_within, grouped, object, one_unit, printable, quartiles,
+    format_quantity, format_range, format_within, grouped, one_unit, printable, quartiles,
 };
 use asperity_experiment::{Fit, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
+use serde::Serialize;
 use std::fmt::Display;
 
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
+
 /// Largest number of curves that a sentence names.
 const MOST_NAMES: usize = 4;
 
@@ -52,6 +55,9 @@ const FACTS: [&str; 5] = [
     "noise",
 ];
 
+/// Endings of the names of the columns of a parameter: its value and both ends of its interval.
+const ENDINGS: [&str; 3] = ["", "_low", "_high"];
+
 impl CurveRow {
     /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails,
     /// [`Self::error`] has the reason.
@@ -61,23 +67,27 @@ impl CurveRow {
         fit: &Fit<'_>,
         control: Control<'_>,
     ) -> Self {
-        let curve = curve.map_err(|error| error.to_string());
-        let fitted = curve.and_then(|curve| match fit.run(&curve, control) {
-            Ok(fit) => Ok(CurveRow::fitted(&FitReport {
+        let curve = match curve {
+            Ok(curve) => curve,
+            Err(error) => return CurveRow::failed(title, &error.to_string()),
+        };
+        match fit.run(&curve, control) {
+            Ok(fit) => CurveRow::fitted(&FitReport {
                 title,
                 curve: &curve,
                 fit: &fit,
-            })),
-            Err(error) => Err(error.to_string()),
-        });
-        fitted.unwrap_or_else(|error| {
-            let (file, error) = (title.to_owned(), printable(&error).into_owned());
-            CurveRow {
-                file,
-                error,
-                ..CurveRow::default()
-            }
-        })
+            }),
+            Err(error) => CurveRow::failed(title, &error.to_string()),
+        }
+    }
+
+    /// Makes the row of a curve that was not read or not fitted.
+    fn failed(title: &str, error: &str) -> Self {
+        CurveRow {
+            file: title.to_owned(),
+            error: printable(error).into_owned(),
+            ..CurveRow::default()
+        }
     }
 
     /// Makes the row of a curve that was fitted.
@@ -85,13 +95,18 @@ impl CurveRow {
         let FitReport { title, curve, fit } = *report;
         let force = curve.pull_off_force();
         let work = force.and_then(|force| report.pull_off_work(force));
-        let values = fit
-            .parameters
-            .iter()
-            .map(|one| [one.value, one.interval.0, one.interval.1]);
+        let mut parameters = Vec::with_capacity(fit.parameters.len());
+        for fitted in &fit.parameters {
+            let (low, high) = fitted.interval;
+            parameters.push([fitted.value, low, high]);
+        }
+        let reason = match &fit.reason {
+            Some(reason) => reason.to_string(),
+            None => String::new(),
+        };
         CurveRow {
             file: title.to_owned(),
-            parameters: values.collect(),
+            parameters,
             facts: [
                 force,
                 work,
@@ -101,9 +116,7 @@ impl CurveRow {
             ],
             points: Some(curve.points as u64),
             described: Some(fit.describes()),
-            reason: fit
-                .reason
-                .map_or_else(String::new, |reason| reason.to_string()),
+            reason,
             error: String::new(),
         }
     }
@@ -112,37 +125,25 @@ impl CurveRow {
     /// `parameters` is the number of free parameters.
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
-        let (file, rest) = cells.split_first()?;
-        if rest.len() != 3 * parameters + FACTS.len() + 4 {
+        let (file, cells) = cells.split_first()?;
+        if cells.len() != ENDINGS.len() * parameters + FACTS.len() + 4 {
             return None;
         }
-        let number = |cell: &String| {
-            if cell.is_empty() {
-                Some(None)
-            } else {
-                cell.parse().ok().map(Some)
-            }
-        };
-        let (values, rest) = rest.split_at(3 * parameters);
-        let values = values
-            .iter()
-            .map(number)
-            .collect::<Option<Vec<Option<f64>>>>()?;
-        let values: Vec<f64> = values.into_iter().flatten().collect();
-        let facts = rest[..FACTS.len()]
-            .iter()
-            .map(number)
-            .collect::<Option<Vec<Option<f64>>>>()?;
-        let [points, described, reason, error] = &rest[FACTS.len()..] else {
+        let (values, cells) = cells.split_at(ENDINGS.len() * parameters);
+        let (facts, cells) = cells.split_at(FACTS.len());
+        let [points, described, reason, error] = cells else {
             return None;
         };
+        // A curve that was not fitted has no values.
+        let values: Vec<f64> = numbers_of(values)?.into_iter().flatten().collect();
+        let parameters = values
+            .chunks_exact(ENDINGS.len())
+            .map(|parameter| [parameter[0], parameter[1], parameter[2]])
+            .collect();
         Some(CurveRow {
             file: file.clone(),
-            parameters: values
-                .chunks_exact(3)
-                .map(|one| [one[0], one[1], one[2]])
-                .collect(),
-            facts: facts.try_into().ok()?,
+            parameters,
+            facts: numbers_of(facts)?.try_into().ok()?,
             points: points.parse().ok(),
             described: described.parse().ok(),
             reason: reason.clone(),
@@ -151,9 +152,25 @@ impl CurveRow {
     }
 }
 
+/// Returns the numbers in the cells of a CSV line, with `None` for an empty cell. The whole is
+/// `None` if a cell has something else.
+fn numbers_of(cells: &[String]) -> Option<Vec<Option<f64>>> {
+    let mut numbers = Vec::with_capacity(cells.len());
+    for cell in cells {
+        if cell.is_empty() {
+            numbers.push(None);
+        } else {
+            numbers.push(Some(cell.parse().ok()?));
+        }
+    }
+    Some(numbers)
+}
+
 /// Returns the cells of a CSV line by RFC 4180; `None` if a quotation mark is open at the end.
 fn cells_of(line: &str) -> Option<Vec<String>> {
-    let (mut cells, mut cell, mut is_quoted) = (Vec::new(), String::new(), false);
+    let mut cells = Vec::new();
+    let mut cell = String::new();
+    let mut is_quoted = false;
     let mut characters = line.chars().peekable();
     while let Some(character) = characters.next() {
         match character {
@@ -187,6 +204,46 @@ struct Distribution {
     count: usize,
 }
 
+impl Distribution {
+    /// Returns the distribution of some values; `None` without values.
+    fn new(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        Some(Distribution {
+            quartiles: quartiles(&values)?,
+            count: values.len(),
+        })
+    }
+
+    /// Returns a sentence on the distribution of a parameter over curves, which are described in
+    /// words.
+    fn sentence(&self, parameter: Parameter, curves: &str) -> String {
+        let row = parameter.row();
+        let [lower, median, upper] = self.quartiles;
+        let first_letter = row.term[..1].to_uppercase();
+        let other_letters = &row.term[1..];
+        let symbol = row.symbol;
+        let median = format_quantity(median, row.unit);
+        let quartiles = format_range((lower, upper), 4, row.unit);
+        let count = counted(self.count as u64, "curve");
+        format!(
+            "{first_letter}{other_letters} {symbol}: median {median}, quartiles {quartiles}, over {count} {curves}."
+        )
+    }
+}
+
+/// Values of the first free parameter, from curves that the model describes and from the others.
+struct FirstParameter {
+    described: Vec<f64>,
+    others: Vec<f64>,
+}
+
+impl FirstParameter {
+    /// Returns all values, with the described curves first.
+    fn all(&self) -> Vec<f64> {
+        [self.described.as_slice(), &self.others].concat()
+    }
+}
+
 impl FitsReport<'_> {
     /// Returns the rows of the curves that were not read or not fitted. [`CurveRow::error`] of each
     /// has the reason.
@@ -194,13 +251,17 @@ impl FitsReport<'_> {
         self.rows.iter().filter(|row| !row.error.is_empty())
     }
 
+    /// Returns the files of [`Self::failures`], each with its reason.
+    fn failures_in_words(&self) -> Vec<String> {
+        self.failures()
+            .map(|row| format!("{}: {}", row.file, row.error))
+            .collect()
+    }
+
     /// Returns an error message if no curve was fitted: each file with its reason. Returns `None`
     /// if at least one curve was fitted, whether the model describes it or not.
     pub fn failure(&self) -> Option<String> {
-        let reasons: Vec<String> = self
-            .failures()
-            .map(|row| format!("{}: {}", row.file, row.error))
-            .collect();
+        let reasons = self.failures_in_words();
         if reasons.len() < self.rows.len() {
             return None;
         }
@@ -215,238 +276,282 @@ impl FitsReport<'_> {
     /// Returns a sentence for each reason why the model does not describe a curve, with the files
     /// of these curves.
     fn reasons(&self) -> Vec<String> {
-        let mut found: Vec<(&str, Vec<&str>)> = Vec::new();
-        for row in self.rows.iter().filter(|row| row.described == Some(false)) {
-            match found.iter_mut().find(|(reason, _)| *reason == row.reason) {
+        let mut files_by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
+        for row in self.rows {
+            if row.described != Some(false) {
+                continue;
+            }
+            let known = files_by_reason
+                .iter_mut()
+                .find(|(reason, _)| *reason == row.reason);
+            match known {
                 Some((_, files)) => files.push(&row.file),
-                None => found.push((&row.reason, vec![&row.file])),
+                None => files_by_reason.push((&row.reason, vec![&row.file])),
             }
         }
-        let sentence = |(reason, files): (&str, Vec<&str>)| {
-            let curves = match files.len() {
-                0..=MOST_NAMES => files.join(", "),
-                count => format!("{} curves", grouped(count as u64)),
+        let mut sentences = Vec::with_capacity(files_by_reason.len());
+        for (reason, files) in files_by_reason {
+            let curves = if files.len() <= MOST_NAMES {
+                files.join(", ")
+            } else {
+                counted(files.len() as u64, "curve")
             };
-            format!("The model does not describe {curves}. {reason}")
-                .trim_end()
-                .to_owned()
+            let sentence = format!("The model does not describe {curves}. {reason}");
+            sentences.push(sentence.trim_end().to_owned());
+        }
+        sentences
+    }
+
+    fn first_parameter(&self) -> FirstParameter {
+        let mut values = FirstParameter {
+            described: Vec::new(),
+            others: Vec::new(),
         };
-        found.into_iter().map(sentence).collect()
-    }
-
-    /// Returns the values of the first free parameter, from curves that are described or from the
-    /// others.
-    fn values(&self, is_described: bool) -> Vec<f64> {
-        let of = self
-            .rows
-            .iter()
-            .filter(|row| row.described == Some(is_described));
-        of.filter_map(|row| Some(row.parameters.first()?[0]))
-            .collect()
-    }
-
-    fn distribution(mut values: Vec<f64>) -> Option<Distribution> {
-        values.sort_by(f64::total_cmp);
-        Some(Distribution {
-            quartiles: quartiles(&values)?,
-            count: values.len(),
-        })
+        for row in self.rows {
+            let Some([value, ..]) = row.parameters.first() else {
+                continue;
+            };
+            match row.described {
+                Some(true) => values.described.push(*value),
+                Some(false) => values.others.push(*value),
+                None => {}
+            }
+        }
+        values
     }
 
     /// Returns sentences on the first parameter over the described curves and over all curves, and
     /// on curves without a fit.
     fn summary(&self) -> Vec<String> {
-        let Some(row) = self.free.first().map(|one| one.row()) else {
+        let Some(&parameter) = self.free.first() else {
             return Vec::new();
         };
-        let sentence = |found: Distribution, of: &str| {
-            let [lower, median, upper] = found.quartiles;
-            let median = format_quantity(median, row.unit);
-            let quartiles = format_range((lower, upper), 4, row.unit);
-            let curves = if found.count == 1 { "curve" } else { "curves" };
-            let count = grouped(found.count as u64);
-            let name = format!(
-                "{}{} {}",
-                row.term[..1].to_uppercase(),
-                &row.term[1..],
-                row.symbol
-            );
-            format!("{name}: median {median}, quartiles {quartiles}, over {count} {curves} {of}.")
-        };
-        let (described, others) = (self.values(true), self.values(false));
-        let mut text = Vec::new();
-        let has_others = !others.is_empty();
-        let all = Self::distribution([described.clone(), others].concat());
-        text.extend(
-            Self::distribution(described).map(|found| sentence(found, "that the model describes")),
-        );
-        text.extend(
-            all.filter(|_| has_others)
-                .map(|found| sentence(found, "in all, described or not")),
-        );
-        let without = self.failures().count();
-        if without > 0 {
-            text.push(format!(
+        let values = self.first_parameter();
+        let mut sentences = Vec::new();
+        if let Some(described) = Distribution::new(values.described.clone()) {
+            sentences.push(described.sentence(parameter, "that the model describes"));
+        }
+        if !values.others.is_empty()
+            && let Some(all) = Distribution::new(values.all())
+        {
+            sentences.push(all.sentence(parameter, "in all, described or not"));
+        }
+        let without_fit = self.failures().count();
+        if without_fit > 0 {
+            sentences.push(format!(
                 "Not read or not fitted: {} of {} curves.",
-                grouped(without as u64),
+                grouped(without_fit as u64),
                 grouped(self.rows.len() as u64)
             ));
         }
-        if !self.free.contains(&Parameter::Offset) && without < self.rows.len() {
-            text.push(format!(
+        if !self.free.contains(&Parameter::Offset) && without_fit < self.rows.len() {
+            sentences.push(format!(
                 "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
                  only: --free {} fits it.",
                 Parameter::Offset.name()
             ));
         }
-        text
+        sentences
+    }
+
+    /// Returns the row of a curve in the table of the text, with its first parameter.
+    fn text_row(&self, row: &CurveRow) -> [String; 4] {
+        let mut value = String::new();
+        let mut interval = String::new();
+        if let (Some(parameter), Some(&[fitted, low, high])) =
+            (self.free.first(), row.parameters.first())
+        {
+            let unit = parameter.row().unit;
+            let uncertainty = 0.5 * (high - low);
+            value = format_within(fitted, uncertainty, unit);
+            interval = one_unit([low, high].map(|end| format_within(end, uncertainty, unit)));
+        }
+        let described = match row.described {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "-",
+        };
+        [row.file.clone(), value, interval, described.to_owned()]
     }
 }
 
 impl Report for FitsReport<'_> {
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
-        let first = self.free.first();
-        let symbol = first.map_or(String::new(), |one| one.row().symbol.to_owned());
-        let mut rows = vec![[
-            "".to_owned(),
-            symbol,
-            "95 % interval".to_owned(),
-            "described".to_owned(),
-        ]];
-        rows.extend(self.rows.iter().map(|row| {
-            let text = |of: usize| {
-                let found = first.zip(row.parameters.first());
-                found.map_or_else(String::new, |(one, values)| {
-                    format_within(values[of], 0.5 * (values[2] - values[1]), one.row().unit)
-                })
-            };
-            let state = match row.described {
-                Some(true) => "yes",
-                Some(false) => "no",
-                None => "-",
-            };
-            let interval = if row.parameters.is_empty() {
-                String::new()
-            } else {
-                one_unit([text(1), text(2)])
-            };
-            [row.file.clone(), text(0), interval, state.to_owned()]
-        }));
+        let symbol = self
+            .free
+            .first()
+            .map_or("", |parameter| parameter.row().symbol);
+        let mut rows = vec![["", symbol, "95 % interval", "described"].map(String::from)];
+        for row in self.rows {
+            rows.push(self.text_row(row));
+        }
         sheet.table(&rows);
-        let failures = self
-            .failures()
-            .map(|row| format!("{}: {}", row.file, row.error))
-            .collect();
-        for part in [failures, self.reasons(), self.summary()] {
-            if let Some((first, others)) = part.split_first() {
-                sheet.heading(first);
-                others.iter().for_each(|sentence| sheet.paragraph(sentence));
+        for part in [self.failures_in_words(), self.reasons(), self.summary()] {
+            let Some((first, others)) = part.split_first() else {
+                continue;
+            };
+            sheet.heading(first);
+            for sentence in others {
+                sheet.paragraph(sentence);
             }
         }
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let distribution = |values: Vec<f64>| {
-            let found = Self::distribution(values)?;
-            let [lower, median, upper] = found.quartiles;
-            Some(object! { "median": median, "quartiles": [lower, upper], "curves": found.count })
-        };
-        let (described, others) = (self.values(true), self.values(false));
-        Some(Box::new(object! {
-            "parameter": self.free.first().map(|one| one.name()),
-            "described": distribution(described.clone()),
-            "all": distribution([described, others].concat()),
-            "curves": self.table(),
-            "scene": self.scene,
+        let values = self.first_parameter();
+        Some(Box::new(FitsJson {
+            parameter: self.free.first().map(|parameter| parameter.name()),
+            all: DistributionJson::new(values.all()),
+            described: DistributionJson::new(values.described),
+            curves: self.table(),
+            scene: self.scene,
         }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
         let mut table =
             Table::of(|| self.rows.iter()).with("file", Kind::Text(0), |row| row.file.clone());
-        for (index, one) in self.free.iter().enumerate() {
-            for (of, end) in ["", "_low", "_high"].into_iter().enumerate() {
-                let value =
-                    move |row: &&CurveRow| row.parameters.get(index).map(|values| values[of]);
-                table = table.with(format!("{}{end}", one.name()), Kind::Real, value);
+        for (index, parameter) in self.free.iter().enumerate() {
+            for (place, ending) in ENDINGS.into_iter().enumerate() {
+                let name = format!("{}{ending}", parameter.name());
+                table = table.with(name, Kind::Real, move |row: &&CurveRow| {
+                    row.parameters.get(index).map(|values| values[place])
+                });
             }
         }
         for (index, name) in FACTS.into_iter().enumerate() {
             table = table.real(name, move |row| row.facts[index]);
         }
-        let table = table.with("points_used", Kind::Whole, |row| row.points);
-        let table = table.with("described", Kind::Text(0), |row| row.described);
-        let table = table.with("reason", Kind::Text(0), |row| row.reason.clone());
-        Some(
-            table
-                .with("error", Kind::Text(0), |row| row.error.clone())
-                .done(),
-        )
+        let table = table
+            .with("points_used", Kind::Whole, |row| row.points)
+            .with("described", Kind::Text(0), |row| row.described)
+            .with("reason", Kind::Text(0), |row| row.reason.clone())
+            .with("error", Kind::Text(0), |row| row.error.clone());
+        Some(table.done())
     }
 
+    /// Returns a histogram of the first parameter, in which bars of curves that are not described
+    /// are on top of the bars of described curves.
     fn figure(&self) -> Option<Figure> {
         let row = self.free.first()?.row();
-        let (described, others) = (self.values(true), self.values(false));
-        let all: Vec<f64> = described.iter().chain(&others).copied().collect();
+        let values = self.first_parameter();
+        let all = values.all();
         if all.is_empty() {
             return None;
         }
-        // Equal values are in the middle of a range around them.
-        let Span { low, high } = Span::around(all.iter().copied(), 0.0);
-        let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(BARS.0, BARS.1);
-        let width = (high - low) / bars as f64;
-        let count = |values: &[f64], bar: usize| {
-            let of =
-                |value: &&f64| ((**value - low) / width).min(bars as f64 - 1.0) as usize == bar;
-            values.iter().filter(of).count() as f64
-        };
-        let edges = |bar: usize| (low + width * bar as f64, low + width * (bar + 1) as f64);
-        let (mut lower, mut upper, mut most) = (Vec::new(), Vec::new(), 1.0_f64);
-        for bar in 0..bars {
-            let (one, other) = (count(&described, bar), count(&others, bar));
-            lower.extend((one > 0.0).then_some((edges(bar), (0.0, one))));
-            upper.extend((other > 0.0).then_some((edges(bar), (one, one + other))));
-            most = most.max(one + other);
-        }
-        let x = ChartAxis::new(
-            AxisScale::Linear,
-            Span::around(all.iter().copied(), 0.06),
-            row.term,
-            row.symbol,
-            row.unit,
-        );
-        let y = ChartAxis::new(
-            AxisScale::Linear,
-            Span::around([0.0, most].into_iter(), 0.06),
-            "curves",
-            "",
-            "1",
-        );
+        let histogram = Histogram::new(&values);
+        let span = Span::around(all.iter().copied(), 0.06);
+        let x = ChartAxis::new(AxisScale::Linear, span, row.term, row.symbol, row.unit);
+        let span = Span::around([0.0, histogram.most].into_iter(), 0.06);
+        let y = ChartAxis::new(AxisScale::Linear, span, "curves", "", "1");
         let mut layers = Vec::new();
-        let named = [
-            ("described", Ink::Contact, lower),
-            ("not described", Ink::Quiet, upper),
-        ];
-        layers.extend(
-            named
-                .into_iter()
-                .filter(|(.., boxes)| !boxes.is_empty())
-                .map(|(name, ink, boxes)| Layer::new(name.into(), ink, Shape::Boxes(boxes))),
-        );
-        let notes = self
-            .summary()
-            .iter()
-            .map(|sentence| Label::plain(sentence))
-            .collect();
-        let title = format!("{} curves", grouped(self.rows.len() as u64));
+        if !histogram.described.is_empty() {
+            let boxes = Shape::Boxes(histogram.described);
+            layers.push(Layer::new("described".into(), Ink::Contact, boxes));
+        }
+        if !histogram.others.is_empty() {
+            let boxes = Shape::Boxes(histogram.others);
+            layers.push(Layer::new("not described".into(), Ink::Quiet, boxes));
+        }
+        let notes = self.summary();
         Some(Figure {
-            title,
-            notes,
+            title: format!("{} curves", grouped(self.rows.len() as u64)),
+            notes: notes
+                .iter()
+                .map(|sentence| Label::plain(sentence))
+                .collect(),
             charts: vec![Chart::new(x, y, layers)],
             size: Figure::SMALL,
             ..Figure::default()
+        })
+    }
+}
+
+/// Range of a bar of a histogram along the horizontal and along the vertical axis.
+type Bar = ((f64, f64), (f64, f64));
+
+/// Numbers of curves over the first parameter.
+struct Histogram {
+    described: Vec<Bar>,
+    /// Bars of curves that are not described, on top of the bars of described curves.
+    others: Vec<Bar>,
+    /// Largest number of curves in a bar of the parameter, at least 1.
+    most: f64,
+}
+
+impl Histogram {
+    fn new(values: &FirstParameter) -> Self {
+        let all = values.all();
+        // Equal values are in the middle of a range around them.
+        let Span { low, high } = Span::around(all.iter().copied(), 0.0);
+        let (fewest, most) = BARS;
+        let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(fewest, most);
+        let width = (high - low) / bars as f64;
+
+        let mut histogram = Histogram {
+            described: Vec::new(),
+            others: Vec::new(),
+            most: 1.0,
+        };
+        let described_counts = counts(&values.described, bars, low, width);
+        let other_counts = counts(&values.others, bars, low, width);
+        for bar in 0..bars {
+            let described = described_counts[bar];
+            let others = other_counts[bar];
+            let edges = (low + width * bar as f64, low + width * (bar + 1) as f64);
+            if described > 0.0 {
+                histogram.described.push((edges, (0.0, described)));
+            }
+            if others > 0.0 {
+                histogram
+                    .others
+                    .push((edges, (described, described + others)));
+            }
+            histogram.most = histogram.most.max(described + others);
+        }
+        histogram
+    }
+}
+
+/// Returns how many values lie in each of `bars` bars of the same width, of which the first begins
+/// at `low`. A value at the upper end belongs to the last bar.
+fn counts(values: &[f64], bars: usize, low: f64, width: f64) -> Vec<f64> {
+    let mut counts = vec![0.0; bars];
+    for value in values {
+        let bar = ((value - low) / width).min(bars as f64 - 1.0) as usize;
+        counts[bar] += 1.0;
+    }
+    counts
+}
+
+/// JSON object of fits to many curves, in SI units.
+#[derive(Serialize)]
+struct FitsJson<'a> {
+    parameter: Option<&'static str>,
+    /// Distribution over the curves that the model describes.
+    described: Option<DistributionJson>,
+    all: Option<DistributionJson>,
+    curves: Option<Table<'a>>,
+    scene: &'a Scene,
+}
+
+#[derive(Serialize)]
+struct DistributionJson {
+    median: f64,
+    quartiles: [f64; 2],
+    curves: usize,
+}
+
+impl DistributionJson {
+    fn new(values: Vec<f64>) -> Option<Self> {
+        let distribution = Distribution::new(values)?;
+        let [lower, median, upper] = distribution.quartiles;
+        Some(DistributionJson {
+            median,
+            quartiles: [lower, upper],
+            curves: distribution.count,
         })
     }
 }

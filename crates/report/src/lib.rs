@@ -1,5 +1,4 @@
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
 mod boundary;
@@ -35,6 +34,7 @@ mod summary;
 mod surface;
 mod trust;
 mod warnings;
+mod words;
 mod work_precision;
 
 pub use cost::CostReport;
@@ -69,4 +69,5 @@ pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
 pub use trust::{error_rows, theory_rows};
 pub use warnings::{counted_section, counted_texts, warning_texts, warnings_section};
+pub use words::{counted, letter, percent};
 pub use work_precision::work_precision;

@@ -52,27 +52,64 @@ pub struct LoopUnits {
     length: Option<f64>,
 }
 
-/// Quantity of a point of the curve, possibly divided by a parameter of the scene.
+/// Quantity of a point of the curve, which may be divided by a parameter of the scene.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
     symbol: &'static str,
     unit: &'static str,
-    over: Option<(f64, &'static str)>,
+    /// Parameter by which the quantity is divided; `None` for SI units.
+    divisor: Option<Divisor>,
     /// Function that returns the quantity at a point. Its second argument is the stiffness of the
     /// instrument in N/m.
-    of: fn(&CurvePoint, f64) -> f64,
+    value: fn(&CurvePoint, f64) -> f64,
+}
+
+/// Parameter of a scene by which a quantity is divided.
+#[derive(Clone, Copy)]
+struct Divisor {
+    value: f64,
+    symbol: &'static str,
+}
+
+impl Divisor {
+    fn new(value: Option<f64>, symbol: &'static str) -> Option<Self> {
+        value.map(|value| Divisor { value, symbol })
+    }
 }
 
 impl Quantity {
-    fn symbol_and_unit(&self) -> (String, &'static str) {
-        let Quantity {
-            symbol, unit, over, ..
-        } = *self;
-        over.map_or_else(
-            || (symbol.to_owned(), unit),
-            |(_, over)| (format!("{symbol}/{over}"), "1"),
-        )
+    /// Returns the symbol of the quantity, such as `d` or `d/h`.
+    fn symbol(&self) -> String {
+        match self.divisor {
+            Some(divisor) => format!("{}/{}", self.symbol, divisor.symbol),
+            None => self.symbol.to_owned(),
+        }
+    }
+
+    fn unit(&self) -> &'static str {
+        if self.divisor.is_some() {
+            "1"
+        } else {
+            self.unit
+        }
+    }
+
+    /// Returns the number on the axis at a point of a curve. The stiffness of the instrument is in
+    /// N/m.
+    fn number(&self, point: &CurvePoint, stiffness: f64) -> f64 {
+        let value = (self.value)(point, stiffness);
+        value / self.divisor.map_or(1.0, |divisor| divisor.value)
+    }
+
+    /// Returns the axis of the quantity.
+    fn axis(&self, span: Span) -> ChartAxis {
+        let symbol = self.symbol();
+        let axis = ChartAxis::new(AxisScale::Linear, span, self.name, &symbol, self.unit());
+        ChartAxis {
+            counts: self.symbol == "n",
+            ..axis
+        }
     }
 }
 
@@ -89,36 +126,37 @@ impl LoopUnits {
     /// indentation is in units of the rms height h, the force in units of F_a,max, and lengths in
     /// units of L; otherwise all are in SI units.
     pub fn of_scene(quantities: LoopQuantities, outcome: &Outcome, normalised: bool) -> LoopUnits {
-        let positive = |value: Option<f64>| value.filter(|value| normalised && *value > 0.0);
-        LoopUnits {
+        let units = LoopUnits {
             stiffness: outcome.instrument.map(|instrument| instrument.stiffness),
-            quantities,
-            indentation: positive(
-                outcome
-                    .governing
-                    .amplitude
-                    .map(|amplitude| amplitude.rms_height),
-            ),
-            force: positive(outcome.ideal_adhesion_force),
-            length: positive(Some(outcome.line.length)),
+            ..LoopUnits::si(quantities)
+        };
+        if !normalised {
+            return units;
+        }
+        let amplitude = outcome.governing.amplitude;
+        let rms_height = amplitude.map(|amplitude| amplitude.rms_height);
+        let is_positive = |value: &f64| *value > 0.0;
+        LoopUnits {
+            indentation: rms_height.filter(is_positive),
+            force: outcome.ideal_adhesion_force.filter(is_positive),
+            length: Some(outcome.line.length).filter(is_positive),
+            ..units
         }
     }
 
     /// Returns the numbers on the horizontal and the vertical axis at a point of a force curve.
     pub fn place(&self, point: &CurvePoint) -> (f64, f64) {
         let stiffness = self.stiffness.unwrap_or(f64::INFINITY);
-        let [x, y] = self
-            .quantities()
-            .map(|one| (one.of)(point, stiffness) / one.over.map_or(1.0, |(over, _)| over));
-        (x, y)
+        let [across, up] = self.quantities();
+        (across.number(point, stiffness), up.number(point, stiffness))
     }
 
     /// Returns a force, given in N, as text in the unit of the chart.
     pub fn force_in_words(&self, force: f64) -> String {
-        self.force.map_or_else(
-            || format_rounded(force, 3, "N"),
-            |unit| format_rounded(force / unit, 3, "1"),
-        )
+        match self.force {
+            Some(unit) => format_rounded(force / unit, 3, "1"),
+            None => format_rounded(force, 3, "N"),
+        }
     }
 
     /// Returns true if a chart of these quantities shows this kind of marked point. A chart of the
@@ -150,74 +188,84 @@ impl LoopUnits {
     /// Returns the symbols of the horizontal and the vertical quantity: `d` and `F`, or `d/h` and
     /// `F/F_a,max`.
     pub fn symbols(&self) -> (String, String) {
-        let [x, y] = self.quantities().map(|one| one.symbol_and_unit().0);
-        (x, y)
+        let [across, up] = self.quantities();
+        (across.symbol(), up.symbol())
     }
 
+    /// Returns the quantities on the horizontal and on the vertical axis.
     fn quantities(&self) -> [Quantity; 2] {
-        let one = |name, symbol, unit, over, of| Quantity {
-            name,
-            symbol,
-            unit,
-            over,
-            of,
-        };
-        let over = |value: Option<f64>, symbol| value.map(|value| (value, symbol));
-        let indentation = one(
-            "indentation",
-            "d",
-            "m",
-            over(self.indentation, "h"),
-            |point, _| point.indentation,
-        );
-        let displacement = one(
-            "displacement",
-            "D",
-            "m",
-            over(self.indentation, "h"),
-            CurvePoint::displacement,
-        );
-        let force = one(
-            "force",
-            "F",
-            "N",
-            over(self.force, "F_a,max"),
-            |point, _| point.force,
-        );
-        let length = one(
-            "contact length",
-            "l",
-            "m",
-            over(self.length, "L"),
-            |point, _| point.contact_length,
-        );
-        let patches = one("contact patches", "n", "1", None, |point, _| {
-            point.fragments as f64
-        });
         match self.quantities {
-            LoopQuantities::ForceIndentation => [indentation, force],
-            LoopQuantities::ForceDisplacement => [displacement, force],
-            LoopQuantities::LengthForce => [force, length],
-            LoopQuantities::FragmentsIndentation => [indentation, patches],
+            LoopQuantities::ForceIndentation => {
+                [self.indentation_quantity(), self.force_quantity()]
+            }
+            LoopQuantities::ForceDisplacement => {
+                [self.displacement_quantity(), self.force_quantity()]
+            }
+            LoopQuantities::LengthForce => [self.force_quantity(), self.length_quantity()],
+            LoopQuantities::FragmentsIndentation => [self.indentation_quantity(), PATCHES],
         }
     }
 
+    fn indentation_quantity(&self) -> Quantity {
+        Quantity {
+            name: "indentation",
+            symbol: "d",
+            unit: "m",
+            divisor: Divisor::new(self.indentation, "h"),
+            value: |point, _| point.indentation,
+        }
+    }
+
+    fn displacement_quantity(&self) -> Quantity {
+        Quantity {
+            name: "displacement",
+            symbol: "D",
+            unit: "m",
+            divisor: Divisor::new(self.indentation, "h"),
+            value: CurvePoint::displacement,
+        }
+    }
+
+    fn force_quantity(&self) -> Quantity {
+        Quantity {
+            name: "force",
+            symbol: "F",
+            unit: "N",
+            divisor: Divisor::new(self.force, "F_a,max"),
+            value: |point, _| point.force,
+        }
+    }
+
+    fn length_quantity(&self) -> Quantity {
+        Quantity {
+            name: "contact length",
+            symbol: "l",
+            unit: "m",
+            divisor: Divisor::new(self.length, "L"),
+            value: |point, _| point.contact_length,
+        }
+    }
+
+    /// Returns the horizontal and the vertical axis around these points.
     fn axes(&self, places: &[(f64, f64)]) -> [ChartAxis; 2] {
-        let x = Span::around(places.iter().map(|place| place.0), 0.06);
-        let y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
-        // There is no negative length or number.
         let [across, up] = self.quantities();
-        let low = if up.symbol == "F" { y.low } else { 0.0 };
-        [(x, across), (Span { low, ..y }, up)].map(|(span, one)| {
-            let (symbol, unit) = one.symbol_and_unit();
-            let axis = ChartAxis::new(AxisScale::Linear, span, one.name, &symbol, unit);
-            ChartAxis {
-                counts: one.symbol == "n",
-                ..axis
-            }
-        })
+        let x = Span::around(places.iter().map(|place| place.0), 0.06);
+        let mut y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
+        if up.symbol != "F" {
+            // There is no negative length or number.
+            y.low = 0.0;
+        }
+        [across.axis(x), up.axis(y)]
     }
 }
+
+const PATCHES: Quantity = Quantity {
+    name: "contact patches",
+    symbol: "n",
+    unit: "1",
+    divisor: None,
+    value: |point, _| point.fragments as f64,
+};
 
 /// Force loop in a chart: the curves of loading and unloading, and how they are drawn.
 #[derive(Clone, Debug, Default)]
@@ -242,8 +290,14 @@ pub struct ForceLoop<'a> {
     pub unloading: Option<Stroke>,
 }
 
-/// Points of a line, in the units of the axes.
-type Places = Vec<(f64, f64)>;
+/// Line of a force loop in a chart.
+struct LoopLine {
+    direction: Direction,
+    /// Points in the units of the axes.
+    places: Vec<(f64, f64)>,
+    /// True for a jump of the instrument.
+    jumps: bool,
+}
 
 impl<'a> ForceLoop<'a> {
     /// Creates the loop of the loading stages of a history, with the marked points of the history
@@ -270,41 +324,32 @@ impl<'a> ForceLoop<'a> {
         }
     }
 
-    /// Returns the lines of the curves with their directions, and true for a jump of the
-    /// instrument.
-    fn lines(&self, units: LoopUnits) -> Vec<(Direction, Places, bool)> {
+    /// Returns the lines of the curves. Over the displacement of an instrument a curve has steady
+    /// parts and jumps.
+    fn lines(&self, units: LoopUnits) -> Vec<LoopLine> {
         let units = LoopUnits {
             stiffness: self.stiffness.or(units.stiffness),
             ..units
         };
+        let is_over_displacement = units.quantities == LoopQuantities::ForceDisplacement;
         let mut lines = Vec::new();
         for &(direction, curve) in &self.curves {
-            match self
-                .stiffness
-                .filter(|_| units.quantities == LoopQuantities::ForceDisplacement)
+            if let Some(stiffness) = self.stiffness
+                && is_over_displacement
             {
-                None => lines.push((
-                    direction,
-                    curve.iter().map(|point| units.place(point)).collect(),
-                    false,
-                )),
-                Some(stiffness) => {
-                    let curve = DisplacementCurve::new(direction, curve, stiffness);
-                    let place = |&DisplacementPoint {
-                                     indentation, force, ..
-                                 }: &DisplacementPoint| {
-                        units.place(&CurvePoint {
-                            indentation,
-                            force,
-                            ..CurvePoint::default()
-                        })
-                    };
-                    let line = |part: &[DisplacementPoint], jumps| {
-                        (direction, part.iter().map(place).collect(), jumps)
-                    };
-                    lines.extend(curve.steady_parts().map(|part| line(part, false)));
-                    lines.extend(curve.jumps().map(|part| line(part, true)));
+                let curve = DisplacementCurve::new(direction, curve, stiffness);
+                for part in curve.steady_parts() {
+                    lines.push(LoopLine::of_displacements(direction, part, false, units));
                 }
+                for part in curve.jumps() {
+                    lines.push(LoopLine::of_displacements(direction, part, true, units));
+                }
+            } else {
+                lines.push(LoopLine {
+                    direction,
+                    places: curve.iter().map(|point| units.place(point)).collect(),
+                    jumps: false,
+                });
             }
         }
         lines
@@ -312,68 +357,110 @@ impl<'a> ForceLoop<'a> {
 
     fn layers(&self, units: LoopUnits) -> Vec<Layer> {
         let mut layers = Vec::new();
+        for direction in [Direction::Loading, Direction::Unloading] {
+            let name = self.legend_name(direction);
+            let ink = self.ink.unwrap_or(match direction {
+                Direction::Loading => Ink::Loading,
+                Direction::Unloading => Ink::Unloading,
+            });
+            let stroke = self.stroke_of(direction);
+            for line in self.lines(units) {
+                if line.direction != direction {
+                    continue;
+                }
+                layers.push(if line.jumps {
+                    Layer::unnamed(ink, Shape::line(line.places, Stroke::Dashed))
+                } else {
+                    Layer::new(name.clone(), ink, Shape::line(line.places, stroke))
+                });
+            }
+        }
+        for &(mark, point) in &self.marks {
+            if !units.shows(mark) {
+                continue;
+            }
+            let name = if self.name.is_some() {
+                Label::default()
+            } else if self.without_forces {
+                Label::plain(mark.name())
+            } else {
+                mark_name(mark, point.force)
+            };
+            let shape = Shape::signs(vec![units.place(&point)], sign(mark));
+            layers.push(Layer::new(name, self.ink.unwrap_or(Ink::Text), shape));
+        }
+        layers
+    }
+
+    /// Returns the name in the legend of the lines of a direction; empty for lines without an entry.
+    fn legend_name(&self, direction: Direction) -> Label {
+        let Some(name) = &self.name else {
+            return Label::plain(match direction {
+                Direction::Loading => "loading",
+                Direction::Unloading => "unloading",
+            });
+        };
         // One sample in the legend is enough for a loop with a name.
         let unloads = self
             .curves
             .iter()
             .any(|(direction, _)| *direction == Direction::Unloading);
-        let named = if unloads {
+        let named_direction = if unloads {
             Direction::Unloading
         } else {
             Direction::Loading
         };
-        for (direction, name, ink, stroke) in [
-            (Direction::Loading, "loading", Ink::Loading, Stroke::Dotted),
-            (
-                Direction::Unloading,
-                "unloading",
-                Ink::Unloading,
-                Stroke::Solid,
-            ),
-        ] {
-            let name = match &self.name {
-                None => Label::plain(name),
-                Some(name) if direction == named => name.clone(),
-                Some(_) => Label::default(),
-            };
-            let own = self
-                .stroke
-                .or(self.unloading.filter(|_| direction == Direction::Unloading));
-            let (ink, stroke) = (self.ink.unwrap_or(ink), own.unwrap_or(stroke));
-            for (_, points, jumps) in self
-                .lines(units)
-                .into_iter()
-                .filter(|line| line.0 == direction)
-            {
-                let (name, stroke) = if jumps {
-                    (Label::default(), Stroke::Dashed)
-                } else {
-                    (name.clone(), stroke)
-                };
-                layers.push(Layer::new(name, ink, Shape::line(points, stroke)));
-            }
+        if direction == named_direction {
+            name.clone()
+        } else {
+            Label::default()
         }
-        for (mark, point) in self.marks.iter().filter(|(mark, _)| units.shows(*mark)) {
-            let name = match self.name {
-                None if !self.without_forces => mark_name(*mark, point.force),
-                None => Label::plain(mark.name()),
-                Some(_) => Label::default(),
-            };
-            let shape = Shape::signs(vec![units.place(point)], sign(*mark));
-            layers.push(Layer::new(name, self.ink.unwrap_or(Ink::Text), shape));
+    }
+
+    fn stroke_of(&self, direction: Direction) -> Stroke {
+        self.stroke.unwrap_or(match direction {
+            Direction::Loading => Stroke::Dotted,
+            Direction::Unloading => self.unloading.unwrap_or(Stroke::Solid),
+        })
+    }
+}
+
+impl LoopLine {
+    /// Returns the line of a part of a curve over the displacement of the instrument.
+    fn of_displacements(
+        direction: Direction,
+        part: &[DisplacementPoint],
+        jumps: bool,
+        units: LoopUnits,
+    ) -> Self {
+        let mut places = Vec::with_capacity(part.len());
+        for point in part {
+            places.push(units.place(&CurvePoint {
+                indentation: point.indentation,
+                force: point.force,
+                ..CurvePoint::default()
+            }));
         }
-        layers
+        LoopLine {
+            direction,
+            places,
+            jumps,
+        }
     }
 }
 
 /// Returns one chart of all `loops`, with axes for the quantities `units`. A loop that is later in
 /// the list is drawn over the earlier ones.
 pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
-    let lines = loops.iter().flat_map(|one| one.lines(units));
-    let places: Vec<(f64, f64)> = lines.flat_map(|(_, points, _)| points).collect();
-    let [x, y] = units.axes(&places);
+    let mut places = Vec::new();
     let mut layers = vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0))];
-    layers.extend(loops.iter().flat_map(|one| one.layers(units)));
+    for force_loop in loops {
+        for line in force_loop.lines(units) {
+            places.extend(line.places);
+        }
+        layers.extend(force_loop.layers(units));
+    }
+    let [x, y] = units.axes(&places);
     Chart::new(x, y, layers)
 }
 
@@ -381,62 +468,56 @@ pub fn loop_chart(loops: &[ForceLoop<'_>], units: LoopUnits) -> Chart {
 /// their titles.
 pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
     if let [(title, outcome)] = scenes {
-        return Figure::of_chart(
-            title,
-            loop_chart(&[ForceLoop::new(&outcome.history.legs)], units),
-        );
+        let force_loop = ForceLoop::new(&outcome.history.legs);
+        return Figure::of_chart(title, loop_chart(&[force_loop], units));
     }
-    let loops = scenes
-        .iter()
-        .enumerate()
-        .map(|(number, (title, outcome))| ForceLoop {
+    let strokes = [Stroke::Solid, Stroke::Dashed, Stroke::DashDotted];
+    let mut loops = Vec::with_capacity(scenes.len());
+    for (number, (title, outcome)) in scenes.iter().enumerate() {
+        loops.push(ForceLoop {
             name: Some(Label::plain(title)),
             ink: Some(Ink::Series(number)),
-            unloading: Some([Stroke::Solid, Stroke::Dashed, Stroke::DashDotted][number % 3]),
+            unloading: Some(strokes[number % strokes.len()]),
             ..ForceLoop::new(&outcome.history.legs)
         });
-    let loops: Vec<ForceLoop<'_>> = loops.collect();
+    }
     let mut chart = loop_chart(&loops, units);
-    let is_marked = |mark: &Mark| {
-        units.shows(*mark)
-            && loops
-                .iter()
-                .flat_map(|one| &one.marks)
-                .any(|(other, _)| other == mark)
-    };
-    let signs = [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut]
-        .into_iter()
-        .filter(is_marked);
-    let explained = signs.map(|mark| (mark.name(), Shape::signs(Vec::new(), sign(mark))));
-    let loading = ("loading", Shape::line(Vec::new(), Stroke::Dotted));
-    let explained = [loading].into_iter().chain(explained);
+    // The legend explains loading and marks once for all loops.
+    let loading = Shape::line(Vec::new(), Stroke::Dotted);
     chart
         .layers
-        .extend(explained.map(|(name, shape)| Layer::new(name.into(), Ink::Text, shape)));
+        .push(Layer::new("loading".into(), Ink::Text, loading));
+    for mark in [Mark::JumpIn, Mark::Preload, Mark::PullOff, Mark::JumpOut] {
+        let mut marks = loops.iter().flat_map(|force_loop| &force_loop.marks);
+        if units.shows(mark) && marks.any(|(other, _)| *other == mark) {
+            let shape = Shape::signs(Vec::new(), sign(mark));
+            chart
+                .layers
+                .push(Layer::new(mark.name().into(), Ink::Text, shape));
+        }
+    }
     Figure::of_chart("", chart)
 }
 
 /// Returns a figure with a chart for the force curve of each computed scene. The scenes are given
 /// with their titles.
 pub fn force_panels(scenes: &[(&str, &Outcome)]) -> Figure {
-    let figure = |(title, outcome): &(&str, &Outcome)| {
-        let one = ForceLoop {
+    let mut figures = Vec::with_capacity(scenes.len());
+    for (title, outcome) in scenes {
+        let force_loop = ForceLoop {
             without_forces: true,
             ..ForceLoop::new(&outcome.history.legs)
         };
-        let force = outcome
-            .figures
-            .adhesion_force
-            .map(|force| value_label("", "F_a", "N", force));
-        let chart = loop_chart(&[one], LoopUnits::default());
-        let notes = force.into_iter().collect();
-        Figure {
-            notes,
+        let chart = loop_chart(&[force_loop], LoopUnits::default());
+        let force = outcome.figures.adhesion_force;
+        let note = force.map(|force| value_label("", "F_a", "N", force));
+        figures.push(Figure {
+            notes: note.into_iter().collect(),
             size: Figure::SMALL,
             ..Figure::of_chart(title, chart)
-        }
-    };
-    Figure::of_panels(scenes.iter().map(figure).collect())
+        });
+    }
+    Figure::of_panels(figures)
 }
 
 /// Returns the marker with which charts of force curves show a marked point, such as ▼ for the
@@ -450,15 +531,14 @@ pub fn sign(mark: Mark) -> Sign {
     }
 }
 
+/// Returns the name of a mark with its force in N: `pull-off F_a = 2 µN`.
 fn mark_name(mark: Mark, force: f64) -> Label {
-    let (symbol, value) = match mark {
-        Mark::Preload => ("F_n", force),
-        Mark::PullOff => ("F_a", -force),
-        Mark::JumpIn | Mark::JumpOut => ("F", force),
+    let value = match mark {
+        Mark::Preload => value_label("", "F_n", "N", force),
+        Mark::PullOff => value_label("", "F_a", "N", -force),
+        Mark::JumpIn | Mark::JumpOut => value_label("", "F", "N", force),
     };
-    Label::plain(mark.name())
-        .then(" ")
-        .join(&value_label("", symbol, "N", value))
+    Label::plain(mark.name()).then(" ").join(&value)
 }
 
 #[cfg(test)]

@@ -6,6 +6,13 @@ use asperity_scene::Regime;
 use asperity_study::maps::{Grid, GridCell};
 use asperity_study::{Quantity, Statistics};
 
+/// Computed cell of a grid.
+struct ComputedCell<'a> {
+    /// Index of the cell in the grid, row by row.
+    index: usize,
+    cell: &'a GridCell,
+}
+
 impl Report for Grid {
     /// Returns a table with a row for each computed combination of values on the axes of a study. A
     /// row has these values, the number of profiles, the most frequent regime (once for the turn at
@@ -13,33 +20,36 @@ impl Report for Grid {
     /// profiles, in SI units.
     fn table(&self) -> Option<Table<'_>> {
         let columns = self.across.values.len();
-        let mut table = Table::of(move || {
+        let mut table = Table::of(|| {
             let cells = self.cells.iter().enumerate();
-            cells.filter_map(|(index, cell)| Some((index, cell.as_ref()?.as_ref().ok()?)))
+            cells.filter_map(|(index, cell)| {
+                let cell = cell.as_ref()?.as_ref().ok()?;
+                Some(ComputedCell { index, cell })
+            })
         });
-        table = table.with(
-            self.across.path.clone(),
-            Kind::Real,
-            move |(index, _): &(usize, &GridCell)| self.across.values[index % columns],
-        );
+        table = table.with(self.across.path.clone(), Kind::Real, move |computed| {
+            self.across.values[computed.index % columns]
+        });
         if let Some(up) = &self.up {
-            table = table.with(up.path.clone(), Kind::Real, move |(index, _)| {
-                up.values[index / columns]
+            table = table.with(up.path.clone(), Kind::Real, move |computed| {
+                up.values[computed.index / columns]
             });
         }
-        table = table.whole("lines", |(_, cell)| cell.regimes[0].profiles() as u64);
-        for of in Quantity::REGIMES {
-            table = table.with(
-                of.name(),
-                Kind::Text(Regime::LONGEST_NAME),
-                move |(_, cell)| cell.regimes_of(of).most().map(|(regime, _)| regime.name()),
-            );
+        table = table.whole("lines", |computed| {
+            computed.cell.regimes[0].profiles() as u64
+        });
+        for quantity in Quantity::REGIMES {
+            let name = quantity.name();
+            table = table.with(name, Kind::Text(Regime::LONGEST_NAME), move |computed| {
+                let most_frequent = computed.cell.regimes_of(quantity).most();
+                most_frequent.map(|(regime, _)| regime.name())
+            });
         }
         for (place, layer) in self.layers.iter().enumerate() {
-            for (ending, of) in Statistics::COLUMNS {
+            for (ending, value) in Statistics::COLUMNS {
                 let name = format!("{}_{ending}", layer.quantity.name());
-                table = table.with(name, Kind::Real, move |(_, cell)| {
-                    cell.statistics[place].as_ref().and_then(of)
+                table = table.with(name, Kind::Real, move |computed| {
+                    computed.cell.statistics[place].as_ref().and_then(value)
                 });
             }
         }

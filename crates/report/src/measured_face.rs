@@ -1,6 +1,7 @@
 //! Measured surfaces of one face, as samples of the same roughness, with facts about their files
 //! and warnings about their analysis.
 
+use crate::words::plural;
 use asperity_data::{Warning, format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
 use asperity_surface::{Analysis, Topography};
@@ -42,8 +43,11 @@ fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Err
 impl SurfaceFile {
     /// Collects the facts about a surface that was read from the file `path`.
     pub fn new(path: PathBuf, surface: &Topography) -> Self {
-        let mut points = vec![surface.columns, surface.rows()];
-        points.truncate(if surface.rows() > 1 { 2 } else { 1 });
+        let points = if surface.rows() > 1 {
+            vec![surface.columns, surface.rows()]
+        } else {
+            vec![surface.columns]
+        };
         let spacing = surface.spacing().unwrap_or_default();
         SurfaceFile {
             path,
@@ -63,12 +67,11 @@ impl SurfaceFile {
 
     /// Returns the name of the file, with the name of the measurement if the file contains several.
     fn name(&self) -> String {
-        let name = if self.name.is_empty() {
-            String::new()
-        } else {
-            format!(" {:?}", printable(&self.name))
-        };
-        path_name(&self.path) + &name
+        let path = path_name(&self.path);
+        if self.name.is_empty() {
+            return path;
+        }
+        format!("{path} {:?}", printable(&self.name))
     }
 
     /// Returns these facts about the surface and its file in one line of text.
@@ -84,42 +87,40 @@ impl SurfaceFile {
             .map(|length| format_quantity(*length, "m"))
             .collect();
         let kind = if counts.len() > 1 { "map" } else { "profile" };
-        let shape = format!(
-            "{kind} of {} points, {}",
-            counts.join(" × "),
-            lengths.join(" × ")
-        );
+        let name = self.name();
+        let format = self.format;
+        let counts = counts.join(" × ");
+        let lengths = lengths.join(" × ");
+        let cropped = self.cropped_in_words();
+        let interpolated = self.interpolated_in_words();
+        format!("{name} ({format}): {kind} of {counts} points, {lengths}{cropped}{interpolated}")
+    }
+
+    /// Returns the share of interpolated points after a comma; empty without such points.
+    fn interpolated_in_words(&self) -> String {
+        if self.interpolated == 0 {
+            return String::new();
+        }
         let points: usize = self.points.iter().product();
-        let interpolated = match self.interpolated {
-            0 => String::new(),
-            some => format!(
-                ", {:.2} % interpolated",
-                100.0 * some as f64 / points as f64
-            ),
-        };
-        let cropped = match self.cropped[..] {
-            [0] | [0, 0] => String::new(),
-            [points] => format!(", {points} missing at its ends left out"),
-            ref counts => {
-                let empty = counts
-                    .iter()
-                    .zip(["column", "row"])
-                    .filter(|(count, _)| **count > 0);
-                let counted = empty.map(|(count, name)| {
-                    let plural = if *count == 1 { "" } else { "s" };
-                    format!("{count} empty {name}{plural}")
-                });
-                format!(
-                    ", without {} at its border",
-                    counted.collect::<Vec<_>>().join(" and ")
-                )
+        let percent = 100.0 * self.interpolated as f64 / points as f64;
+        format!(", {percent:.2} % interpolated")
+    }
+
+    /// Returns what was left out at the ends or borders after a comma; empty if nothing was left
+    /// out.
+    fn cropped_in_words(&self) -> String {
+        match self.cropped[..] {
+            [0] | [0, 0] => return String::new(),
+            [points] => return format!(", {points} missing at its ends left out"),
+            _ => {}
+        }
+        let mut empty = Vec::new();
+        for (&count, noun) in self.cropped.iter().zip(["empty column", "empty row"]) {
+            if count > 0 {
+                empty.push(format!("{count} {}", plural(noun, count as u64)));
             }
-        };
-        format!(
-            "{} ({}): {shape}{cropped}{interpolated}",
-            self.name(),
-            self.format
-        )
+        }
+        format!(", without {} at its border", empty.join(" and "))
     }
 }
 
@@ -137,11 +138,10 @@ impl MeasuredFace {
     /// Returns a warning for files whose rms heights differ much, although the files are samples of
     /// one roughness.
     fn far_apart(&self) -> Option<Warning> {
-        let MeasuredFace { files, analysis } = self;
-        let heights = || analysis.rms_heights.iter().zip(files);
-        let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
-        let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
-        Warning::of_rms_heights((flat.name(), *least), (rough.name(), *most))
+        let heights = || self.analysis.rms_heights.iter().zip(&self.files);
+        let (least, flattest) = heights().min_by(|first, second| first.0.total_cmp(second.0))?;
+        let (most, roughest) = heights().max_by(|first, second| first.0.total_cmp(second.0))?;
+        Warning::of_rms_heights((flattest.name(), *least), (roughest.name(), *most))
     }
 
     /// Returns warnings: unusual properties of each file, and reasons why results of the analysis
@@ -159,11 +159,9 @@ impl MeasuredFace {
         }
         warnings.extend(Warning::of_gradient(analysis.line.rms_gradient.value, true));
         warnings.extend(self.far_apart());
-        warnings.extend(
-            analysis
-                .displaced
-                .map(|distance| Warning::DisplacedRows { distance }),
-        );
+        if let Some(distance) = analysis.displaced {
+            warnings.push(Warning::DisplacedRows { distance });
+        }
         warnings.extend(Warning::of_long_waves_of_scan(analysis.long_wave_share()));
         if analysis.maps == 0 {
             warnings.extend(Warning::of_measured_profiles(analysis.profiles));
@@ -179,11 +177,9 @@ impl MeasuredFace {
                 share: analysis.apart,
             });
         }
-        warnings.extend(
-            analysis
-                .reliability_cutoff
-                .map(|wavelength| Warning::TipArtefacts { wavelength }),
-        );
+        if let Some(wavelength) = analysis.reliability_cutoff {
+            warnings.push(Warning::TipArtefacts { wavelength });
+        }
         warnings
     }
 }

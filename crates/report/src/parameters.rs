@@ -8,28 +8,35 @@ use asperity_scene::fields::{Statement, statements};
 /// parameters in a figure. The first line has the numbers that all scenes share. Further lines have
 /// the other numbers of each scene with a name.
 pub fn parameter_lines(scenes: &[(String, Scene)]) -> Vec<Label> {
-    let all: Vec<Vec<Statement>> = scenes.iter().map(|(_, scene)| statements(scene)).collect();
-    let is_common = |one: &Statement| all.iter().all(|scene| scene.contains(one));
-    let line = |name: &str, chosen: &mut dyn Iterator<Item = &Statement>| {
-        let labels = chosen.map(|one| statement(one.field.name, one.field.symbol, &one.value));
-        let line = labels.reduce(|line, label| line.then(", ").join(&label))?;
-        Some(if name.is_empty() {
-            line
-        } else {
-            Label::plain(name).then(": ").join(&line)
-        })
+    let statements_of_scenes: Vec<Vec<Statement>> =
+        scenes.iter().map(|(_, scene)| statements(scene)).collect();
+    let is_common = |statement: &Statement| {
+        let mut all = statements_of_scenes.iter();
+        all.all(|statements| statements.contains(statement))
     };
-    let common = all
-        .first()
-        .and_then(|first| line("", &mut first.iter().filter(|one| is_common(one))));
-    let named = scenes
-        .iter()
-        .zip(&all)
-        .filter(|((name, _), _)| !name.is_empty());
-    let own = named.filter_map(|((name, _), scene)| {
-        line(name, &mut scene.iter().filter(|one| !is_common(one)))
+    let mut lines = Vec::new();
+    if let Some(first) = statements_of_scenes.first() {
+        lines.extend(line(first.iter().filter(|statement| is_common(statement))));
+    }
+    for ((name, _), statements) in scenes.iter().zip(&statements_of_scenes) {
+        if name.is_empty() {
+            continue;
+        }
+        let own = statements.iter().filter(|statement| !is_common(statement));
+        if let Some(line) = line(own) {
+            lines.push(Label::plain(name).then(": ").join(&line));
+        }
+    }
+    lines
+}
+
+/// Returns statements as one line; `None` without statements.
+fn line<'a>(statements: impl Iterator<Item = &'a Statement>) -> Option<Label> {
+    let labels = statements.map(|stated| {
+        let field = stated.field;
+        statement(field.name, field.symbol, &stated.value)
     });
-    common.into_iter().chain(own).collect()
+    labels.reduce(|line, label| line.then(", ").join(&label))
 }
 
 #[cfg(test)]

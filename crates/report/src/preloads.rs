@@ -3,22 +3,26 @@
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
 use crate::warnings::{counted_section, counted_texts};
-use asperity_data::{
-    AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, object,
-};
+use asperity_data::{AxisScale, Table, format_quantity, format_range, format_rounded, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use asperity_scene::Scene;
 use asperity_scene::discretisation::Choice;
 use asperity_study::{Results, Staircase, Statistics};
+use serde::Serialize;
 use std::ops::Range;
 
+/// Largest number of rows of a table in the text.
 const MOST_ROWS: usize = 32;
-/// Heading of a column with confidence intervals of the median.
-const MEDIAN_INTERVAL: &str = "95 % interval of the median";
+
+/// Smallest ratio of adhesion forces that are drawn on a logarithmic scale.
+const LOGARITHMIC_RATIO: f64 = 30.0;
+
+/// Largest number of decades of a logarithmic axis of adhesion forces.
+const MOST_DECADES: f64 = 6.0;
 
 /// Report on the adhesion force as a function of the preload, for one or more random profiles.
 #[derive(Clone, Copy, Debug)]
 pub struct PreloadReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
     /// tolerance was given.
@@ -34,25 +38,92 @@ pub struct PreloadReport<'a> {
     pub curves: bool,
 }
 
-impl PreloadReport<'_> {
+impl<'a> PreloadReport<'a> {
     /// Returns the figure with the [`preload_chart`] and the [`distribution`] at the largest
     /// preload; `None` without a [`Self::staircase`]. If `has_values` is true, the legend has the
     /// values of F_a(d=0) and F_a(F=0).
     pub fn drawn(&self, has_values: bool) -> Option<Figure> {
-        let (staircase, spread) = (self.staircase?, self.results.spread_of_adhesion());
+        let staircase = self.staircase?;
+        let spread = self.results.spread_of_adhesion();
         let chart = preload_chart(staircase, &spread, has_values);
-        let largest = spread.last().map(|(preload, _)| *preload);
-        let beside = largest.and_then(|preload| distribution(self.results, preload, None));
+        let beside = match spread.last() {
+            Some((largest, _)) => distribution(self.results, *largest, None),
+            None => None,
+        };
         Some(preload_figure(self.title, chart, beside))
     }
 
+    /// Returns true for several random profiles, whose statistics are reported.
     fn is_mean(&self) -> bool {
         self.results.plan().lines > 1
     }
 
+    /// Returns the seed of a profile; `None` if the profile of the scene is fixed.
     fn seed(&self, line: u64) -> Option<u64> {
         let plan = self.results.plan();
         plan.scene.seed().map(|_| plan.seed_of(line))
+    }
+
+    /// Returns the staircase if its curve is to be written as a table.
+    fn listed_staircase(&self) -> Option<&'a Staircase> {
+        self.staircase.filter(|_| self.curves)
+    }
+
+    /// Adds a table of the statistics over the profiles, with a row for each preload.
+    fn add_statistics(&self, sheet: &mut Sheet) {
+        let header = [
+            "preload F_n",
+            "median F_a",
+            "quartiles",
+            "range",
+            "mean",
+            "95 % interval of the median",
+        ];
+        let mut rows = vec![header.map(String::from)];
+        let spread = self.results.spread_of_adhesion();
+        for (preload, statistics) in thinned(spread.iter(), MOST_ROWS) {
+            let [lower, median, upper] = statistics.quartiles;
+            let interval = match statistics.median_interval {
+                Some(interval) => format_range(interval, 2, "N"),
+                None => "-".to_owned(),
+            };
+            rows.push([
+                format_quantity(*preload, "N"),
+                format_rounded(median, 2, "N"),
+                format_range((lower, upper), 2, "N"),
+                format_range(statistics.range, 2, "N"),
+                format_rounded(statistics.mean, 2, "N"),
+                interval,
+            ]);
+        }
+        sheet.table(&rows);
+        if let Some(warning) = warning(&spread) {
+            sheet.heading(&warning);
+        }
+    }
+
+    /// Adds a table of the unloadings of the first profile, with a row for each preload.
+    fn add_unloadings(&self, sheet: &mut Sheet) {
+        let plan = self.results.plan();
+        let cells: Vec<u64> = (0..plan.cells()).collect();
+        let mut unloadings = Vec::new();
+        for &cell in thinned(cells.iter(), MOST_ROWS) {
+            let values = Results::OF_PRELOADS.map(|quantity| self.results.value(cell, 0, quantity));
+            let [
+                turning_indentation,
+                adhesion_force,
+                pull_off_indentation,
+                energy,
+            ] = values;
+            unloadings.push(Unloading {
+                turning_force: Some(plan.values(cell)[0]),
+                turning_indentation,
+                adhesion_force,
+                pull_off_indentation,
+                dissipated_energy: energy,
+            });
+        }
+        unloadings_table(sheet, "preload F_n", "indentation", &unloadings);
     }
 }
 
@@ -70,46 +141,9 @@ impl Report for PreloadReport<'_> {
             "Adhesion against preload, {profiles} of {springs} springs"
         ));
         if self.is_mean() {
-            let header = [
-                "preload F_n",
-                "median F_a",
-                "quartiles",
-                "range",
-                "mean",
-                MEDIAN_INTERVAL,
-            ];
-            let range = |ends| format_range(ends, 2, "N");
-            let spread = self.results.spread_of_adhesion();
-            let rows = thinned(spread.iter(), MOST_ROWS).map(|(preload, all)| {
-                let [lower, median, upper] = all.quartiles;
-                let [median, mean] = [median, all.mean].map(|force| format_rounded(force, 2, "N"));
-                let [quartiles, ends] = [(lower, upper), all.range].map(range);
-                let of_median = all.median_interval.map_or_else(|| "-".to_owned(), range);
-                [
-                    format_quantity(*preload, "N"),
-                    median,
-                    quartiles,
-                    ends,
-                    mean,
-                    of_median,
-                ]
-            });
-            sheet.table(
-                &std::iter::once(header.map(String::from))
-                    .chain(rows)
-                    .collect::<Vec<_>>(),
-            );
-            if let Some(warning) = warning(&spread) {
-                sheet.heading(&warning);
-            }
+            self.add_statistics(&mut sheet);
         } else {
-            let cells: Vec<u64> = (0..plan.cells()).collect();
-            let rows = thinned(cells.iter(), MOST_ROWS).map(|&cell| {
-                let [at, force, pull_off, energy] =
-                    Results::OF_PRELOADS.map(|quantity| self.results.value(cell, 0, quantity));
-                [Some(plan.values(cell)[0]), at, force, pull_off, energy]
-            });
-            unloadings(&mut sheet, ["preload F_n", "indentation"], rows);
+            self.add_unloadings(&mut sheet);
         }
         if let Some(choice) = self.choice {
             sheet.heading(&choice.sentence());
@@ -119,51 +153,109 @@ impl Report for PreloadReport<'_> {
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let plan = self.results.plan();
-        let spread =
-            |(preload, statistics)| object! { "preload": preload, "adhesion_force": statistics };
-        let spread = || {
-            self.results
-                .spread_of_adhesion()
-                .into_iter()
-                .map(spread)
-                .collect::<Vec<_>>()
-        };
-        let line = |line| {
-            object! { "seed": self.seed(line), "preloads": preload_table(self.results, line..line + 1, false) }
-        };
-        let curves = self.staircase.filter(|_| self.curves).map(|staircase| {
-            let (force, adhesion) = staircase.touch;
-            object! {
-                "first_touch": object! { "force": force, "adhesion_force": adhesion },
-                "zero_force": object! { "force": 0.0, "adhesion_force": staircase.zero_force },
-                "preloads": curve_table(self.results, staircase),
-            }
-        });
-        Some(Box::new(object! {
-            "warnings": counted_texts(&self.results.all_warnings(), plan.lines),
-            "scene": &plan.scene,
-            "mean": self.is_mean().then(spread),
-            "lines": (0..plan.lines).map(line).collect::<Vec<_>>(),
-            "curves"?: curves,
-        }))
+        Some(Box::new(PreloadJson::new(self)))
     }
 
     /// Returns a table with a row for each preload on each profile, or for each preload of the
     /// [`Self::staircase`] if [`Self::curves`] is true.
     fn table(&self) -> Option<Table<'_>> {
-        Some(match self.staircase.filter(|_| self.curves) {
-            Some(staircase) => curve_table(self.results, staircase),
-            None => preload_table(
-                self.results,
-                0..self.results.plan().lines,
-                self.seed(0).is_some(),
-            ),
-        })
+        if let Some(staircase) = self.listed_staircase() {
+            return Some(curve_table(self.results, staircase));
+        }
+        let lines = 0..self.results.plan().lines;
+        let has_seeds = self.seed(0).is_some();
+        Some(preload_table(self.results, lines, has_seeds))
     }
 
     fn figure(&self) -> Option<Figure> {
         self.drawn(true)
+    }
+}
+
+/// JSON object of the adhesion force against the preload, in SI units.
+#[derive(Serialize)]
+struct PreloadJson<'a> {
+    warnings: Vec<String>,
+    scene: &'a Scene,
+    /// Statistics over the profiles at each preload; `None` for one profile.
+    mean: Option<Vec<SpreadJson>>,
+    lines: Vec<ProfileJson<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curves: Option<StaircaseJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct SpreadJson {
+    preload: f64,
+    adhesion_force: Statistics,
+}
+
+#[derive(Serialize)]
+struct ProfileJson<'a> {
+    seed: Option<u64>,
+    preloads: Table<'a>,
+}
+
+#[derive(Serialize)]
+struct StaircaseJson<'a> {
+    first_touch: TurnJson,
+    zero_force: TurnJson,
+    preloads: Table<'a>,
+}
+
+/// Force at which the loading turns, and the adhesion force after this turn.
+#[derive(Serialize)]
+struct TurnJson {
+    force: f64,
+    adhesion_force: f64,
+}
+
+impl<'a> PreloadJson<'a> {
+    fn new(report: &PreloadReport<'a>) -> Self {
+        let results = report.results;
+        let plan = results.plan();
+        let mean = report.is_mean().then(|| {
+            let spread = results.spread_of_adhesion().into_iter();
+            spread
+                .map(|(preload, adhesion_force)| SpreadJson {
+                    preload,
+                    adhesion_force,
+                })
+                .collect()
+        });
+        let mut lines = Vec::new();
+        for line in 0..plan.lines {
+            lines.push(ProfileJson {
+                seed: report.seed(line),
+                preloads: preload_table(results, line..line + 1, false),
+            });
+        }
+        PreloadJson {
+            warnings: counted_texts(&results.all_warnings(), plan.lines),
+            scene: &plan.scene,
+            mean,
+            lines,
+            curves: report
+                .listed_staircase()
+                .map(|staircase| StaircaseJson::new(results, staircase)),
+        }
+    }
+}
+
+impl<'a> StaircaseJson<'a> {
+    fn new(results: &Results, staircase: &'a Staircase) -> Self {
+        let (force, adhesion_force) = staircase.touch;
+        StaircaseJson {
+            first_touch: TurnJson {
+                force,
+                adhesion_force,
+            },
+            zero_force: TurnJson {
+                force: 0.0,
+                adhesion_force: staircase.zero_force,
+            },
+            preloads: curve_table(results, staircase),
+        }
     }
 }
 
@@ -177,35 +269,45 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
         heading: Label::quantity("adhesion force", "F_a"),
         ..chart
     };
-    let (title, charts) = (title.to_owned(), vec![chart, beside]);
     Figure {
-        title,
-        charts,
+        title: title.to_owned(),
+        charts: vec![chart, beside],
         size: Figure::SMALL,
         ..Figure::default()
     }
+}
+
+/// Row of the curves of [`preload_chart`].
+#[derive(Clone, Copy)]
+struct StaircaseRow {
+    preload: f64,
+    adhesion_force: f64,
+    /// Statistics over the profiles; `None` if they are not known at this preload.
+    statistics: Option<Statistics>,
 }
 
 /// Returns the curves of [`preload_chart`] as a table, with one row for each preload of the
 /// staircase and the known statistics.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
-    let row = move |&(preload, force): &(f64, f64)| {
-        let known = spread
-            .iter()
-            .find(|(at, _)| *at == preload)
-            .map(|(_, all)| *all);
-        (preload, force, known)
-    };
-    let rows: Vec<(f64, f64, Option<Statistics>)> = staircase.forces.iter().map(row).collect();
-    let mut table = Table::of(move || rows.clone().into_iter())
-        .real("preload", |row| row.0)
-        .real("adhesion_force", |row| row.1)
-        .with("profiles", Kind::Whole, |row| {
-            row.2.map_or(0, |all| all.count as u64)
+    let mut rows = Vec::with_capacity(staircase.forces.len());
+    for &(preload, adhesion_force) in &staircase.forces {
+        let known = spread.iter().find(|(known, _)| *known == preload);
+        rows.push(StaircaseRow {
+            preload,
+            adhesion_force,
+            statistics: known.map(|(_, statistics)| *statistics),
         });
-    for (ending, of) in Statistics::COLUMNS {
-        table = table.real(ending, move |row| row.2.as_ref().and_then(of));
+    }
+    let mut table = Table::of(move || rows.clone().into_iter())
+        .real("preload", |row| row.preload)
+        .real("adhesion_force", |row| row.adhesion_force)
+        .whole("profiles", |row| {
+            row.statistics
+                .map_or(0, |statistics| statistics.count as u64)
+        });
+    for (ending, value) in Statistics::COLUMNS {
+        table = table.real(ending, move |row| row.statistics.as_ref().and_then(value));
     }
     table.done()
 }
@@ -214,16 +316,20 @@ fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
 /// adhesion force; otherwise `None`. `spread` has pairs of a preload in N and the statistics of the
 /// adhesion force over the profiles.
 pub fn warning(spread: &[(f64, Statistics)]) -> Option<String> {
-    let share = |(_, all): &&(f64, Statistics)| all.share_of_largest().unwrap_or(0.0);
-    let (preload, most) = spread
+    let (preload, statistics) = spread
         .iter()
-        .max_by(|one, other| share(one).total_cmp(&share(other)))?;
-    most.warning(&format!("F_a at F_n {}", format_quantity(*preload, "N")))
+        .max_by(|(_, first), (_, second)| largest_share(first).total_cmp(&largest_share(second)))?;
+    let preload = format_quantity(*preload, "N");
+    statistics.warning(&format!("F_a at F_n {preload}"))
 }
 
-/// Returns a table of the unloadings from all preloads on these profiles, with seeds if they are
-/// `seeded`.
-pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) -> Table<'_> {
+fn largest_share(statistics: &Statistics) -> f64 {
+    statistics.share_of_largest().unwrap_or(0.0)
+}
+
+/// Returns a table of the unloadings from all preloads on these profiles. If `has_seeds` is true,
+/// the first column has the seeds of the profiles.
+pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: bool) -> Table<'_> {
     let plan = results.plan();
     let rows = move || {
         lines
@@ -231,7 +337,7 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) 
             .flat_map(move |line| (0..plan.cells()).map(move |cell| (cell, line)))
     };
     let mut table = Table::of(rows);
-    if seeded {
+    if has_seeds {
         table = table.whole("seed", |(_, line)| plan.seed_of(*line));
     }
     table = table.real("preload", |(cell, _)| plan.values(*cell)[0]);
@@ -243,32 +349,49 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, seeded: bool) 
     table.done()
 }
 
-/// Writes a table of unloadings. Its first columns have these headings for force and indentation at
-/// the turning point. Adhesion force, indentation at pull-off and dissipated energy follow.
-pub(crate) fn unloadings(
-    sheet: &mut Sheet,
-    [force, at]: [&str; 2],
-    rows: impl Iterator<Item = [Option<f64>; 5]>,
-) {
-    let header = [force, at, "adhesion force F_a", "pull-off at", "dissipated"].map(String::from);
-    let units = ["N", "m", "N", "m", "J"];
-    let row = |row: [Option<f64>; 5]| {
-        let mut units = units.into_iter();
-        row.map(|value| {
-            let unit = units.next().unwrap_or_default();
-            value.map_or("-".to_owned(), |value| format_quantity(value, unit))
-        })
-    };
-    sheet.table(
-        &std::iter::once(header)
-            .chain(rows.map(row))
-            .collect::<Vec<_>>(),
-    );
+/// Unloading from a turning point, in SI units; `None` for an unknown value.
+pub(crate) struct Unloading {
+    pub(crate) turning_force: Option<f64>,
+    pub(crate) turning_indentation: Option<f64>,
+    pub(crate) adhesion_force: Option<f64>,
+    pub(crate) pull_off_indentation: Option<f64>,
+    pub(crate) dissipated_energy: Option<f64>,
 }
 
-/// Smallest ratio of adhesion forces that are drawn on a logarithmic scale.
-const LOGARITHMIC_RATIO: f64 = 30.0;
-const MOST_DECADES: f64 = 6.0;
+/// Adds a table of unloadings. Its first columns have these headings for force and indentation at
+/// the turning point.
+pub(crate) fn unloadings_table(
+    sheet: &mut Sheet,
+    force: &str,
+    indentation: &str,
+    unloadings: &[Unloading],
+) {
+    let header = [
+        force,
+        indentation,
+        "adhesion force F_a",
+        "pull-off at",
+        "dissipated",
+    ];
+    let mut rows = vec![header.map(String::from)];
+    for unloading in unloadings {
+        rows.push([
+            value_or_dash(unloading.turning_force, "N"),
+            value_or_dash(unloading.turning_indentation, "m"),
+            value_or_dash(unloading.adhesion_force, "N"),
+            value_or_dash(unloading.pull_off_indentation, "m"),
+            value_or_dash(unloading.dissipated_energy, "J"),
+        ]);
+    }
+    sheet.table(&rows);
+}
+
+fn value_or_dash(value: Option<f64>, unit: &str) -> String {
+    match value {
+        Some(value) => format_quantity(value, unit),
+        None => "-".to_owned(),
+    }
+}
 
 /// Returns the chart of the adhesion force over the preload, for one profile (`staircase`) and for
 /// the statistics over several profiles. `spread` has pairs of a preload in N and these statistics.
@@ -278,54 +401,7 @@ pub fn preload_chart(
     spread: &[(f64, Statistics)],
     has_values: bool,
 ) -> Chart {
-    let mut layers = Vec::new();
-    let (touch, at_touch) = staircase.touch;
-    // The first row is the turn at first touch, without a preload. Values are constant from each
-    // preload to the next, as in a staircase.
-    let pressed = &spread[spread.partition_point(|(preload, _)| *preload <= touch)..];
-    let corner = |pair: &[(f64, Statistics)]| {
-        let level = (pair[0].1 != pair[1].1).then_some((pair[1].0, pair[0].1));
-        level.into_iter().chain([pair[1]])
-    };
-    let steps = || {
-        pressed
-            .first()
-            .copied()
-            .into_iter()
-            .chain(pressed.windows(2).flat_map(corner))
-    };
-    if let Some((_, Statistics { count, .. })) = spread.first() {
-        let band = |ends: fn(&Statistics) -> (f64, f64)| {
-            Shape::Band(
-                steps()
-                    .map(|(preload, all)| (preload, ends(&all).0, ends(&all).1))
-                    .collect(),
-            )
-        };
-        let curve = |of: fn(&Statistics) -> f64, stroke| {
-            Shape::line(
-                steps().map(|(preload, all)| (preload, of(&all))).collect(),
-                stroke,
-            )
-        };
-        let range = format!("range of {count} profiles");
-        for (name, ink, shape) in [
-            (range.as_str(), Ink::Quiet, band(|all| all.range)),
-            (
-                "quartiles",
-                Ink::Surface,
-                band(|all| (all.quartiles[0], all.quartiles[2])),
-            ),
-            ("mean", Ink::Text, curve(|all| all.mean, Stroke::Dotted)),
-            (
-                "median",
-                Ink::Surface,
-                curve(|all| all.quartiles[1], Stroke::Solid),
-            ),
-        ] {
-            layers.push(Layer::new(Label::plain(name), ink, shape));
-        }
-    }
+    let mut layers = spread_layers(staircase, spread);
     let stroke = if spread.is_empty() {
         Stroke::Solid
     } else {
@@ -334,113 +410,202 @@ pub fn preload_chart(
     let line = Shape::line(staircase.line(), stroke);
     layers.push(Layer::new("this profile".into(), Ink::Unloading, line));
 
-    let scale = staircase.scale;
-    let ends = [staircase.forces.first(), staircase.forces.last()]
-        .map(|end| end.map_or(f64::NAN, |end| end.0));
-    let x = Span::around(ends.into_iter().map(|end| scale.coordinate(end)), 0.03);
-    // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
-    let inside = |force: f64| {
-        if scale.coordinate(force) >= x.low {
-            force
-        } else {
-            scale.number(x.low)
-        }
-    };
-    for (symbol, protocol, force, adhesion, sign, ink) in [
-        (
-            "F_a(d=0)",
-            "turned at first touch",
-            touch,
-            at_touch,
-            Sign::HollowDiamond,
-            Ink::Loading,
-        ),
-        (
-            "F_a(F=0)",
-            "turned at zero force",
-            0.0,
-            staircase.zero_force,
-            Sign::Ring,
-            Ink::Manual,
-        ),
-    ] {
-        let value = if has_values {
-            format!(" {},", format_rounded(adhesion, 3, "N"))
-        } else {
-            String::new()
-        };
-        let name = Label::symbol(symbol).then(&format!("{value} {protocol}"));
-        layers.push(Layer::new(
-            name,
-            ink,
-            Shape::signs(vec![(inside(force), adhesion)], sign),
-        ));
-    }
+    let x = preload_axis(staircase);
+    layers.extend(turn_layers(staircase, x.span, has_values));
+    let forces = forces_of(&layers);
+    Chart::new(x, force_axis(staircase.scale, &forces), layers)
+}
 
-    let each = |layer: &Layer| match &layer.shape {
-        Shape::Curve { points, .. } => points.iter().map(|point| point.1).collect(),
-        Shape::Band(points) => points
-            .iter()
-            .flat_map(|&(_, low, high)| [low, high])
-            .collect::<Vec<_>>(),
-        _ => Vec::new(),
+/// Returns the statistics over the profiles at each preload, as layers: range, quartiles, mean and
+/// median. There are none without statistics.
+fn spread_layers(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<Layer> {
+    let Some((_, first)) = spread.first() else {
+        return Vec::new();
     };
-    let forces: Vec<f64> = layers.iter().flat_map(each).collect();
+    let mut range = Vec::new();
+    let mut quartiles = Vec::new();
+    let mut mean = Vec::new();
+    let mut median = Vec::new();
+    for (preload, statistics) in steps(staircase, spread) {
+        let (least, most) = statistics.range;
+        let [lower, middle, upper] = statistics.quartiles;
+        range.push((preload, least, most));
+        quartiles.push((preload, lower, upper));
+        mean.push((preload, statistics.mean));
+        median.push((preload, middle));
+    }
+    let name_of_range = Label::plain(&format!("range of {} profiles", first.count));
+    let mean = Shape::line(mean, Stroke::Dotted);
+    let median = Shape::line(median, Stroke::Solid);
+    vec![
+        Layer::new(name_of_range, Ink::Quiet, Shape::Band(range)),
+        Layer::new("quartiles".into(), Ink::Surface, Shape::Band(quartiles)),
+        Layer::new("mean".into(), Ink::Text, mean),
+        Layer::new("median".into(), Ink::Surface, median),
+    ]
+}
+
+/// Returns the corners of the statistics over the preload. Values are constant from each preload to
+/// the next, as in a staircase.
+fn steps(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<(f64, Statistics)> {
+    // The first row is the turn at first touch, without a preload.
+    let (touch, _) = staircase.touch;
+    let first_pressed = spread.partition_point(|(preload, _)| *preload <= touch);
+    let pressed = &spread[first_pressed..];
+    let mut steps: Vec<_> = pressed.first().copied().into_iter().collect();
+    for pair in pressed.windows(2) {
+        let (_, before) = pair[0];
+        let (preload, after) = pair[1];
+        if before != after {
+            steps.push((preload, before));
+        }
+        steps.push((preload, after));
+    }
+    steps
+}
+
+fn preload_axis(staircase: &Staircase) -> ChartAxis {
+    let scale = staircase.scale;
+    let ends = [staircase.forces.first(), staircase.forces.last()];
+    let coordinates = ends.map(|end| {
+        let preload = end.map_or(f64::NAN, |(preload, _)| *preload);
+        scale.coordinate(preload)
+    });
+    let span = Span::around(coordinates.into_iter(), 0.03);
+    ChartAxis::new(scale, span, "preload", "F_n", "N")
+}
+
+/// Turn of the loading without a preload, as a mark in the chart.
+struct Turn {
+    symbol: &'static str,
+    protocol: &'static str,
+    /// Force at which the loading turns, N.
+    force: f64,
+    /// Adhesion force after this turn, N.
+    adhesion_force: f64,
+    sign: Sign,
+    ink: Ink,
+}
+
+/// Returns the marks of the turns at first touch and at zero force, on a horizontal axis with this
+/// span.
+fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer> {
+    let (touch, adhesion_at_touch) = staircase.touch;
+    let turns = [
+        Turn {
+            symbol: "F_a(d=0)",
+            protocol: "turned at first touch",
+            force: touch,
+            adhesion_force: adhesion_at_touch,
+            sign: Sign::HollowDiamond,
+            ink: Ink::Loading,
+        },
+        Turn {
+            symbol: "F_a(F=0)",
+            protocol: "turned at zero force",
+            force: 0.0,
+            adhesion_force: staircase.zero_force,
+            sign: Sign::Ring,
+            ink: Ink::Manual,
+        },
+    ];
+    let mut layers = Vec::new();
+    for turn in turns {
+        let mut name = Label::symbol(turn.symbol);
+        if has_values {
+            let value = format_rounded(turn.adhesion_force, 3, "N");
+            name = name.then(&format!(" {value},"));
+        }
+        let name = name.then(&format!(" {}", turn.protocol));
+        // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
+        let is_inside = staircase.scale.coordinate(turn.force) >= span.low;
+        let force = if is_inside {
+            turn.force
+        } else {
+            staircase.scale.number(span.low)
+        };
+        let mark = Shape::signs(vec![(force, turn.adhesion_force)], turn.sign);
+        layers.push(Layer::new(name, turn.ink, mark));
+    }
+    layers
+}
+
+/// Returns all adhesion forces that layers show.
+fn forces_of(layers: &[Layer]) -> Vec<f64> {
+    let mut forces = Vec::new();
+    for layer in layers {
+        match &layer.shape {
+            Shape::Curve { points, .. } => {
+                forces.extend(points.iter().map(|(_, force)| *force));
+            }
+            Shape::Band(points) => {
+                for &(_, low, high) in points {
+                    forces.extend([low, high]);
+                }
+            }
+            _ => {}
+        }
+    }
+    forces
+}
+
+/// Returns the axis of adhesion forces: logarithmic if the preloads are on a logarithmic scale and
+/// the forces differ much, otherwise linear from zero.
+fn force_axis(scale_of_preloads: AxisScale, forces: &[f64]) -> ChartAxis {
     let above_zero = || forces.iter().copied().filter(|force| *force > 0.0);
-    let (least, most) = (
-        above_zero().fold(f64::INFINITY, f64::min),
-        above_zero().fold(0.0, f64::max),
-    );
-    let (y_scale, y) = if scale == AxisScale::Logarithmic && most >= LOGARITHMIC_RATIO * least {
-        let y = Span::of_values(AxisScale::Logarithmic, above_zero(), MOST_DECADES);
-        (AxisScale::Logarithmic, y.widened(0.05))
+    let least = above_zero().fold(f64::INFINITY, f64::min);
+    let most = above_zero().fold(0.0, f64::max);
+    let differ = most >= LOGARITHMIC_RATIO * least;
+    let (scale, span) = if scale_of_preloads == AxisScale::Logarithmic && differ {
+        let span = Span::of_values(AxisScale::Logarithmic, above_zero(), MOST_DECADES);
+        (AxisScale::Logarithmic, span.widened(0.05))
     } else {
-        (
-            AxisScale::Linear,
-            Span::around(forces.iter().copied().chain([0.0]), 0.05),
-        )
+        let span = Span::around(forces.iter().copied().chain([0.0]), 0.05);
+        (AxisScale::Linear, span)
     };
-    Chart::new(
-        ChartAxis::new(scale, x, "preload", "F_n", "N"),
-        ChartAxis::new(y_scale, y, "adhesion force", "F_a", "N"),
-        layers,
-    )
+    ChartAxis::new(scale, span, "adhesion force", "F_a", "N")
 }
 
 /// Returns the chart of the cumulative distribution of the adhesion force over the profiles, at the
 /// computed preload nearest to `preload` in N; `None` for fewer than two profiles. If `forces`, an
 /// axis of adhesion forces, is given, it is the vertical axis of the chart.
 pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>) -> Option<Chart> {
-    let (preload, mut each) = results.forces_near(preload)?;
-    let own = each.first().copied().filter(|_| each.len() > 1)?;
-    each.sort_by(f64::total_cmp);
-    let share = |index: usize| 100.0 * index as f64 / each.len() as f64;
-    let steps = each.iter().enumerate();
-    let steps =
-        steps.flat_map(|(index, &force)| [(share(index), force), (share(index + 1), force)]);
-    let place = share(each.partition_point(|force| *force < own)) + 0.5 * share(1);
+    let (preload, mut sorted) = results.forces_near(preload)?;
+    if sorted.len() < 2 {
+        return None;
+    }
+    let own = sorted[0];
+    sorted.sort_by(f64::total_cmp);
+
+    // Share of the first profiles in per cent.
+    let share = |profiles: usize| 100.0 * profiles as f64 / sorted.len() as f64;
+    let mut steps = Vec::with_capacity(2 * sorted.len());
+    for (index, &force) in sorted.iter().enumerate() {
+        steps.push((share(index), force));
+        steps.push((share(index + 1), force));
+    }
+    let smaller = sorted.partition_point(|force| *force < own);
+    let place = share(smaller) + 0.5 * share(1);
     let layers = vec![
-        Layer::unnamed(Ink::Surface, Shape::line(steps.collect(), Stroke::Solid)),
+        Layer::unnamed(Ink::Surface, Shape::line(steps, Stroke::Solid)),
         Layer::unnamed(Ink::Unloading, Shape::signs(vec![(place, own)], Sign::Dot)),
     ];
-    let heading = format!("profiles at {}", format_rounded(preload, 3, "N"));
-    let x = ChartAxis::new(
-        AxisScale::Linear,
-        Span {
-            low: 0.0,
-            high: 100.0,
-        },
-        "share of profiles in",
-        "%",
-        "1",
-    );
-    let own = || {
-        let y = Span::around(each.iter().copied(), 0.05);
-        ChartAxis::new(AxisScale::Linear, y, "adhesion force", "F_a", "N")
+
+    let span = Span {
+        low: 0.0,
+        high: 100.0,
     };
-    let y = forces.cloned().unwrap_or_else(own);
+    let x = ChartAxis::new(AxisScale::Linear, span, "share of profiles in", "%", "1");
+    let y = match forces {
+        Some(axis) => axis.clone(),
+        None => {
+            let span = Span::around(sorted.iter().copied(), 0.05);
+            ChartAxis::new(AxisScale::Linear, span, "adhesion force", "F_a", "N")
+        }
+    };
+    let preload = format_rounded(preload, 3, "N");
     Some(Chart {
-        heading: Label::plain(&heading),
+        heading: Label::plain(&format!("profiles at {preload}")),
         ..Chart::new(x, y, layers)
     })
 }

@@ -10,6 +10,10 @@ use std::path::{Path, PathBuf};
 
 /// Beginning of the line of a measured file.
 const HASH: &str = "sha256: ";
+
+/// Number of digits of a SHA-256 that a message shows.
+const SHOWN_DIGITS: usize = 12;
+
 /// Beginning of the line of the command.
 const COMMAND: &str = "command: ";
 
@@ -37,25 +41,32 @@ pub fn scene_provenance(
 /// Returns lines for the metadata of a figure, which say how to compute it again: version, command,
 /// and the scenes that have a name.
 pub fn scenes_provenance(command: &str, scenes: &[(String, Scene)]) -> String {
-    let named = scenes.iter().filter(|(name, _)| !name.is_empty());
-    let texts = named.map(|(name, scene)| format!("scene {}:\n{}", printable(name), to_ron(scene)));
-    version_and_command(command, "") + &texts.collect::<String>()
+    let mut text = version_and_command(command, "");
+    for (name, scene) in scenes {
+        if !name.is_empty() {
+            let name = printable(name);
+            let scene = to_ron(scene);
+            text += &format!("scene {name}:\n{scene}");
+        }
+    }
+    text
 }
 
 /// Returns two entries of a JSON object from lines of [`scene_provenance`]: `program` with the
 /// version, and `command`.
 pub fn entries(provenance: &str) -> Vec<(&str, &str)> {
+    let program = provenance.lines().next();
     let command = provenance
         .lines()
         .find_map(|line| line.strip_prefix(COMMAND));
-    let program = provenance
-        .lines()
-        .next()
-        .map(|program| ("program", program));
-    program
-        .into_iter()
-        .chain(command.map(|command| ("command", command)))
-        .collect()
+    let mut entries = Vec::new();
+    if let Some(program) = program {
+        entries.push(("program", program));
+    }
+    if let Some(command) = command {
+        entries.push(("command", command));
+    }
+    entries
 }
 
 /// Returns the first lines of a table without a scene: version, command, and measured files with
@@ -84,23 +95,17 @@ fn head(
     let mut hashes = String::new();
     for file in files {
         let sha256 = hash_of(&folder.join(file))?;
-        hashes += &format!(
-            "{HASH}{sha256} {:?}\n",
-            named_from(file, folder, destination)
-        );
+        let name = named_from(file, folder, destination);
+        hashes += &format!("{HASH}{sha256} {name:?}\n");
     }
     Ok(version_and_command(command, &hashes))
 }
 
 fn version_and_command(command: &str, hashes: &str) -> String {
-    let (version, command) = (
-        env!("CARGO_PKG_VERSION"),
-        command.replace(['\n', '\r'], " "),
-    );
-    format!(
-        "asperity {version}\n{hashes}{COMMAND}{}\n",
-        printable(&command)
-    )
+    let version = env!("CARGO_PKG_VERSION");
+    let command = command.replace(['\n', '\r'], " ");
+    let command = printable(&command);
+    format!("asperity {version}\n{hashes}{COMMAND}{command}\n")
 }
 
 /// Checks that the measured files of a scene are the same as when the table with this scene was
@@ -110,17 +115,20 @@ fn version_and_command(command: &str, hashes: &str) -> String {
 /// Returns an error if a file cannot be read, or if its SHA-256 differs from the one in the table.
 pub fn check_measured_files(document: &Document) -> Result<(), String> {
     let files = document.scene().measured_files();
-    let recorded = document.table_head().lines().filter_map(|line| {
-        let (sha256, file) = line.strip_prefix(HASH)?.split_once(' ')?;
-        Some((ron::from_str::<String>(file).ok()?, sha256))
-    });
-    for (file, expected) in recorded.filter(|(file, _)| files.contains(&file.as_str())) {
-        let path = document.resolve(&file);
+    for line in document.table_head().lines() {
+        let Some(recorded) = RecordedFile::of_line(line) else {
+            continue;
+        };
+        if !files.contains(&recorded.name.as_str()) {
+            continue;
+        }
+        let path = document.resolve(&recorded.name);
         let found = hash_of(&path)?;
-        if found != expected {
-            let [found, expected] =
-                [&found, expected].map(|hash| hash.chars().take(12).collect::<String>());
-            let (file, table) = (path_name(&path), printable(document.name()));
+        if found != recorded.sha256 {
+            let found: String = found.chars().take(SHOWN_DIGITS).collect();
+            let expected: String = recorded.sha256.chars().take(SHOWN_DIGITS).collect();
+            let file = path_name(&path);
+            let table = printable(document.name());
             return Err(format!(
                 "{file}: the measured file has changed: its SHA-256 is {found}…, {table} has {expected}…; allowed: the \
                  file as it was, or its scene in a file of its own"
@@ -130,6 +138,21 @@ pub fn check_measured_files(document: &Document) -> Result<(), String> {
     Ok(())
 }
 
+/// Measured file in the first lines of a table.
+struct RecordedFile<'a> {
+    name: String,
+    sha256: &'a str,
+}
+
+impl<'a> RecordedFile<'a> {
+    /// Reads the line of a measured file; `None` for any other line.
+    fn of_line(line: &'a str) -> Option<Self> {
+        let (sha256, name) = line.strip_prefix(HASH)?.split_once(' ')?;
+        let name = ron::from_str(name).ok()?;
+        Some(RecordedFile { name, sha256 })
+    }
+}
+
 fn hash_of(path: &Path) -> Result<String, String> {
     sha256_of(path).map_err(|reason| format!("{}: {reason}", path_name(path)))
 }
@@ -137,11 +160,23 @@ fn hash_of(path: &Path) -> Result<String, String> {
 /// Returns the path by which a table in the folder `destination` names a file. `file` is the path
 /// relative to `folder`. If the two folders differ, the result is an absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
-    let whole = |folder: &Path| Path::new(".").join(folder).canonicalize().ok();
-    let is_same_folder =
-        folder == destination || whole(folder).is_some_and(|one| Some(one) == whole(destination));
-    match std::path::absolute(folder.join(file)) {
-        Ok(absolute) if !is_same_folder => absolute.to_string_lossy().into_owned(),
-        _ => file.to_owned(),
+    if is_same_folder(folder, destination) {
+        return file.to_owned();
     }
+    match std::path::absolute(folder.join(file)) {
+        Ok(absolute) => absolute.to_string_lossy().into_owned(),
+        Err(_) => file.to_owned(),
+    }
+}
+
+/// Returns true if two paths name the same folder, perhaps by links.
+fn is_same_folder(first: &Path, second: &Path) -> bool {
+    if first == second {
+        return true;
+    }
+    let Ok(first) = Path::new(".").join(first).canonicalize() else {
+        return false;
+    };
+    let second = Path::new(".").join(second).canonicalize();
+    second.is_ok_and(|second| first == second)
 }

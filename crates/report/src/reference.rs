@@ -4,15 +4,15 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::status::duration;
 use crate::warnings::{counted_section, counted_texts};
+use crate::words::{counted, percent, whole_percent};
 use asperity_contact::Move;
-use asperity_data::{
-    AxisScale, Table, format_quantity, format_rounded, grouped, memory_size, object,
-};
+use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped, memory_size};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_study::Statistics;
 use asperity_study::half_space::{
-    Compared, ComparedRoughness, Loaded, Reference, ReferenceEvent, SquareLoops,
+    Compared, ComparedRoughness, LeftOut, Loaded, Reference, ReferenceBudget, ReferenceEvent,
+    SquareLoops,
 };
 use serde::Serialize;
 use std::time::{Duration, Instant};
@@ -21,7 +21,6 @@ use std::time::{Duration, Instant};
 /// does, and in three dimensions.
 #[derive(Clone, Copy, Debug)]
 pub struct ReferenceReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene that is computed in both ways.
     pub scene: &'a Scene,
@@ -30,17 +29,19 @@ pub struct ReferenceReport<'a> {
 }
 
 /// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
-fn ratio(of: &Compared) -> String {
-    let decimals = |value: f64| {
-        if value < 10.0 {
-            format!("{value:.2}")
-        } else {
-            format_rounded(value, 2, "1")
-        }
-    };
-    match of.error {
-        Some(error) => format!("{} ± {}", decimals(of.ratio), decimals(error)),
-        None => decimals(of.ratio),
+fn ratio(compared: &Compared) -> String {
+    let ratio = decimals(compared.ratio);
+    match compared.error {
+        Some(error) => format!("{ratio} ± {}", decimals(error)),
+        None => ratio,
+    }
+}
+
+fn decimals(value: f64) -> String {
+    if value < 10.0 {
+        format!("{value:.2}")
+    } else {
+        format_rounded(value, 2, "1")
     }
 }
 
@@ -66,9 +67,8 @@ pub struct ReferenceProgress {
 
 impl Default for ReferenceProgress {
     fn default() -> Self {
-        let begun = Instant::now();
         ReferenceProgress {
-            begun,
+            begun: Instant::now(),
             maps: 0,
             done: 0,
             lines_done: 0,
@@ -82,7 +82,7 @@ impl ReferenceProgress {
     /// Returns a line of text on an event of the comparison, such as a finished square. The second
     /// value is true if the line announces a comparison of at least 10 s.
     pub fn words(&mut self, event: &ReferenceEvent) -> (String, bool) {
-        match *event {
+        let line = match *event {
             ReferenceEvent::Begins {
                 maps,
                 threads,
@@ -94,67 +94,58 @@ impl ReferenceProgress {
                     seconds,
                     ..ReferenceProgress::default()
                 };
+                let squares = counted(maps, "square");
+                let threads = counted(threads as u64, "thread");
                 let time = in_words(seconds);
-                let (squares, threads) =
-                    (counted(maps, "square"), counted(threads as u64, "thread"));
                 let memory = memory_size(bytes);
-                (
-                    format!("{squares} on {threads}: about {time} and {memory} of memory"),
-                    seconds >= LONG,
-                )
+                let line = format!("{squares} on {threads}: about {time} and {memory} of memory");
+                return (line, seconds >= LONG);
             }
             ReferenceEvent::Profiles { count, lines } => {
                 self.lines_done += count;
-                (
-                    format!("lines: {} %", 100 * self.lines_done / lines.max(1)),
-                    false,
-                )
+                format!("lines: {} %", 100 * self.lines_done / lines.max(1))
             }
             ReferenceEvent::ProfilesEnd { .. } => {
                 self.begun = Instant::now();
-                (self.of_squares(), false)
+                self.squares_in_words()
             }
             ReferenceEvent::Loaded { share } => {
                 // The number of loads is an estimate.
                 self.share = (self.share + share).min(0.99);
-                (self.of_squares(), false)
+                self.squares_in_words()
             }
             ReferenceEvent::Square { .. } => {
                 self.done += 1;
-                (self.of_squares(), false)
+                self.squares_in_words()
             }
-        }
+        };
+        (line, false)
     }
 
     /// Returns how many squares are finished, the share of the computation that is done, and the
     /// time left.
-    fn of_squares(&self) -> String {
-        let done = self.done as f64 / self.maps.max(1) as f64;
-        let share = self.share.max(done);
+    fn squares_in_words(&self) -> String {
+        let share_of_squares = self.done as f64 / self.maps.max(1) as f64;
+        let share = self.share.max(share_of_squares);
         let left = if share < LEAST_SHARE {
             self.seconds
         } else {
             self.begun.elapsed().as_secs_f64() * (1.0 - share) / share
         };
+        let done = self.done;
         let squares = counted(self.maps, "square");
-        format!(
-            "{} of {squares}, {:.0} %, {} left",
-            self.done,
-            100.0 * share,
-            in_words(left)
-        )
+        let share = whole_percent(share);
+        let left = in_words(left);
+        format!("{done} of {squares}, {share}, {left} left")
     }
 
     /// Returns in words how many finished squares are lost if the comparison is stopped now.
     pub fn lost(&self) -> String {
-        match self.maps {
-            0 => "stopped before the first square".to_owned(),
-            maps => format!(
-                "stopped after {} of {}, which are lost",
-                self.done,
-                counted(maps, "square")
-            ),
+        if self.maps == 0 {
+            return "stopped before the first square".to_owned();
         }
+        let squares = counted(self.maps, "square");
+        format!("stopped after {} of {squares}, which are lost", self.done)
     }
 }
 
@@ -162,89 +153,78 @@ fn in_words(seconds: f64) -> String {
     duration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
 }
 
-fn counted(count: u64, noun: &str) -> String {
-    format!(
-        "{} {noun}{}",
-        grouped(count),
-        if count == 1 { "" } else { "s" }
-    )
-}
-
 /// Returns in a few words the progress of the computation of force loops of random rough squares in
 /// three dimensions. After the first results the words have the ratio of the result with profiles
 /// to the result in three dimensions. The result is the adhesion force, or the indentation if
 /// `is_adhesive` is false.
 pub fn square_loops_words(loops: &SquareLoops, is_adhesive: bool) -> String {
-    let SquareLoops {
-        maps,
-        curves,
-        reference,
-        share,
-        ..
-    } = loops;
+    let maps = loops.maps;
     let Some(compared) = loops.headline() else {
-        if *maps == 0 {
+        if maps == 0 {
             return "three dimensions: begins".to_owned();
         }
-        return format!(
-            "three dimensions: 0 of {maps} squares, {:.0} %",
-            100.0 * share
-        );
+        let share = whole_percent(loops.share);
+        return format!("three dimensions: 0 of {maps} squares, {share}");
     };
     let symbol = if is_adhesive { "F_a" } else { "d" };
-    let rest = match reference {
+    let ratio = ratio(&compared);
+    let squares = match &loops.reference {
         Some(reference) => omitted_waves(reference),
-        None => format!(", {} of {maps} squares", curves.len()),
+        None => format!(", {} of {maps} squares", loops.curves.len()),
     };
-    format!("{symbol} line/three dimensions {}{rest}", ratio(&compared))
+    format!("{symbol} line/three dimensions {ratio}{squares}")
 }
 
 /// Returns a sentence with the ratio of the mean over random profiles to the mean in three
 /// dimensions, and with the error of the model that follows from this ratio. The means are of the
 /// adhesion force, or of the indentation without adhesion. Returns `None` if the ratio is unknown.
 pub fn model_sentence(reference: &Reference) -> Option<String> {
-    let compared = reference.headline()?;
+    let ratio = ratio(reference.headline()?);
     let quantity = if reference.adhesion_force.is_some() {
         "the adhesion force"
     } else {
         "the indentation"
     };
     let waves = omitted_waves(reference);
-    let model = if reference.line_is_exact {
-        "The model is exact for this body, so that the difference is an error of the grid of the squares."
-            .to_owned()
-    } else {
-        match reference.budget.model {
-            Some(model) if model > 0.0 => format!(
-                "The error of the model, at least {}{waves}, remains with any number of springs.",
-                percent(model)
-            ),
-            Some(_) => "Sample and grid of the squares can explain the difference.".to_owned(),
-            None => "The error of the model is not known.".to_owned(),
-        }
-    };
+    let error = error_sentence(reference);
     Some(format!(
-        "The mean of {quantity} over random lines is {} times the mean over random squares in three dimensions{waves}. {model}",
-        ratio(compared),
+        "The mean of {quantity} over random lines is {ratio} times the mean over random squares in three dimensions{waves}. {error}"
     ))
+}
+
+/// Returns a sentence on the error of the model.
+fn error_sentence(reference: &Reference) -> String {
+    if reference.line_is_exact {
+        return "The model is exact for this body, so that the difference is an error of the grid of the squares."
+            .to_owned();
+    }
+    match reference.budget.model {
+        Some(model) if model > 0.0 => {
+            let error = percent(model, 2);
+            let waves = omitted_waves(reference);
+            format!(
+                "The error of the model, at least {error}{waves}, remains with any number of springs."
+            )
+        }
+        Some(_) => "Sample and grid of the squares can explain the difference.".to_owned(),
+        None => "The error of the model is not known.".to_owned(),
+    }
 }
 
 /// Returns the difference of the line from three dimensions with its interval and the compared
 /// waves, such as `line against three dimensions, +4 ± 45 %`; `None` if it is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
-    let difference = format_rounded(100.0 * compared.difference(), 2, "1");
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
+    let difference = format_rounded(100.0 * compared.difference(), 2, "1");
+    let error = match compared.error {
+        Some(error) => format!(" ± {}", percent(error, 2)),
+        None => " %".to_owned(),
+    };
     let waves = omitted_waves(reference);
-    Some(match compared.error {
-        Some(error) => {
-            format!(
-                "line against three dimensions, {sign}{difference} ± {}{waves}",
-                percent(error)
-            )
-        }
-        None => format!("line against three dimensions, {sign}{difference} %{waves}"),
-    })
+    Some(format!(
+        "line against three dimensions, {sign}{difference}{error}{waves}"
+    ))
 }
 
 /// Returns the error of the model in words: what exceeds the errors of sample and grid.
@@ -254,11 +234,9 @@ pub fn model_words(reference: &Reference) -> String {
     }
     match reference.budget.model {
         Some(model) if model > 0.0 => {
-            format!(
-                "at least {}, beyond sample and grid{}",
-                percent(model),
-                omitted_waves(reference)
-            )
+            let error = percent(model, 2);
+            let waves = omitted_waves(reference);
+            format!("at least {error}, beyond sample and grid{waves}")
         }
         Some(_) => "not distinguished from sample and grid".to_owned(),
         None if reference.budget.grid.is_none() => {
@@ -271,123 +249,188 @@ pub fn model_words(reference: &Reference) -> String {
 /// Returns the waves that are compared, if the squares leave out some of the scene:
 /// `, of waves 4 to 8 of 4 to 3 200`.
 pub fn omitted_waves(reference: &Reference) -> String {
-    match (reference.waves, reference.omitted) {
-        (Some((first, last)), Some(whole)) => {
-            let first = grouped(first);
-            format!(
-                ", of waves {first} to {} of {first} to {}",
-                grouped(last),
-                grouped(whole)
-            )
-        }
-        _ => String::new(),
-    }
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", format_rounded(100.0 * share, 2, "1"))
+    let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
+        return String::new();
+    };
+    let first = grouped(first);
+    let last = grouped(last);
+    let last_of_scene = grouped(last_of_scene);
+    format!(", of waves {first} to {last} of {first} to {last_of_scene}")
 }
 
 fn percent_or_unknown(share: Option<f64>) -> String {
-    share.map_or_else(|| "not known".to_owned(), percent)
+    share.map_or_else(|| "not known".to_owned(), |share| percent(share, 2))
+}
+
+/// Returns the headings of a table of both models.
+fn header() -> [String; 4] {
+    ["", "line", "three dimensions", "ratio"].map(String::from)
+}
+
+/// Returns the headings of a table of both models with the error of the grid of the squares.
+fn header_with_grid() -> [String; 5] {
+    ["", "line", "three dimensions", "ratio", "grid"].map(String::from)
+}
+
+/// Returns the row of a quantity in a table of both models with the error of the grid.
+fn compared_row(name: String, compared: &Compared, unit: &str) -> [String; 5] {
+    [
+        name,
+        format_rounded(compared.line.mean, 3, unit),
+        format_rounded(compared.half_space.mean, 3, unit),
+        ratio(compared),
+        percent_or_unknown(compared.grid),
+    ]
+}
+
+/// Returns the row of a quantity in the table of the roughness of lines and squares.
+fn roughness_row(name: &str, line: f64, half_space: f64, unit: &str) -> [String; 4] {
+    [
+        name.to_owned(),
+        format_rounded(line, 3, unit),
+        format_rounded(half_space, 3, unit),
+        format!("{:.2}", line / half_space),
+    ]
 }
 
 impl ReferenceReport<'_> {
     /// Returns sentences on what is compared.
     fn compared(&self) -> String {
-        let Reference {
-            options,
-            waves,
-            omitted,
-            ..
-        } = self.reference;
+        let options = &self.reference.options;
         let cells = options.cells;
-        let Some((first, last)) = waves else {
+        let Some((first, last)) = self.reference.waves else {
             return format!("A square of {cells} × {cells} cells and a line, both smooth.");
         };
-        let (first, last) = (grouped(*first), grouped(*last));
-        let left_out = omitted.map_or_else(String::new, |whole| {
-            format!(
-                " The squares do not resolve the waves up to {} of the scene, which both models leave out: --grid refines the \
-                 squares.",
-                grouped(whole)
-            )
-        });
-        format!(
-            "Means over {} random squares of {cells} × {cells} cells and over {} random lines, of {first} to {last} waves over the \
-             length.{left_out}",
-            grouped(options.maps),
-            grouped(options.lines)
-        )
-    }
-
-    /// Returns sentences on what is computed of the loading of the scene.
-    fn loading_sentences(&self) -> String {
-        let reference = self.reference;
-        let mut sentences = String::new();
-        if reference.compared_loading[..] != self.scene.loading[..] {
-            let turn = match reference.compared_loading[0] {
-                Move::ToIndentation(indentation) => {
-                    format!("an indentation of {}", format_rounded(indentation, 3, "m"))
-                }
-                Move::ToDisplacement(displacement) => {
-                    format!("a displacement of {}", format_rounded(displacement, 3, "m"))
-                }
-                _ => format_rounded(reference.preload, 3, "N"),
-            };
-            sentences = format!(
-                "The last loop of the loading is compared: from separation to {turn}, and back."
+        let maps = grouped(options.maps);
+        let lines = grouped(options.lines);
+        let first = grouped(first);
+        let last = grouped(last);
+        let mut sentences = format!(
+            "Means over {maps} random squares of {cells} × {cells} cells and over {lines} random lines, of {first} to {last} \
+             waves over the length."
+        );
+        if let Some(last_of_scene) = self.reference.omitted {
+            let last_of_scene = grouped(last_of_scene);
+            sentences += &format!(
+                " The squares do not resolve the waves up to {last_of_scene} of the scene, which both models leave out: --grid \
+                 refines the squares."
             );
         }
         sentences
     }
 
+    /// Returns a sentence on the part of the loading that is compared; `None` if it is the loading
+    /// of the scene.
+    fn compared_loading(&self) -> Option<String> {
+        let reference = self.reference;
+        if reference.compared_loading[..] == self.scene.loading[..] {
+            return None;
+        }
+        let turn = match reference.compared_loading[0] {
+            Move::ToIndentation(indentation) => {
+                format!("an indentation of {}", format_rounded(indentation, 3, "m"))
+            }
+            Move::ToDisplacement(displacement) => {
+                format!("a displacement of {}", format_rounded(displacement, 3, "m"))
+            }
+            _ => format_rounded(reference.preload, 3, "N"),
+        };
+        Some(format!(
+            "The last loop of the loading is compared: from separation to {turn}, and back."
+        ))
+    }
+
     /// Adds a table of the roughness of lines and squares.
-    fn roughness(&self, sheet: &mut Sheet) {
+    fn add_roughness(&self, sheet: &mut Sheet) {
         let Some(roughness) = self.reference.roughness else {
             return;
         };
-        let row = |name: &str, line: String, half_space: String, ratio: f64| {
-            [name.to_owned(), line, half_space, format!("{ratio:.2}")]
-        };
-        let both = |name: &str, value: fn(&ComparedRoughness) -> f64, unit: &str| {
-            let (line, half_space) = (value(&roughness.line), value(&roughness.half_space));
-            row(
-                name,
-                format_rounded(line, 3, unit),
-                format_rounded(half_space, 3, unit),
-                line / half_space,
-            )
-        };
+        let line = roughness.line;
+        let square = roughness.half_space;
         let mut rows = vec![
             header(),
-            both("rms height h", |of| of.rms_height, "m"),
-            both("rms gradient ⟨∇z⟩", |of| of.rms_gradient, "1"),
-            both("elastic energy e_el", |of| of.elastic_energy, "J/m²"),
+            roughness_row("rms height h", line.rms_height, square.rms_height, "m"),
+            roughness_row(
+                "rms gradient ⟨∇z⟩",
+                line.rms_gradient,
+                square.rms_gradient,
+                "1",
+            ),
+            roughness_row(
+                "elastic energy e_el",
+                line.elastic_energy,
+                square.elastic_energy,
+                "J/m²",
+            ),
         ];
-        let mut scaled = String::new();
-        if let (Some(adhesive), Some(work)) = (
-            roughness.adhesive_half_space,
-            self.reference.work_of_adhesion,
-        ) {
-            let line = roughness.line.elastic_energy / work;
-            let half_space = adhesive.elastic_energy / work;
-            let ratio = |value: f64| format_rounded(value, 3, "1");
-            rows.push(row(
+        let mut scaled = None;
+        let work = self.reference.work_of_adhesion;
+        if let (Some(adhesive), Some(work)) = (roughness.adhesive_half_space, work) {
+            let of_line = line.elastic_energy / work;
+            let of_square = adhesive.elastic_energy / work;
+            rows.push(roughness_row(
                 "e_el/γ with adhesion",
-                ratio(line),
-                ratio(half_space),
-                line / half_space,
+                of_line,
+                of_square,
+                "1",
             ));
-            let factor = adhesive.rms_height / roughness.half_space.rms_height;
-            scaled = format!(
+            let factor = adhesive.rms_height / square.rms_height;
+            scaled = Some(format!(
                 "With adhesion the heights of the squares are multiplied by {factor:.3}, so that e_el/γ is the same."
-            );
+            ));
         }
         sheet.heading("Roughness of what is compared");
         sheet.table(&rows);
-        if !scaled.is_empty() {
-            sheet.paragraph(&scaled);
+        if let Some(sentence) = scaled {
+            sheet.paragraph(&sentence);
+        }
+    }
+
+    /// Adds a table of the loading without adhesion, and the forces that it leaves out.
+    fn add_loading(&self, sheet: &mut Sheet) {
+        sheet.heading(
+            "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
+        );
+        let mut rows = vec![header_with_grid()];
+        for loaded in &self.reference.loading {
+            let force = format_rounded(loaded.force, 3, "N");
+            let indentation = format!("indentation at {force}");
+            rows.push(compared_row(indentation, &loaded.indentation, "m"));
+            let stiffness = format!("stiffness at {force}");
+            rows.push(compared_row(stiffness, &loaded.stiffness, "N/m"));
+        }
+        if rows.len() > 1 {
+            sheet.table(&rows);
+        }
+        if let Some(sentence) = self.left_out() {
+            sheet.paragraph(&sentence);
+        }
+    }
+
+    /// Adds a table of the adhesion in both models; nothing without adhesion.
+    fn add_adhesion(&self, sheet: &mut Sheet) {
+        let reference = self.reference;
+        let quantities = [
+            ("adhesion force F_a", &reference.adhesion_force, "N"),
+            (
+                "at first touch F_a(d=0)",
+                &reference.first_touch_adhesion_force,
+                "N",
+            ),
+            ("dissipated energy", &reference.dissipated_energy, "J"),
+        ];
+        let mut rows = vec![header_with_grid()];
+        for (name, compared, unit) in quantities {
+            if let Some(compared) = compared {
+                rows.push(compared_row(name.to_owned(), compared, unit));
+            }
+        }
+        if rows.len() > 1 {
+            let preload = format_quantity(reference.preload, "N");
+            sheet.heading(&format!(
+                "With adhesion, after a preload of {preload}, ratio of the line to three dimensions"
+            ));
+            sheet.table(&rows);
         }
     }
 
@@ -395,48 +438,62 @@ impl ReferenceReport<'_> {
     /// none.
     fn left_out(&self) -> Option<String> {
         let left_out = &self.reference.left_out;
-        let finest = left_out.first()?.grid;
+        let finer_grid = left_out.first()?.grid;
         let least = Loaded::LEAST_CELLS;
         let mut forces = Vec::new();
-        for force in left_out {
-            let cells = format_rounded(force.cells, 2, "1");
-            forces.push(format!("{} ({cells})", format_rounded(force.force, 3, "N")));
+        for left_out in left_out {
+            let force = format_rounded(left_out.force, 3, "N");
+            let cells = format_rounded(left_out.cells, 2, "1");
+            forces.push(format!("{force} ({cells})"));
         }
-        let help = finest.map_or_else(String::new, |grid| format!("; --grid {grid} may add them"));
+        let forces = forces.join(", ");
+        let help = match finer_grid {
+            Some(grid) => format!("; --grid {grid} may add them"),
+            None => String::new(),
+        };
         Some(format!(
-            "Left out are forces at which fewer than {least} cells of a square are in contact on the average: {}{help}.",
-            forces.join(", ")
+            "Left out are forces at which fewer than {least} cells of a square are in contact on the average: {forces}{help}."
         ))
     }
 
     /// Returns the errors of the comparison by their sources, and the largest in words.
     fn errors(&self) -> (Vec<(&'static str, String)>, String) {
-        let budget = &self.reference.budget;
-        let waves = omitted_waves(self.reference);
-        let with_waves = |share: Option<f64>| match share {
-            Some(share) => format!("{}{waves}", percent(share)),
-            None => percent_or_unknown(share),
-        };
-        let is_random = self.reference.waves.is_some();
-        let sample = if is_random {
-            with_waves(budget.sample)
+        let reference = self.reference;
+        let budget = &reference.budget;
+        let sample = if reference.waves.is_some() {
+            self.with_waves(budget.sample)
         } else {
             "none: nothing is random".to_owned()
         };
-        let difference =
-            difference_words(self.reference).unwrap_or_else(|| percent_or_unknown(None));
+        let difference = difference_words(reference).unwrap_or_else(|| percent_or_unknown(None));
         let rows = vec![
             ("solver", format!("{:.0e} of the rms height", budget.solver)),
-            ("grid of the squares", with_waves(budget.grid)),
+            ("grid of the squares", self.with_waves(budget.grid)),
             ("sample", sample),
             ("three dimensions", difference),
-            ("model", model_words(self.reference)),
+            ("model", model_words(reference)),
         ];
-        let largest = match (budget.largest, budget.model) {
+        (rows, self.largest_error())
+    }
+
+    /// Returns an error with the compared waves.
+    fn with_waves(&self, error: Option<f64>) -> String {
+        let words = percent_or_unknown(error);
+        if error.is_none() {
+            return words;
+        }
+        words + &omitted_waves(self.reference)
+    }
+
+    /// Returns a sentence on the largest error.
+    fn largest_error(&self) -> String {
+        let budget = &self.reference.budget;
+        match (budget.largest, budget.model) {
             ("model", Some(model)) => {
+                let error = percent(model, 2);
+                let waves = omitted_waves(self.reference);
                 format!(
-                    "The largest is the model, at least {}{waves}: more springs do not help.",
-                    percent(model)
+                    "The largest is the model, at least {error}{waves}: more springs do not help."
                 )
             }
             ("sample", _) => {
@@ -445,42 +502,7 @@ impl ReferenceReport<'_> {
             }
             ("grid", _) => "The largest is the grid of the squares: --grid refines it.".to_owned(),
             _ => "The largest known error is the residual of the solver.".to_owned(),
-        };
-        (rows, largest)
-    }
-}
-
-/// Returns the headings of a table of both models.
-fn header() -> [String; 4] {
-    ["", "line", "three dimensions", "ratio"].map(String::from)
-}
-
-/// Returns the numbers of one model, or the ratios of both models. The numbers of the squares have
-/// the area of contact and the error of their grid.
-fn model<V: Serialize>(
-    reference: &Reference,
-    roughness: Option<ComparedRoughness>,
-    value: impl Fn(&Compared) -> V + Copy,
-    area: impl Fn(&Loaded) -> Option<f64>,
-    grid: impl Fn(&Loaded) -> Option<Option<f64>>,
-) -> impl Serialize {
-    let point = |loaded: &Loaded| {
-        object! {
-            "force": loaded.force,
-            "indentation": value(&loaded.indentation),
-            "stiffness": value(&loaded.stiffness),
-            "contact_area"?: area(loaded),
-            "grid"?: grid(loaded),
         }
-    };
-    object! {
-        "rms_height"?: roughness.map(|roughness| roughness.rms_height),
-        "rms_gradient"?: roughness.map(|roughness| roughness.rms_gradient),
-        "elastic_energy"?: roughness.map(|roughness| roughness.elastic_energy),
-        "adhesion_force": reference.adhesion_force.as_ref().map(value),
-        "first_touch_adhesion_force": reference.first_touch_adhesion_force.as_ref().map(value),
-        "dissipated_energy": reference.dissipated_energy.as_ref().map(value),
-        "loading": reference.loading.iter().map(point).collect::<Vec<_>>(),
     }
 }
 
@@ -490,155 +512,57 @@ impl Report for ReferenceReport<'_> {
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
         sheet.heading(&self.compared());
-        counted_section(
-            &mut sheet,
-            &self.reference.warnings,
-            self.reference.profiles_for_warnings(),
-        );
-        let loading = self.loading_sentences();
-        if !loading.is_empty() {
-            sheet.paragraph(&loading);
+        let profiles = reference.profiles_for_warnings();
+        counted_section(&mut sheet, &reference.warnings, profiles);
+        if let Some(sentence) = self.compared_loading() {
+            sheet.paragraph(&sentence);
         }
-        self.roughness(&mut sheet);
-        let mut header = header().to_vec();
-        header.push("grid".to_owned());
-        let row = |name: String, compared: &Compared, unit: &str| {
-            let mean = |all: &Statistics| format_rounded(all.mean, 3, unit);
-            let grid = percent_or_unknown(compared.grid);
-            vec![
-                name,
-                mean(&compared.line),
-                mean(&compared.half_space),
-                ratio(compared),
-                grid,
-            ]
-        };
-        let mut rows = vec![header.clone()];
-        for loaded in &reference.loading {
-            let force = format_rounded(loaded.force, 3, "N");
-            rows.push(row(
-                format!("indentation at {force}"),
-                &loaded.indentation,
-                "m",
-            ));
-            rows.push(row(
-                format!("stiffness at {force}"),
-                &loaded.stiffness,
-                "N/m",
-            ));
-        }
-        sheet.heading(
-            "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
-        );
-        if rows.len() > 1 {
-            sheet.table(&rows);
-        }
-        if let Some(left_out) = self.left_out() {
-            sheet.paragraph(&left_out);
-        }
-        let adhesive = [
-            ("adhesion force F_a", &reference.adhesion_force, "N"),
-            (
-                "at first touch F_a(d=0)",
-                &reference.first_touch_adhesion_force,
-                "N",
-            ),
-            ("dissipated energy", &reference.dissipated_energy, "J"),
-        ];
-        let mut rows = vec![header];
-        for (name, compared, unit) in adhesive {
-            rows.extend(
-                compared
-                    .as_ref()
-                    .map(|compared| row(name.to_owned(), compared, unit)),
-            );
-        }
-        if rows.len() > 1 {
-            let preload = format_quantity(reference.preload, "N");
-            sheet.heading(&format!(
-                "With adhesion, after a preload of {preload}, ratio of the line to three dimensions"
-            ));
-            sheet.table(&rows);
-        }
+        self.add_roughness(&mut sheet);
+        self.add_loading(&mut sheet);
+        self.add_adhesion(&mut sheet);
+
         let (rows, largest) = self.errors();
         sheet.heading("Errors of the comparison by their sources");
-        rows.into_iter()
-            .for_each(|(name, words)| sheet.row(name, words));
+        for (source, words) in rows {
+            sheet.row(source, words);
+        }
         sheet.paragraph(&largest);
+
         let [lines, squares] = reference
             .seconds
             .map(|seconds| format_quantity(seconds, "s"));
+        let convolutions = grouped(reference.convolutions);
         sheet.heading(&format!(
-            "Time: {lines} for the lines; {squares} and {} convolutions for the squares.",
-            grouped(reference.convolutions)
+            "Time: {lines} for the lines; {squares} and {convolutions} convolutions for the squares."
         ));
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let reference = self.reference;
-        let ratio =
-            |of: &Compared| object! { "value": of.ratio, "error": of.error, "grid": of.grid };
-        let roughness = reference.roughness;
-        let line = roughness.map(|roughness| roughness.line);
-        let half_space = roughness.map(|roughness| roughness.half_space);
-        Some(Box::new(object! {
-            "scene": self.scene,
-            "warnings": counted_texts(&self.reference.warnings, self.reference.profiles_for_warnings()),
-            "cells": reference.options.cells,
-            "maps": reference.options.maps,
-            "lines": reference.options.lines,
-            "waves": reference.waves,
-            "omitted": reference.omitted,
-            "compared_loading": reference.compared_loading,
-            "preload": reference.preload,
-            "work_of_adhesion": reference.work_of_adhesion,
-            "line": model(reference, line, |of| of.line, |_| None, |_| None),
-            "half_space": model(
-                reference,
-                half_space,
-                |of| of.half_space,
-                |loaded| Some(loaded.area),
-                |loaded| Some(loaded.grid()),
-            ),
-            "adhesive_half_space": roughness.and_then(|roughness| roughness.adhesive_half_space),
-            "ratio": model(reference, None, ratio, |_| None, |loaded| Some(loaded.grid())),
-            "left_out": &reference.left_out,
-            "line_is_exact": reference.line_is_exact,
-            "budget": reference.budget,
-            "convolutions": reference.convolutions,
-            "seconds": reference.seconds,
-            "seconds_of_square": reference.seconds_of_square,
-        }))
+        Some(Box::new(ReferenceJson::new(self)))
     }
 
     /// Returns a table of the loading without adhesion. A row has a force, then indentation and
     /// stiffness at this force: the mean over profiles, the mean in three dimensions, and the ratio
     /// of these means.
     fn table(&self) -> Option<Table<'_>> {
-        let rows = move || self.reference.loading.iter();
-        let mean = |of: &Compared| (of.line.mean, of.half_space.mean);
-        let table = Table::of(rows)
-            .real("force", |loaded| Some(loaded.force))
-            .real("indentation_line", move |loaded| {
-                Some(mean(&loaded.indentation).0)
+        let table = Table::of(|| self.reference.loading.iter())
+            .real("force", |loaded| loaded.force)
+            .real("indentation_line", |loaded| loaded.indentation.line.mean)
+            .real("indentation_half_space", |loaded| {
+                loaded.indentation.half_space.mean
             })
-            .real("indentation_half_space", move |loaded| {
-                Some(mean(&loaded.indentation).1)
-            })
-            .real("indentation_ratio", |loaded| Some(loaded.indentation.ratio))
+            .real("indentation_ratio", |loaded| loaded.indentation.ratio)
             .real("indentation_ratio_error", |loaded| loaded.indentation.error)
             .real("indentation_grid", |loaded| loaded.indentation.grid)
-            .real("stiffness_line", move |loaded| {
-                Some(mean(&loaded.stiffness).0)
+            .real("stiffness_line", |loaded| loaded.stiffness.line.mean)
+            .real("stiffness_half_space", |loaded| {
+                loaded.stiffness.half_space.mean
             })
-            .real("stiffness_half_space", move |loaded| {
-                Some(mean(&loaded.stiffness).1)
-            })
-            .real("stiffness_ratio", |loaded| Some(loaded.stiffness.ratio))
+            .real("stiffness_ratio", |loaded| loaded.stiffness.ratio)
             .real("stiffness_ratio_error", |loaded| loaded.stiffness.error)
             .real("stiffness_grid", |loaded| loaded.stiffness.grid)
-            .real("area_half_space", |loaded| Some(loaded.area));
+            .real("area_half_space", |loaded| loaded.area);
         Some(table.done())
     }
 
@@ -646,60 +570,220 @@ impl Report for ReferenceReport<'_> {
     /// each force, in both models.
     fn figure(&self) -> Option<Figure> {
         let loading = &self.reference.loading;
-        let force = |loaded: &Loaded| loaded.force;
-        let of = |name: &str, ink: Ink, sign: Sign, all: fn(&Loaded) -> Statistics| {
-            let points: Vec<(f64, f64)> = loading
-                .iter()
-                .map(|loaded| (force(loaded), all(loaded).mean))
-                .collect();
-            let band = loading.iter().map(|loaded| {
-                let [low, _, high] = all(loaded).quartiles;
-                (force(loaded), low, high)
+        let mut forces = Vec::new();
+        let mut indentations = Vec::new();
+        for loaded in loading {
+            forces.push(loaded.force);
+            for statistics in [loaded.indentation.line, loaded.indentation.half_space] {
+                let [lower, _, upper] = statistics.quartiles;
+                indentations.extend([lower, upper, statistics.mean]);
+            }
+        }
+        let x = logarithmic_axis(&forces, "force", "F", "N");
+        let y = logarithmic_axis(&indentations, "indentation", "d", "m");
+        let line = LayersOfModel {
+            name: "line",
+            ink: Ink::Series(0),
+            sign: Sign::Dot,
+            indentation: |loaded| loaded.indentation.line,
+        };
+        let square = LayersOfModel {
+            name: "three dimensions",
+            ink: Ink::Series(1),
+            sign: Sign::Diamond,
+            indentation: |loaded| loaded.indentation.half_space,
+        };
+        let mut layers = line.layers(loading);
+        layers.extend(square.layers(loading));
+        Some(Figure::of_chart(self.title, Chart::new(x, y, layers)))
+    }
+}
+
+/// Returns a logarithmic axis with a margin around these values.
+fn logarithmic_axis(values: &[f64], name: &str, symbol: &str, unit: &str) -> ChartAxis {
+    let scale = AxisScale::Logarithmic;
+    let coordinates = values.iter().map(|value| scale.coordinate(*value));
+    ChartAxis::new(scale, Span::around(coordinates, 0.05), name, symbol, unit)
+}
+
+/// How the indentation of one model is drawn over the force.
+struct LayersOfModel {
+    name: &'static str,
+    ink: Ink,
+    sign: Sign,
+    /// Function that returns the indentation of the model at a force.
+    indentation: fn(&Loaded) -> Statistics,
+}
+
+impl LayersOfModel {
+    /// Returns a band of the quartiles and a curve of the means.
+    fn layers(&self, loading: &[Loaded]) -> Vec<Layer> {
+        let mut band = Vec::with_capacity(loading.len());
+        let mut means = Vec::with_capacity(loading.len());
+        for loaded in loading {
+            let indentation = (self.indentation)(loaded);
+            let [lower, _, upper] = indentation.quartiles;
+            band.push((loaded.force, lower, upper));
+            means.push((loaded.force, indentation.mean));
+        }
+        let curve = Shape::Curve {
+            points: means,
+            stroke: Some(Stroke::Solid),
+            sign: Some(self.sign),
+        };
+        let name = format!("{}, mean and quartiles", self.name);
+        vec![
+            Layer::unnamed(self.ink, Shape::Band(band)),
+            Layer::new(name.as_str().into(), self.ink, curve),
+        ]
+    }
+}
+
+/// JSON object of a comparison, in SI units.
+#[derive(Serialize)]
+struct ReferenceJson<'a> {
+    scene: &'a Scene,
+    warnings: Vec<String>,
+    cells: usize,
+    maps: u64,
+    lines: u64,
+    waves: Option<(u64, u64)>,
+    omitted: Option<u64>,
+    compared_loading: [Move; 2],
+    preload: f64,
+    work_of_adhesion: Option<f64>,
+    line: ModelJson<Statistics>,
+    half_space: ModelJson<Statistics>,
+    adhesive_half_space: Option<ComparedRoughness>,
+    ratio: ModelJson<RatioJson>,
+    left_out: &'a [LeftOut],
+    line_is_exact: bool,
+    budget: ReferenceBudget,
+    convolutions: u64,
+    seconds: [f64; 2],
+    seconds_of_square: f64,
+}
+
+/// Numbers of one model, or ratios of both models.
+#[derive(Serialize)]
+struct ModelJson<V> {
+    #[serde(flatten)]
+    roughness: Option<ComparedRoughness>,
+    adhesion_force: Option<V>,
+    first_touch_adhesion_force: Option<V>,
+    dissipated_energy: Option<V>,
+    loading: Vec<LoadedJson<V>>,
+}
+
+/// Numbers or ratios at one force of the loading without adhesion.
+#[derive(Serialize)]
+struct LoadedJson<V> {
+    force: f64,
+    indentation: V,
+    stiffness: V,
+    /// Mean area of contact of the squares, m².
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_area: Option<f64>,
+    /// Error of the grid of the squares; the inner `None` is an unknown error.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    grid: Option<Option<f64>>,
+}
+
+/// Ratio of the means of both models.
+#[derive(Serialize)]
+struct RatioJson {
+    value: f64,
+    error: Option<f64>,
+    grid: Option<f64>,
+}
+
+impl RatioJson {
+    fn new(compared: &Compared) -> Self {
+        RatioJson {
+            value: compared.ratio,
+            error: compared.error,
+            grid: compared.grid,
+        }
+    }
+}
+
+impl<V> ModelJson<V> {
+    /// Collects one number of each comparison, without roughness, areas and errors of the grid.
+    fn new(reference: &Reference, number: fn(&Compared) -> V) -> Self {
+        let mut loading = Vec::with_capacity(reference.loading.len());
+        for loaded in &reference.loading {
+            loading.push(LoadedJson {
+                force: loaded.force,
+                indentation: number(&loaded.indentation),
+                stiffness: number(&loaded.stiffness),
+                contact_area: None,
+                grid: None,
             });
-            [
-                Layer {
-                    name: "".into(),
-                    ink,
-                    shape: Shape::Band(band.collect()),
-                },
-                Layer {
-                    name: format!("{name}, mean and quartiles").as_str().into(),
-                    ink,
-                    shape: Shape::Curve {
-                        points,
-                        stroke: Some(Stroke::Solid),
-                        sign: Some(sign),
-                    },
-                },
-            ]
-        };
-        let layers = [
-            of("line", Ink::Series(0), Sign::Dot, |loaded| {
-                loaded.indentation.line
-            }),
-            of(
-                "three dimensions",
-                Ink::Series(1),
-                Sign::Diamond,
-                |loaded| loaded.indentation.half_space,
-            ),
-        ];
-        let axis = |values: &mut dyn Iterator<Item = f64>, name: &str, symbol: &str, unit: &str| {
-            let span = Span::around(
-                values.map(|value| AxisScale::Logarithmic.coordinate(value)),
-                0.05,
-            );
-            ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
-        };
-        let x = axis(&mut loading.iter().map(force), "force", "F", "N");
-        let ends = loading.iter().flat_map(|loaded| {
-            let both = [loaded.indentation.line, loaded.indentation.half_space];
-            both.into_iter()
-                .flat_map(|all| [all.quartiles[0], all.quartiles[2], all.mean])
-        });
-        let y = axis(&mut { ends }, "indentation", "d", "m");
-        let chart = Chart::new(x, y, layers.into_iter().flatten().collect());
-        Some(Figure::of_chart(self.title, chart))
+        }
+        ModelJson {
+            roughness: None,
+            adhesion_force: reference.adhesion_force.as_ref().map(number),
+            first_touch_adhesion_force: reference.first_touch_adhesion_force.as_ref().map(number),
+            dissipated_energy: reference.dissipated_energy.as_ref().map(number),
+            loading,
+        }
+    }
+
+    /// Adds the error of the grid of the squares at each force.
+    fn with_grid(mut self, reference: &Reference) -> Self {
+        for (point, loaded) in self.loading.iter_mut().zip(&reference.loading) {
+            point.grid = Some(loaded.grid());
+        }
+        self
+    }
+
+    /// Adds the area of contact of the squares at each force.
+    fn with_area(mut self, reference: &Reference) -> Self {
+        for (point, loaded) in self.loading.iter_mut().zip(&reference.loading) {
+            point.contact_area = Some(loaded.area);
+        }
+        self
+    }
+}
+
+impl<'a> ReferenceJson<'a> {
+    fn new(report: &ReferenceReport<'a>) -> Self {
+        let reference = report.reference;
+        let roughness = reference.roughness;
+        let profiles = reference.profiles_for_warnings();
+        let line = ModelJson::new(reference, |compared| compared.line);
+        let half_space = ModelJson::new(reference, |compared| compared.half_space)
+            .with_area(reference)
+            .with_grid(reference);
+        let ratio = ModelJson::new(reference, RatioJson::new).with_grid(reference);
+        ReferenceJson {
+            scene: report.scene,
+            warnings: counted_texts(&reference.warnings, profiles),
+            cells: reference.options.cells,
+            maps: reference.options.maps,
+            lines: reference.options.lines,
+            waves: reference.waves,
+            omitted: reference.omitted,
+            compared_loading: reference.compared_loading,
+            preload: reference.preload,
+            work_of_adhesion: reference.work_of_adhesion,
+            line: ModelJson {
+                roughness: roughness.map(|roughness| roughness.line),
+                ..line
+            },
+            half_space: ModelJson {
+                roughness: roughness.map(|roughness| roughness.half_space),
+                ..half_space
+            },
+            adhesive_half_space: roughness.and_then(|roughness| roughness.adhesive_half_space),
+            ratio,
+            left_out: &reference.left_out,
+            line_is_exact: reference.line_is_exact,
+            budget: reference.budget,
+            convolutions: reference.convolutions,
+            seconds: reference.seconds,
+            seconds_of_square: reference.seconds_of_square,
+        }
     }
 }
 

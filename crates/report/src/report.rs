@@ -56,27 +56,43 @@ impl Report for Figure {
         let [Chart { x, y, layers, .. }] = &self.charts[..] else {
             return None;
         };
-        let names = layers
+        let longest_name = layers
             .iter()
-            .map(|layer| layer.name.to_string().chars().count());
-        let column = |axis: &ChartAxis| format!("{} ({})", axis.symbol_or_name(), axis.unit);
-        let rows = || {
-            let points = |layer: &Layer| layer.shape.points();
-            layers.iter().flat_map(move |layer| {
-                points(layer)
-                    .into_iter()
-                    .map(|at| (layer.name.to_string(), at))
-            })
-        };
-        let table = Table::of(rows).with("curve", Kind::Text(names.max()?), |row| row.0.clone());
-        let table = table.with(column(x), Kind::Real, |row| row.1.0);
-        Some(table.with(column(y), Kind::Real, |row| row.1.1).done())
+            .map(|layer| layer.name.to_string().chars().count())
+            .max()?;
+        let rows = || layers.iter().flat_map(curve_points);
+        let table = Table::of(rows)
+            .with("curve", Kind::Text(longest_name), |row| row.curve.clone())
+            .with(column_name(x), Kind::Real, |row| row.x)
+            .with(column_name(y), Kind::Real, |row| row.y);
+        Some(table.done())
     }
 
-    /// Returns the figure itself.
     fn figure(&self) -> Option<Figure> {
         Some(self.clone())
     }
+}
+
+/// Point of a curve of a chart.
+struct PointOfCurve {
+    /// Name of the curve.
+    curve: String,
+    x: f64,
+    y: f64,
+}
+
+fn curve_points(layer: &Layer) -> Vec<PointOfCurve> {
+    let mut points = Vec::new();
+    for (x, y) in layer.shape.points() {
+        let curve = layer.name.to_string();
+        points.push(PointOfCurve { curve, x, y });
+    }
+    points
+}
+
+/// Returns the name of the column of an axis, such as `F (N)`.
+fn column_name(axis: &ChartAxis) -> String {
+    format!("{} ({})", axis.symbol_or_name(), axis.unit)
 }
 
 /// Writes a report in a format. `provenance` has the lines of
@@ -104,15 +120,11 @@ pub fn write(
             .write_csv(out, provenance),
         Format::Npy => report.table().ok_or_else(missing)?.write_npy(out),
         Format::Svg => {
-            let figure = report.figure().ok_or_else(missing)?;
-            out.write_all(
-                Figure {
-                    origin: provenance.to_owned(),
-                    ..figure
-                }
-                .svg()
-                .as_bytes(),
-            )
+            let figure = Figure {
+                origin: provenance.to_owned(),
+                ..report.figure().ok_or_else(missing)?
+            };
+            out.write_all(figure.svg().as_bytes())
         }
         Format::Png => out.write_all(&report.figure().ok_or_else(missing)?.png()?),
         Format::Pdf => out.write_all(&report.figure().ok_or_else(missing)?.pdf()?),
@@ -188,27 +200,33 @@ impl Format {
         formats: &[Format],
         usual: Format,
     ) -> Result<Format, String> {
-        if let Some(format) = chosen.filter(|chosen| !formats.contains(chosen)) {
-            let (format, allowed) = (
-                format.name(),
-                alternatives("", formats.iter().map(|format| format.name())),
-            );
+        if let Some(chosen) = chosen
+            && !formats.contains(&chosen)
+        {
+            let name = chosen.name();
+            let allowed = alternatives("", formats.iter().map(|format| format.name()));
             return Err(format!(
-                "--format {format}: this result has no such format; use {allowed}"
+                "--format {name}: this result has no such format; use {allowed}"
             ));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
         let file = file.unwrap_or(Path::new(""));
-        let refused = |error: String| format!("{}: {error}", path_name(file));
-        let place = check_extension(file, &extensions).map_err(refused)?;
-        match (place.map(|place| formats[place]), chosen) {
-            (Some(of_extension), Some(chosen)) if of_extension != chosen => {
-                let (name, extension) = (chosen.name(), chosen.extension());
-                Err(refused(format!(
-                    "the extension contradicts --format {name}; use .{extension}, or leave out --format"
-                )))
+        let place = check_extension(file, &extensions)
+            .map_err(|error| format!("{}: {error}", path_name(file)))?;
+        let Some(place) = place else {
+            return Ok(chosen.unwrap_or(usual));
+        };
+        let format_of_extension = formats[place];
+        match chosen {
+            Some(chosen) if chosen != format_of_extension => {
+                let file = path_name(file);
+                let name = chosen.name();
+                let extension = chosen.extension();
+                Err(format!(
+                    "{file}: the extension contradicts --format {name}; use .{extension}, or leave out --format"
+                ))
             }
-            (of_extension, chosen) => Ok(of_extension.or(chosen).unwrap_or(usual)),
+            _ => Ok(format_of_extension),
         }
     }
 }
@@ -227,17 +245,18 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, S
     };
     let place = allowed
         .iter()
-        .position(|one| extension.eq_ignore_ascii_case(one));
-    place.map(Some).ok_or_else(|| {
-        let (extension, allowed) = (
-            printable(&extension),
-            alternatives(".", allowed.iter().copied()),
-        );
-        format!("unsupported file extension .{extension}; use {allowed}")
-    })
+        .position(|allowed| extension.eq_ignore_ascii_case(allowed));
+    if place.is_some() {
+        return Ok(place);
+    }
+    let extension = printable(&extension);
+    let allowed = alternatives(".", allowed.iter().copied());
+    Err(format!(
+        "unsupported file extension .{extension}; use {allowed}"
+    ))
 }
 
-/// Returns a list in words, such as `.txt, .json or .csv`.
+/// Returns a list in words, such as `.txt, .json or .csv`. Each word follows the text `before`.
 fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {

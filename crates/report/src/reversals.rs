@@ -1,17 +1,20 @@
 //! Unloadings from many turning points of a scene (first-order reversal curves), as text, JSON,
 //! tables and a figure.
 
-use crate::preloads::{preload_chart, preload_table, unloadings};
+use crate::preloads::{Unloading, preload_chart, preload_table, unloadings_table};
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
 use crate::warnings::{warning_texts, warnings_section};
-use asperity_data::{AxisScale, Table, Warning, grouped, object};
+use asperity_data::{AxisScale, Table, Warning, grouped};
 use asperity_plot::{Chart, ChartAxis, Figure, HeatMap, Ink, Label, Layer, Shades, Shape, Span};
 use asperity_scene::Scene;
 use asperity_scene::theory::ReversalMap;
 use asperity_study::{Results, Staircase};
+use serde::Serialize;
 
+/// Largest number of rows of a table in the text.
 const MOST_ROWS: usize = 16;
+
 /// Largest number of cells along either axis of a map in a figure.
 const MOST_CELLS: usize = 128;
 
@@ -21,7 +24,6 @@ const MOST_CELLS: usize = 128;
 /// turning point, and F(d_r, d) is the force at d on the unloading from d_r.
 #[derive(Clone, Copy, Debug)]
 pub struct ReversalReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene whose body is loaded and unloaded.
     pub scene: &'a Scene,
@@ -39,38 +41,28 @@ pub struct ReversalReport<'a> {
 
 impl Report for ReversalReport<'_> {
     fn text(&self) -> Option<String> {
-        let ReversalReport { scene, map, .. } = *self;
+        let reversals = &self.map.reversals;
         let mut sheet = Sheet::default();
-        sheet.paragraph(&scene.title);
-        let reversals = &map.reversals;
-        let (count, springs) = (
-            grouped(reversals.len() as u64),
-            grouped(scene.numerics.points),
-        );
+        sheet.paragraph(&self.scene.title);
+        let count = grouped(reversals.len() as u64);
+        let springs = grouped(self.scene.numerics.points);
         sheet.heading(&format!(
             "{count} reversals of one loading, {springs} springs"
         ));
-        let shown = thinned(reversals.iter(), MOST_ROWS);
-        let shown = shown.map(|one| {
-            let [at, pull_off] = [one.turn, one.smallest].map(|point| Some(point.indentation));
-            [
-                Some(one.turn.force),
-                at,
-                one.adhesion_force(),
-                pull_off,
-                Some(one.dissipated_energy),
-            ]
-        });
-        unloadings(&mut sheet, ["force at turn", "turning at"], shown);
+        let mut unloadings = Vec::new();
+        for reversal in thinned(reversals.iter(), MOST_ROWS) {
+            unloadings.push(Unloading {
+                turning_force: Some(reversal.turn.force),
+                turning_indentation: Some(reversal.turn.indentation),
+                adhesion_force: reversal.adhesion_force(),
+                pull_off_indentation: Some(reversal.smallest.indentation),
+                dissipated_energy: Some(reversal.dissipated_energy),
+            });
+        }
+        unloadings_table(&mut sheet, "force at turn", "turning at", &unloadings);
         sheet.heading("Map");
-        sheet.quantity("step of indentations", map.step(), "m");
-        let points = 0..map.points.len();
-        let all =
-            (0..reversals.len()).flat_map(|turn| points.clone().map(move |point| (turn, point)));
-        let everett = all
-            .filter_map(|(turn, point)| map.everett(turn, point))
-            .reduce(f64::max);
-        sheet.quantity("largest Everett value", everett, "N");
+        sheet.quantity("step of indentations", self.map.step(), "m");
+        sheet.quantity("largest Everett value", largest_everett(self.map), "N");
         warnings_section(&mut sheet, self.warnings);
         Some(sheet.into_text())
     }
@@ -78,33 +70,7 @@ impl Report for ReversalReport<'_> {
     /// Returns, for each turning point, the force and the Everett function at the indentations up
     /// to this turning point.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let ReversalReport {
-            scene,
-            map,
-            preloads,
-            ..
-        } = *self;
-        let rows = |value: &dyn Fn(usize, usize) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
-            let row = |turn: usize| {
-                (0..=map.below + turn)
-                    .map(|point| value(turn, point))
-                    .collect()
-            };
-            (0..map.reversals.len()).map(row).collect()
-        };
-        Some(Box::new(object! {
-            "scene": scene,
-            "warnings": warning_texts(self.warnings),
-            "preloads": preloads.map_or_else(
-                || Table::of(std::iter::empty::<()>).done(),
-                |results| preload_table(results, 0..1, false),
-            ),
-            "reversals": turning_points(map),
-            "indentations": &map.points,
-            "step": map.step(),
-            "forces": map.reversals.iter().map(|reversal| reversal.forces.as_slice()).collect::<Vec<_>>(),
-            "everett": rows(&|turn, point| map.everett(turn, point)),
-        }))
+        Some(Box::new(ReversalJson::new(self)))
     }
 
     fn table(&self) -> Option<Table<'_>> {
@@ -114,14 +80,14 @@ impl Report for ReversalReport<'_> {
     /// Returns a figure with a heat map of the Everett function, and before it a chart of the
     /// adhesion force over the preload if [`Self::staircase`] is given.
     fn figure(&self) -> Option<Figure> {
-        let adhesion = self.staircase.map(|staircase| Chart {
-            heading: Label::quantity("adhesion force", "F_a"),
-            ..preload_chart(staircase, &[], true)
-        });
-        let charts = adhesion
-            .into_iter()
-            .chain([everett_chart(self.map)])
-            .collect();
+        let mut charts = Vec::new();
+        if let Some(staircase) = self.staircase {
+            charts.push(Chart {
+                heading: Label::quantity("adhesion force", "F_a"),
+                ..preload_chart(staircase, &[], true)
+            });
+        }
+        charts.push(everett_chart(self.map));
         Some(Figure {
             title: self.title.to_owned(),
             charts,
@@ -131,60 +97,114 @@ impl Report for ReversalReport<'_> {
     }
 }
 
+/// JSON object of the unloadings from many turning points, in SI units.
+#[derive(Serialize)]
+struct ReversalJson<'a> {
+    scene: &'a Scene,
+    warnings: Vec<String>,
+    preloads: Table<'a>,
+    reversals: Table<'a>,
+    indentations: &'a [f64],
+    step: f64,
+    /// Forces of the unloading from each turning point at the indentations.
+    forces: Vec<&'a [f64]>,
+    /// Everett function of each turning point at the indentations.
+    everett: Vec<Vec<Option<f64>>>,
+}
+
+impl<'a> ReversalJson<'a> {
+    fn new(report: &ReversalReport<'a>) -> Self {
+        let map = report.map;
+        let preloads = match report.preloads {
+            Some(results) => preload_table(results, 0..1, false),
+            None => Table::of(std::iter::empty::<()>).done(),
+        };
+        let mut forces = Vec::with_capacity(map.reversals.len());
+        let mut everett = Vec::with_capacity(map.reversals.len());
+        for (turn, reversal) in map.reversals.iter().enumerate() {
+            forces.push(reversal.forces.as_slice());
+            let points = 0..=map.below + turn;
+            everett.push(points.map(|point| map.everett(turn, point)).collect());
+        }
+        ReversalJson {
+            scene: report.scene,
+            warnings: warning_texts(report.warnings),
+            preloads,
+            reversals: turning_points(map),
+            indentations: &map.points,
+            step: map.step(),
+            forces,
+            everett,
+        }
+    }
+}
+
+/// Returns the largest value of the Everett function in N; `None` if no value is known.
+fn largest_everett(map: &ReversalMap) -> Option<f64> {
+    let mut largest: Option<f64> = None;
+    for turn in 0..map.reversals.len() {
+        for point in 0..map.points.len() {
+            if let Some(value) = map.everett(turn, point) {
+                largest = Some(largest.map_or(value, |largest| largest.max(value)));
+            }
+        }
+    }
+    largest
+}
+
 fn turning_points(map: &ReversalMap) -> Table<'_> {
     Table::of(|| map.reversals.iter())
-        .real("turning_indentation", |one| one.turn.indentation)
-        .real("turning_force", |one| one.turn.force)
-        .real("adhesion_force", |one| one.adhesion_force())
-        .real("pull_off_indentation", |one| one.smallest.indentation)
-        .real("separation", |one| one.separation)
-        .real("dissipated_energy", |one| one.dissipated_energy)
+        .real("turning_indentation", |reversal| reversal.turn.indentation)
+        .real("turning_force", |reversal| reversal.turn.force)
+        .real("adhesion_force", |reversal| reversal.adhesion_force())
+        .real("pull_off_indentation", |reversal| {
+            reversal.smallest.indentation
+        })
+        .real("separation", |reversal| reversal.separation)
+        .real("dissipated_energy", |reversal| reversal.dissipated_energy)
         .done()
 }
 
 /// Returns a heat map of the Everett function E(d_r, d) in N, over the indentation d and the
 /// turning point d_r. [`ReversalReport`] defines the function.
 pub fn everett_chart(map: &ReversalMap) -> Chart {
-    // A subset of the points of a fine map: the eye cannot distinguish more cells.
-    let every = |count: usize| {
-        (0..count)
-            .step_by(count.div_ceil(MOST_CELLS).max(1))
-            .collect::<Vec<_>>()
-    };
-    let (columns, rows) = (every(map.points.len()), every(map.reversals.len()));
-    let values: Vec<Option<f64>> = rows
-        .iter()
-        .flat_map(|&turn| columns.iter().map(move |&point| map.everett(turn, point)))
-        .collect();
-    let key = Span::around(values.iter().flatten().copied(), 0.0);
-    let of = |indices: &[usize], offset: usize| {
-        indices
-            .iter()
-            .map(|&index| map.points[offset + index])
-            .collect::<Vec<f64>>()
-    };
-    let (columns, rows) = (of(&columns, 0), of(&rows, map.below));
+    let points = drawn_indices(map.points.len());
+    let turns = drawn_indices(map.reversals.len());
+    let mut values = Vec::with_capacity(points.len() * turns.len());
+    for &turn in &turns {
+        for &point in &points {
+            values.push(map.everett(turn, point));
+        }
+    }
+    let columns: Vec<f64> = points.iter().map(|&point| map.points[point]).collect();
+    let rows: Vec<f64> = turns.iter().map(|&turn| map.turns()[turn]).collect();
+
     let scale = AxisScale::Linear;
-    let axis = |values: &[f64], name, symbol| {
-        ChartAxis::new(scale, HeatMap::span(scale, values), name, symbol, "m")
-    };
-    let (x, y) = (
-        axis(&columns, "indentation", "d"),
-        axis(&rows, "turning point", "d_r"),
-    );
-    let map = HeatMap {
+    let span = HeatMap::span(scale, &columns);
+    let x = ChartAxis::new(scale, span, "indentation", "d", "m");
+    let span = HeatMap::span(scale, &rows);
+    let y = ChartAxis::new(scale, span, "turning point", "d_r", "m");
+    let span = Span::around(values.iter().flatten().copied(), 0.0);
+    let heat_map = HeatMap {
         columns,
         rows,
         values,
-        key: ChartAxis::new(scale, key, "", "E", "N"),
+        key: ChartAxis::new(scale, span, "", "E", "N"),
         shades: Shades::Sequential,
         classes: Vec::new(),
         class_names: Vec::new(),
         contour: None,
     };
-    let layers = vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))];
+    let layer = Layer::unnamed(Ink::Text, Shape::Map(Box::new(heat_map)));
     Chart {
         heading: Label::quantity("Everett function", "E"),
-        ..Chart::new(x, y, layers)
+        ..Chart::new(x, y, vec![layer])
     }
+}
+
+/// Returns the indices of the points of a fine map that are drawn: the eye cannot distinguish more
+/// cells.
+fn drawn_indices(count: usize) -> Vec<usize> {
+    let step = count.div_ceil(MOST_CELLS).max(1);
+    (0..count).step_by(step).collect()
 }

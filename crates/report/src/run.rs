@@ -1,26 +1,27 @@
 //! A computed scene as JSON, its force curve as a table and a figure, and the table of a profile.
 
-use crate::ensemble::{caption, ensemble_value};
+use crate::ensemble::{EnsembleJson, caption};
 use crate::loop_chart::{LoopUnits, force_figure};
 use crate::report::{Json, Report};
-use crate::summary::summary;
+use crate::summary::Summary;
 use crate::warnings::warning_texts;
-use asperity_contact::{CurvePoint, Move};
-use asperity_data::{Table, TableOf, Warning, object};
+use asperity_contact::{CurvePoint, Move, Patch, Work};
+use asperity_data::{Table, TableOf, Warning};
 use asperity_plot::Figure;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::instrument::displacements;
-use asperity_scene::{Estimate, Observer, Outcome, Scene};
+use asperity_scene::stages::Timings;
+use asperity_scene::theory::SteepWaves;
+use asperity_scene::{Estimate, Observer, Outcome, Regime, Scene};
 use asperity_study::Ensemble;
-use asperity_study::trust::{Budget, criteria};
-use asperity_surface::lines::Line;
+use asperity_study::trust::{Budget, Criterion, criteria};
+use asperity_surface::lines::{Histogram, Line};
+use serde::Serialize;
 
 /// Report on all results of one computed scene, such as its force curve and adhesion force.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
-    /// Scene that was computed.
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
@@ -37,105 +38,37 @@ pub struct RunReport<'a> {
     pub deviation: Option<f64>,
 }
 
-impl RunReport<'_> {
+impl<'a> RunReport<'a> {
     /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is
     /// known.
-    fn known_estimate(&self) -> Option<&Estimate> {
-        let is_known = !self
-            .outcome
-            .warnings
-            .iter()
-            .any(Warning::leaves_errors_unknown);
-        self.estimate.filter(|_| is_known)
+    fn known_estimate(&self) -> Option<&'a Estimate> {
+        let mut warnings = self.outcome.warnings.iter();
+        if warnings.any(Warning::leaves_errors_unknown) {
+            return None;
+        }
+        self.estimate
     }
 }
 
 impl Report for RunReport<'_> {
     fn text(&self) -> Option<String> {
-        Some(summary(
-            self.scene,
-            self.outcome,
-            self.known_estimate(),
-            self.choice,
-            self.ensemble,
-            self.deviation,
-        ))
+        let summary = Summary {
+            scene: self.scene,
+            outcome: self.outcome,
+            estimate: self.known_estimate(),
+            choice: self.choice,
+            ensemble: self.ensemble,
+            deviation: self.deviation,
+        };
+        Some(summary.text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let RunReport {
-            scene,
-            outcome,
-            choice,
-            ensemble,
-            ..
-        } = *self;
-        let estimate = self.known_estimate();
-        let Outcome {
-            line,
-            governing,
-            figures,
-            history,
-            ..
-        } = outcome;
-        let fragments = scene
-            .observe
-            .contains(&Observer::Fragments)
-            .then_some(outcome.fragments.as_slice());
-        Some(Box::new(object! {
-            "scene": scene,
-            "choice"?: choice,
-            "ensemble": ensemble.map(ensemble_value),
-            "line": object! {
-                "points": line.points,
-                "length": line.length,
-                "spacing": line.spacing,
-                "rms_height": governing.amplitude.map(|amplitude| amplitude.rms_height),
-                "rms_gradient": governing.amplitude.map(|amplitude| amplitude.rms_gradient),
-                "modes": line.modes,
-                "seed": line.seed,
-            },
-            "effective_modulus": governing.effective_modulus,
-            "work_of_adhesion": governing.work_of_adhesion,
-            "kappa": governing.kappa,
-            "elastic_energy": governing.elastic_energy(),
-            "elastic_energy_ratio": governing.elastic_energy_ratio,
-            "regime": outcome.regime,
-            "regime_after_zero_force": outcome.regime_after_zero_force,
-            "ideal_adhesion_force": outcome.ideal_adhesion_force,
-            "smooth_adhesion_force": outcome.smooth_adhesion_force,
-            "first_touch_adhesion_force": outcome.first_touch_adhesion_force,
-            "zero_force_adhesion_force": outcome.zero_force_adhesion_force,
-            "preload": figures.preload,
-            "preload_indentation": figures.preload_indentation,
-            "adhesion_force": figures.adhesion_force,
-            "adhesion_force_error": estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
-            "curve_error"?: estimate.and_then(Estimate::of_curve),
-            "adhesion_force_near_step": estimate.map(|estimate| estimate.near_step),
-            "adhesion_share": outcome.adhesion_share(),
-            "adhesion_coefficient": figures.adhesion_coefficient,
-            "pull_off_indentation": figures.pull_off_indentation,
-            "dissipated_energy": figures.dissipated_energy,
-            "loop_area"?: outcome.instrument.map(|one| one.loop_area),
-            "pull_off_displacement"?: outcome.instrument.map(|one| one.pull_off_displacement),
-            "tabor_number": outcome.tabor_number,
-            "steep_waves"?: outcome.steep_waves,
-            "criteria": criteria(scene, outcome, ensemble),
-            "budget": Budget::of(outcome, estimate, ensemble, self.deviation),
-            "warnings": warning_texts(&outcome.warnings),
-            "curve": self.table(),
-            "contacts": &history.contacts,
-            "fragments": fragments,
-            "histogram": outcome.histogram.as_ref().map(|histogram| object! {
-                "low": histogram.low,
-                "high": histogram.high,
-                "counts": &histogram.counts,
-            }),
-            "work": history.work,
-            "timings": outcome.timings,
-        }))
+        Some(Box::new(RunJson::new(self)))
     }
 
+    /// Returns the force curve as a table. For a scene with an instrument it also has the
+    /// displacement of the instrument.
     fn table(&self) -> Option<Table<'_>> {
         let stiffness = self
             .outcome
@@ -143,20 +76,22 @@ impl Report for RunReport<'_> {
             .map(|instrument| instrument.stiffness);
         let legs = || self.outcome.history.legs.iter().zip(0_u64..);
         let table = curve(move || {
-            legs().flat_map(move |(leg, number)| {
+            legs().flat_map(move |(leg, stage)| {
                 let displacements = displacements(leg, stiffness.unwrap_or(f64::INFINITY));
                 leg.curve
                     .iter()
                     .zip(displacements)
-                    .map(move |(point, at)| (number, point, at))
+                    .map(move |(point, displacement)| CurveRow {
+                        stage,
+                        point,
+                        displacement,
+                    })
             })
         });
-        Some(match stiffness {
-            Some(_) => table
-                .real("displacement", |(.., displacement)| *displacement)
-                .done(),
-            None => table.done(),
-        })
+        if stiffness.is_none() {
+            return Some(table.done());
+        }
+        Some(table.real("displacement", |row| row.displacement).done())
     }
 
     fn figure(&self) -> Option<Figure> {
@@ -165,6 +100,152 @@ impl Report for RunReport<'_> {
             notes: self.ensemble.and_then(caption).into_iter().collect(),
             ..figure
         })
+    }
+}
+
+/// JSON object of a computed scene, in SI units.
+#[derive(Serialize)]
+struct RunJson<'a> {
+    scene: &'a Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<&'a Choice>,
+    ensemble: Option<EnsembleJson<'a>>,
+    line: LineJson,
+    effective_modulus: f64,
+    work_of_adhesion: Option<f64>,
+    kappa: Option<f64>,
+    elastic_energy: Option<f64>,
+    elastic_energy_ratio: Option<f64>,
+    regime: Option<Regime>,
+    regime_after_zero_force: Option<Regime>,
+    ideal_adhesion_force: Option<f64>,
+    smooth_adhesion_force: Option<f64>,
+    first_touch_adhesion_force: Option<f64>,
+    zero_force_adhesion_force: Option<f64>,
+    preload: Option<f64>,
+    preload_indentation: Option<f64>,
+    adhesion_force: Option<f64>,
+    adhesion_force_error: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    curve_error: Option<f64>,
+    adhesion_force_near_step: Option<bool>,
+    adhesion_share: Option<f64>,
+    adhesion_coefficient: Option<f64>,
+    pull_off_indentation: Option<f64>,
+    dissipated_energy: Option<f64>,
+    /// For a scene with an instrument; the inner `None` is an unknown area.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    loop_area: Option<Option<f64>>,
+    /// For a scene with an instrument; the inner `None` is a loading without a pull-off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pull_off_displacement: Option<Option<f64>>,
+    tabor_number: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steep_waves: Option<SteepWaves>,
+    criteria: Vec<Criterion>,
+    budget: Option<Budget>,
+    warnings: Vec<String>,
+    curve: Option<Table<'a>>,
+    contacts: &'a [Patch],
+    fragments: Option<&'a [Vec<Patch>]>,
+    histogram: Option<HistogramJson<'a>>,
+    work: Work,
+    timings: Timings,
+}
+
+/// Facts about the profile of a scene, in SI units.
+#[derive(Serialize)]
+struct LineJson {
+    points: usize,
+    length: f64,
+    spacing: f64,
+    rms_height: Option<f64>,
+    rms_gradient: Option<f64>,
+    modes: Option<(u64, u64)>,
+    seed: Option<u64>,
+}
+
+#[derive(Serialize)]
+struct HistogramJson<'a> {
+    low: f64,
+    high: f64,
+    counts: &'a [u64],
+}
+
+impl<'a> RunJson<'a> {
+    fn new(report: &'a RunReport<'a>) -> Self {
+        let outcome = report.outcome;
+        let governing = &outcome.governing;
+        let figures = &outcome.figures;
+        let instrument = outcome.instrument;
+        let estimate = report.known_estimate();
+        let has_fragments = report.scene.observe.contains(&Observer::Fragments);
+        RunJson {
+            scene: report.scene,
+            choice: report.choice,
+            ensemble: report.ensemble.map(EnsembleJson::new),
+            line: LineJson::new(outcome),
+            effective_modulus: governing.effective_modulus,
+            work_of_adhesion: governing.work_of_adhesion,
+            kappa: governing.kappa,
+            elastic_energy: governing.elastic_energy(),
+            elastic_energy_ratio: governing.elastic_energy_ratio,
+            regime: outcome.regime,
+            regime_after_zero_force: outcome.regime_after_zero_force,
+            ideal_adhesion_force: outcome.ideal_adhesion_force,
+            smooth_adhesion_force: outcome.smooth_adhesion_force,
+            first_touch_adhesion_force: outcome.first_touch_adhesion_force,
+            zero_force_adhesion_force: outcome.zero_force_adhesion_force,
+            preload: figures.preload,
+            preload_indentation: figures.preload_indentation,
+            adhesion_force: figures.adhesion_force,
+            adhesion_force_error: estimate.and_then(|estimate| estimate.of_adhesion_force(outcome)),
+            curve_error: estimate.and_then(Estimate::of_curve),
+            adhesion_force_near_step: estimate.map(|estimate| estimate.near_step),
+            adhesion_share: outcome.adhesion_share(),
+            adhesion_coefficient: figures.adhesion_coefficient,
+            pull_off_indentation: figures.pull_off_indentation,
+            dissipated_energy: figures.dissipated_energy,
+            loop_area: instrument.map(|instrument| instrument.loop_area),
+            pull_off_displacement: instrument.map(|instrument| instrument.pull_off_displacement),
+            tabor_number: outcome.tabor_number,
+            steep_waves: outcome.steep_waves,
+            criteria: criteria(report.scene, outcome, report.ensemble),
+            budget: Budget::of(outcome, estimate, report.ensemble, report.deviation),
+            warnings: warning_texts(&outcome.warnings),
+            curve: report.table(),
+            contacts: &outcome.history.contacts,
+            fragments: has_fragments.then_some(outcome.fragments.as_slice()),
+            histogram: outcome.histogram.as_ref().map(HistogramJson::new),
+            work: outcome.history.work,
+            timings: outcome.timings,
+        }
+    }
+}
+
+impl LineJson {
+    fn new(outcome: &Outcome) -> Self {
+        let line = &outcome.line;
+        let amplitude = outcome.governing.amplitude;
+        LineJson {
+            points: line.points,
+            length: line.length,
+            spacing: line.spacing,
+            rms_height: amplitude.map(|amplitude| amplitude.rms_height),
+            rms_gradient: amplitude.map(|amplitude| amplitude.rms_gradient),
+            modes: line.modes,
+            seed: line.seed,
+        }
+    }
+}
+
+impl<'a> HistogramJson<'a> {
+    fn new(histogram: &'a Histogram) -> Self {
+        HistogramJson {
+            low: histogram.low,
+            high: histogram.high,
+            counts: &histogram.counts,
+        }
     }
 }
 
@@ -181,56 +262,68 @@ pub struct PathReport<'a> {
     pub stages: &'a [usize],
 }
 
+#[derive(Serialize)]
+struct PathJson<'a> {
+    scene: Scene,
+    loading: &'a [Move],
+    curve: Option<Table<'a>>,
+}
+
 impl Report for PathReport<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let scene = Scene {
             loading: self.loading.to_vec(),
             ..self.scene.clone()
         };
-        Some(Box::new(
-            object! { "scene": scene, "loading": self.loading, "curve": self.table() },
-        ))
+        Some(Box::new(PathJson {
+            scene,
+            loading: self.loading,
+            curve: self.table(),
+        }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
-        let points = || self.stages.iter().zip(self.path);
-        Some(
-            curve(move || points().map(|(stage, point)| (*stage as u64, point, point.indentation)))
-                .done(),
-        )
+        let table = curve(|| {
+            let points = self.stages.iter().zip(self.path);
+            points.map(|(stage, point)| CurveRow {
+                stage: *stage as u64,
+                point,
+                displacement: point.indentation,
+            })
+        });
+        Some(table.done())
     }
 }
 
-/// Returns the table of a force curve in SI units: points, index of the loading stage of each
-/// point, and displacement of the instrument.
+/// Row of the table of a force curve.
+struct CurveRow<'a> {
+    /// Index of the loading stage.
+    stage: u64,
+    point: &'a CurvePoint,
+    /// Displacement of the instrument, m.
+    displacement: f64,
+}
+
+/// Begins the table of a force curve in SI units: points, with the index of the loading stage of
+/// each point.
 fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
     rows: impl Fn() -> I + 'a,
 ) -> TableOf<'a, CurveRow<'a>> {
     Table::of(rows)
-        .whole("leg", |(number, ..)| *number)
-        .real("indentation", |(_, point, _)| point.indentation)
-        .real("force", |(_, point, _)| point.force)
-        .real("contact_length", |(_, point, _)| point.contact_length)
-        .whole("fragments", |(_, point, _)| point.fragments)
-        .real("stored_energy", |(_, point, _)| point.stored_energy)
+        .whole("leg", |row| row.stage)
+        .real("indentation", |row| row.point.indentation)
+        .real("force", |row| row.point.force)
+        .real("contact_length", |row| row.point.contact_length)
+        .whole("fragments", |row| row.point.fragments)
+        .real("stored_energy", |row| row.point.stored_energy)
 }
-
-/// Index of a loading stage, a point of its curve, and the displacement of the instrument in m.
-type CurveRow<'a> = (u64, &'a CurvePoint, f64);
 
 /// A profile can be written as a table: a row has the position x and the height z of a spring in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
-        let points = || {
-            self.heights()
-                .enumerate()
-                .map(|(index, height)| (self.position(index), height))
-        };
-        Some(
-            Table::of(points)
-                .real("x", |point| point.0)
-                .real("z", |point| point.1)
-                .done(),
-        )
+        let table = Table::of(|| self.heights().enumerate())
+            .real("x", |(spring, _)| self.position(*spring))
+            .real("z", |(_, height)| *height);
+        Some(table.done())
     }
 }

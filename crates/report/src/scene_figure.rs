@@ -2,17 +2,20 @@
 
 use crate::section::{LineColumns, Part, SectionContact};
 use asperity_contact::motion::Leg;
-use asperity_contact::{Branch, CurvePoint, Direction, LegRecord, Patch};
+use asperity_contact::{Branch, Direction, LegRecord, Patch};
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span, value_label};
 use asperity_scene::Outcome;
+use asperity_scene::stages::LineFacts;
 use asperity_surface::lines::Line;
 use std::slice;
 
 /// Number of indentations of a loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
+
 /// Largest number of loading stages whose contact patches are drawn.
 const MOST_STAGES: usize = 4;
+
 /// Share of the profile below which a gap between contact patches is drawn as closed.
 const LEAST_GAP: f64 = 5e-4;
 
@@ -20,9 +23,20 @@ const LEAST_GAP: f64 = 5e-4;
 const PATCHES: (f64, f64) = (400.0, 300.0);
 
 /// Contact patches at an indentation, m.
+#[derive(Default)]
 struct Patches {
     indentation: f64,
     patches: Vec<Patch>,
+}
+
+impl Patches {
+    /// Returns the patches of a loading stage at an indentation in m.
+    fn of_leg(leg: &Leg, indentation: f64) -> Self {
+        Patches {
+            indentation,
+            patches: leg.patches(indentation),
+        }
+    }
 }
 
 /// Contact patches of a scene, which are collected while its loading is computed. Figures are drawn
@@ -50,28 +64,28 @@ impl ContactSets {
     /// Adds the patches of a loading stage that was just computed. `record` has the force curve of
     /// this stage, and `leg` returns the patches at any indentation of this stage.
     pub fn observe(&mut self, record: &LegRecord, leg: &Leg) {
-        let at = |indentation: f64| Patches {
-            indentation,
-            patches: leg.patches(indentation),
-        };
-        let larger = |point: &CurvePoint| {
-            self.preload
-                .as_ref()
-                .is_none_or(|(force, _)| point.force > *force)
-        };
-        let preload = Branch::preload(slice::from_ref(record)).map(|(_, point)| point);
-        if let Some(point) = preload.filter(larger) {
-            self.preload = Some((point.force, at(point.indentation)));
+        if let Some((_, point)) = Branch::preload(slice::from_ref(record)) {
+            let preload = self.preload.as_ref();
+            if preload.is_none_or(|(force, _)| point.force > *force) {
+                self.preload = Some((point.force, Patches::of_leg(leg, point.indentation)));
+            }
         }
-        let touching = record
-            .curve
-            .iter()
-            .filter(|point| point.springs > 0)
-            .map(|point| point.indentation);
-        let (low, high) = touching.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, d| {
-            (ends.0.min(d), ends.1.max(d))
-        });
-        if !self.over_indentation || low >= high {
+        if self.over_indentation {
+            self.add_stage(record, leg);
+        }
+    }
+
+    /// Adds the patches at many indentations of a loading stage with contact.
+    fn add_stage(&mut self, record: &LegRecord, leg: &Leg) {
+        let mut low = f64::INFINITY;
+        let mut high = f64::NEG_INFINITY;
+        for point in &record.curve {
+            if point.springs > 0 {
+                low = low.min(point.indentation);
+                high = high.max(point.indentation);
+            }
+        }
+        if low >= high {
             return;
         }
         if self.stages.len() == MOST_STAGES {
@@ -79,50 +93,38 @@ impl ContactSets {
             return;
         }
         let step = (high - low) / ROWS as f64;
-        let rows = (0..ROWS)
-            .map(|row| at(low + step * (row as f64 + 0.5)))
-            .collect();
+        let mut rows = Vec::with_capacity(ROWS);
+        for row in 0..ROWS {
+            let indentation = low + step * (row as f64 + 0.5);
+            rows.push(Patches::of_leg(leg, indentation));
+        }
         self.stages.push((record.direction, rows));
     }
 
     /// Returns the figure of the contact at the largest force: heights of rigid profile and elastic
     /// surface over the position along the profile.
     pub fn profile_figure(&self, title: &str, outcome: &Outcome, line: &Line) -> Figure {
-        let separated = (
-            0.0,
-            Patches {
-                indentation: 0.0,
-                patches: Vec::new(),
-            },
-        );
-        let (
-            force,
-            Patches {
-                indentation,
-                patches,
-            },
-        ) = self.preload.as_ref().unwrap_or(&separated);
-        let (force, indentation) = (*force, *indentation);
+        let separated = (0.0, Patches::default());
+        let (force, at_force) = self.preload.as_ref().unwrap_or(&separated);
         let contact = SectionContact {
             gaps: &line.gaps,
             summit: line.summit,
-            indentation,
-            patches,
+            indentation: at_force.indentation,
+            patches: &at_force.patches,
         };
         let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
-        let z = Span::around(
-            [low, high, section.level.min(high + 0.5 * (high - low))].into_iter(),
-            0.05,
-        );
+        // A surface far above the profile does not stretch the axis.
+        let level = section.level.min(high + 0.5 * (high - low));
+        let z = Span::around([low, high, level].into_iter(), 0.05);
         let mut chart = section.chart(outcome.line, z);
-        chart.x = position(outcome);
-        let at = Label::plain("largest force: ")
-            .join(&value_label("", "F", "N", force))
-            .then(", ");
-        let notes = vec![at.join(&value_label("", "d", "m", indentation))];
+        chart.x = position_axis(outcome);
+        let note = Label::plain("largest force: ")
+            .join(&value_label("", "F", "N", *force))
+            .then(", ")
+            .join(&value_label("", "d", "m", at_force.indentation));
         Figure {
-            notes,
+            notes: vec![note],
             size: Figure::LOW,
             ..Figure::of_chart(title, chart)
         }
@@ -131,87 +133,93 @@ impl ContactSets {
     /// Returns the figure that shows at which positions along the profile there is contact at each
     /// indentation, with a chart for each of the first four loading stages with contact.
     pub fn patches_figure(&self, title: &str, outcome: &Outcome) -> Figure {
-        let facts = outcome.line;
-        let least = LEAST_GAP * facts.length;
-        let ends = self
-            .stages
-            .iter()
-            .flat_map(|(_, rows)| rows)
-            .map(|row| row.indentation);
-        let d = ChartAxis::new(
-            AxisScale::Linear,
-            Span::around(ends, 0.02),
-            "indentation",
-            "d",
-            "m",
-        );
-        let chart = |(direction, rows): &(Direction, Vec<Patches>)| {
-            let half = rows.get(..2).map_or(0.0, |pair| {
-                0.5 * (pair[1].indentation - pair[0].indentation)
-            });
-            let mut boxes = Vec::new();
-            for Patches {
-                indentation,
-                patches,
-            } in rows
-            {
-                let mut open: Option<(f64, f64)> = None;
-                for patch in patches {
-                    let [from, to] = [patch.first, patch.last + 1]
-                        .map(|spring| (facts.first + spring) as f64 * facts.spacing);
-                    match &mut open {
-                        Some((_, end)) if from - *end < least => *end = to.max(*end),
-                        _ => {
-                            boxes.extend(open.replace((from, to)).map(|ends| (ends, *indentation)))
-                        }
-                    }
-                }
-                boxes.extend(open.map(|ends| (ends, *indentation)));
-            }
-            let boxes = boxes
-                .into_iter()
-                .map(|(x, d)| (x, (d - half, d + half)))
-                .collect();
-            let heading = if *direction == Direction::Loading {
-                "loading"
-            } else {
-                "unloading"
-            };
-            let layers = vec![Layer::new(
-                "contact".into(),
-                Ink::Contact,
-                Shape::Boxes(boxes),
-            )];
-            Chart {
-                heading: heading.into(),
-                ..Chart::new(position(outcome), d.clone(), layers)
-            }
-        };
-        let mut charts: Vec<Chart> = self.stages.iter().map(chart).collect();
-        if charts.is_empty() {
-            charts.push(chart(&(Direction::Loading, Vec::new())));
+        let y = self.indentation_axis();
+        let mut charts = Vec::new();
+        for (direction, rows) in &self.stages {
+            charts.push(patches_chart(*direction, rows, outcome, &y));
         }
-        let notes = match (self.stages.len(), self.left_out) {
-            (0, _) => vec![Label::plain("nothing comes into contact")],
-            (_, 0) => Vec::new(),
-            (drawn, rest) => {
-                vec![Label::plain(&format!(
-                    "the first {drawn} of {} loading stages",
-                    drawn + rest
-                ))]
-            }
-        };
+        if charts.is_empty() {
+            charts.push(patches_chart(Direction::Loading, &[], outcome, &y));
+        }
         Figure {
             title: title.to_owned(),
-            notes,
+            notes: self.note().into_iter().collect(),
             charts,
             size: PATCHES,
             ..Figure::default()
         }
     }
+
+    /// Returns the axis of the indentations of all charts.
+    fn indentation_axis(&self) -> ChartAxis {
+        let rows = self.stages.iter().flat_map(|(_, rows)| rows);
+        let span = Span::around(rows.map(|row| row.indentation), 0.02);
+        ChartAxis::new(AxisScale::Linear, span, "indentation", "d", "m")
+    }
+
+    /// Returns a note on loading stages that are not drawn; `None` if all are drawn.
+    fn note(&self) -> Option<Label> {
+        let drawn = self.stages.len();
+        if drawn == 0 {
+            return Some(Label::plain("nothing comes into contact"));
+        }
+        if self.left_out == 0 {
+            return None;
+        }
+        let stages = drawn + self.left_out;
+        let note = format!("the first {drawn} of {stages} loading stages");
+        Some(Label::plain(&note))
+    }
 }
 
-fn position(outcome: &Outcome) -> ChartAxis {
+/// Returns a chart of the contact patches of a loading stage, over position and indentation.
+fn patches_chart(
+    direction: Direction,
+    rows: &[Patches],
+    outcome: &Outcome,
+    indentation: &ChartAxis,
+) -> Chart {
+    let half_step = match rows {
+        [first, second, ..] => 0.5 * (second.indentation - first.indentation),
+        _ => 0.0,
+    };
+    let mut boxes = Vec::new();
+    for row in rows {
+        let heights = (row.indentation - half_step, row.indentation + half_step);
+        for positions in drawn_patches(&row.patches, outcome.line) {
+            boxes.push((positions, heights));
+        }
+    }
+    let heading = match direction {
+        Direction::Loading => "loading",
+        Direction::Unloading => "unloading",
+    };
+    let layer = Layer::new("contact".into(), Ink::Contact, Shape::Boxes(boxes));
+    Chart {
+        heading: heading.into(),
+        ..Chart::new(position_axis(outcome), indentation.clone(), vec![layer])
+    }
+}
+
+/// Returns the positions of both ends of contact patches in m. Patches with a small gap between
+/// them are drawn as one.
+fn drawn_patches(patches: &[Patch], line: LineFacts) -> Vec<(f64, f64)> {
+    let least_gap = LEAST_GAP * line.length;
+    let position = |spring: usize| (line.first + spring) as f64 * line.spacing;
+    let mut drawn: Vec<(f64, f64)> = Vec::new();
+    for patch in patches {
+        let from = position(patch.first);
+        let to = position(patch.last + 1);
+        match drawn.last_mut() {
+            Some((_, end)) if from - *end < least_gap => *end = to.max(*end),
+            _ => drawn.push((from, to)),
+        }
+    }
+    drawn
+}
+
+/// Returns the axis of positions along the whole profile.
+fn position_axis(outcome: &Outcome) -> ChartAxis {
     let span = Span {
         low: 0.0,
         high: outcome.line.length,

@@ -46,19 +46,18 @@ impl SceneSpectra {
             Vec::new()
         });
         let faces: Vec<&Analysis> = analyses.iter().collect();
-        let mut spectra = Spectra::of_faces(&faces);
-        let equivalent = EquivalentLine {
-            faces: faces.iter().map(|face| face.isotropic.clone()).collect(),
-        };
-        let equivalent = Some(equivalent).filter(|_| !faces.is_empty());
-        spectra.line = expected(scene, outcome, equivalent.as_ref());
-        spectra.heights = of_heights(scene, line).unwrap_or_else(|error| {
+        let equivalent = equivalent_line(&faces);
+        let heights = power_of_heights(scene, line).unwrap_or_else(|error| {
             missing.get_or_insert(error);
             Vec::new()
         });
-        let moments = equivalent
-            .filter(|_| !scene.measured_as_line())
-            .map(|line| line.moments());
+        let mut spectra = Spectra::of_faces(&faces);
+        spectra.line = intended_power(scene, outcome, equivalent.as_ref());
+        spectra.heights = heights;
+        let moments = match equivalent {
+            Some(line) if !scene.measured_as_line() => Some(line.moments()),
+            _ => None,
+        };
         Ok(SceneSpectra {
             spectra,
             moments,
@@ -74,9 +73,19 @@ fn analyses(scene: &Scene) -> Result<Vec<Analysis>, String> {
     analyses.map_err(|error| error.to_string())
 }
 
+/// Returns the line that is equivalent to measured surfaces; `None` without measured surfaces.
+fn equivalent_line(faces: &[&Analysis]) -> Option<EquivalentLine> {
+    if faces.is_empty() {
+        return None;
+    }
+    Some(EquivalentLine {
+        faces: faces.iter().map(|face| face.isotropic.clone()).collect(),
+    })
+}
+
 /// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the
 /// amplitude A.
-fn expected(
+fn intended_power(
     scene: &Scene,
     outcome: &Outcome,
     equivalent: Option<&EquivalentLine>,
@@ -85,65 +94,68 @@ fn expected(
         return Vec::new();
     };
     let length = outcome.line.length;
-    let power: Box<dyn Fn(u64) -> f64> = match scene.spectrum() {
-        Some(spectrum) => {
-            let height = outcome
-                .governing
-                .amplitude
-                .map_or(0.0, |amplitude| amplitude.rms_height);
-            let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
-            Box::new(move |mode| scale * spectrum.relative_amplitude(mode).powi(2))
+    let modes = drawn_modes(first, last);
+    let mut points = Vec::with_capacity(modes.len());
+    if let Some(spectrum) = scene.spectrum() {
+        let amplitude = outcome.governing.amplitude;
+        let height = amplitude.map_or(0.0, |amplitude| amplitude.rms_height);
+        let scale = 0.25 * length * (height / spectrum.relative_rms()).powi(2);
+        for mode in modes {
+            let power = scale * spectrum.relative_amplitude(mode).powi(2);
+            points.push((TAU * mode as f64 / length, power));
         }
-        None => {
-            Box::new(|mode| equivalent.map_or(0.0, |line| line.power(TAU * mode as f64 / length)))
+    } else {
+        for mode in modes {
+            let wave_number = TAU * mode as f64 / length;
+            let power = equivalent.map_or(0.0, |line| line.power(wave_number));
+            points.push((wave_number, power));
         }
-    };
-    let modes =
-        |step: u32| (first as f64 * 10.0_f64.powf(f64::from(step) / PER_DECADE)).round() as u64;
-    let mut shown: Vec<u64> = (0..)
-        .map(modes)
-        .take_while(|mode| *mode < last)
-        .chain([last])
-        .collect();
-    shown.dedup();
-    shown
-        .into_iter()
-        .map(|mode| (TAU * mode as f64 / length, power(mode)))
-        .collect()
+    }
+    points
+}
+
+/// Returns logarithmically spaced modes from the first to the last mode of a profile.
+fn drawn_modes(first: u64, last: u64) -> Vec<u64> {
+    let mut modes = Vec::new();
+    for step in 0_u32.. {
+        let decades = f64::from(step) / PER_DECADE;
+        let mode = (first as f64 * 10.0_f64.powf(decades)).round() as u64;
+        if mode >= last {
+            break;
+        }
+        modes.push(mode);
+    }
+    modes.push(last);
+    modes.dedup();
+    modes
 }
 
 /// Returns the spectrum of the heights of the profile without its form. A measured profile that is
 /// itself pressed is not periodic.
-fn of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
+fn power_of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());
     }
-    let no_room = |_| {
-        format!(
-            "not enough memory for the spectrum of {} springs",
-            line.points
-        )
-    };
-    check_room(BYTES * line.points as u64).map_err(no_room)?;
+    if check_room(BYTES * line.points as u64).is_err() {
+        let springs = line.points;
+        return Err(format!(
+            "not enough memory for the spectrum of {springs} springs"
+        ));
+    }
     let axis = Form::spring_on_axis(line.points as u64) as f64;
-    let depth = |index: usize| {
-        let distance = (index as f64 - axis) * line.spacing;
-        scene
-            .form
-            .as_ref()
-            .map_or(0.0, |form| form.mdr_profile(distance))
-    };
-    let heights: Vec<f64> = line
-        .heights()
-        .enumerate()
-        .map(|(index, z)| z + depth(index))
-        .collect();
+    let mut heights = Vec::with_capacity(line.points);
+    for (spring, height) in line.heights().enumerate() {
+        let distance = (spring as f64 - axis) * line.spacing;
+        let depth = match &scene.form {
+            Some(form) => form.mdr_profile(distance),
+            None => 0.0,
+        };
+        heights.push(height + depth);
+    }
     let bins = line_spectrum(&heights, line.spacing, scene.measured_as_line())
         .map_err(|error| error.to_string())?;
-    Ok(bins
-        .into_iter()
-        .map(|bin| (bin.wave_number, bin.power))
-        .collect())
+    let points = bins.into_iter().map(|bin| (bin.wave_number, bin.power));
+    Ok(points.collect())
 }
 
 #[cfg(test)]

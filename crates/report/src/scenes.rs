@@ -6,6 +6,7 @@ use crate::loop_chart::{LoopUnits, force_figure, force_panels};
 use crate::report::Report;
 use crate::sheet::{Sheet, WIDTH};
 use crate::warnings::{counted_texts, sentences_section, warning_texts};
+use crate::words::letter;
 use asperity_data::{format_quantity, format_range};
 use asperity_plot::{Colours, Figure, figure_text};
 use asperity_scene::{Document, Outcome, Regime};
@@ -32,76 +33,101 @@ pub struct ScenesReport<'a> {
     pub panels: bool,
 }
 
-/// Row of the table: name and unit of a result, and the function that returns it.
-type Row = (&'static str, &'static str, fn(&Outcome) -> Option<f64>);
-
-const ROWS: [Row; 8] = [
-    ("work of adhesion γ", "J/m²", |outcome| {
-        outcome.governing.work_of_adhesion
-    }),
-    ("κ = √(h⟨∇z⟩E*/γ)", "1", |outcome| {
-        outcome.governing.kappa
-    }),
-    ("e_el/γ", "1", |outcome| {
-        outcome.governing.elastic_energy_ratio
-    }),
-    ("preload F_n", "N", |outcome| outcome.figures.preload),
-    ("adhesion force F_a", "N", |outcome| {
-        outcome.figures.adhesion_force
-    }),
-    ("at first touch F_a(d=0)", "N", |outcome| {
-        outcome.first_touch_adhesion_force
-    }),
-    ("pull-off at", "m", |outcome| {
-        outcome.figures.pull_off_indentation
-    }),
-    ("dissipated energy", "J", |outcome| {
-        outcome.figures.dissipated_energy
-    }),
-];
-
-/// Returns the letter that names a scene in the table and the legend.
-fn letter(number: usize) -> String {
-    char::from_u32('A' as u32 + number as u32)
-        .filter(|_| number < 26)
-        .map_or(format!("S{number}"), String::from)
+/// Result of a scene in a row of the table.
+struct ComparedQuantity {
+    name: &'static str,
+    unit: &'static str,
+    value: fn(&Outcome) -> Option<f64>,
 }
+
+const QUANTITIES: [ComparedQuantity; 8] = [
+    ComparedQuantity {
+        name: "work of adhesion γ",
+        unit: "J/m²",
+        value: |outcome| outcome.governing.work_of_adhesion,
+    },
+    ComparedQuantity {
+        name: "κ = √(h⟨∇z⟩E*/γ)",
+        unit: "1",
+        value: |outcome| outcome.governing.kappa,
+    },
+    ComparedQuantity {
+        name: "e_el/γ",
+        unit: "1",
+        value: |outcome| outcome.governing.elastic_energy_ratio,
+    },
+    ComparedQuantity {
+        name: "preload F_n",
+        unit: "N",
+        value: |outcome| outcome.figures.preload,
+    },
+    ComparedQuantity {
+        name: "adhesion force F_a",
+        unit: "N",
+        value: |outcome| outcome.figures.adhesion_force,
+    },
+    ComparedQuantity {
+        name: "at first touch F_a(d=0)",
+        unit: "N",
+        value: |outcome| outcome.first_touch_adhesion_force,
+    },
+    ComparedQuantity {
+        name: "pull-off at",
+        unit: "m",
+        value: |outcome| outcome.figures.pull_off_indentation,
+    },
+    ComparedQuantity {
+        name: "dissipated energy",
+        unit: "J",
+        value: |outcome| outcome.figures.dissipated_energy,
+    },
+];
 
 /// Returns a row of a table: a name, and values with their ratios to the first one; `None` without
 /// values.
-fn row(name: &str, shown: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
-    // A position may lie on either side of first touch, where a ratio means nothing.
-    let first = values.first()?.filter(|first| *first > 0.0);
-    let cell = |(number, value): (usize, &Option<f64>)| {
-        let Some(value) = value else {
-            return "-".to_owned();
+fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
+    let first = *values.first()?;
+    if values.iter().all(Option::is_none) {
+        return None;
+    }
+    let mut row = vec![name.to_owned()];
+    for (number, value) in values.iter().enumerate() {
+        let Some(value) = *value else {
+            row.push("-".to_owned());
+            continue;
         };
-        let ratio = first
-            .filter(|_| number > 0 && *value > 0.0)
-            .map(|first| format_quantity(value / first, "1"));
-        shown(*value) + &ratio.map_or_else(String::new, |ratio| format!(" (×{ratio})"))
-    };
-    let cells = || values.iter().enumerate().map(cell);
-    values
-        .iter()
-        .any(Option::is_some)
-        .then(|| std::iter::once(name.to_owned()).chain(cells()).collect())
+        let mut cell = words(value);
+        // A position may lie on either side of first touch, where a ratio means nothing.
+        if let Some(first) = first
+            && number > 0
+            && first > 0.0
+            && value > 0.0
+        {
+            let ratio = format_quantity(value / first, "1");
+            cell += &format!(" (×{ratio})");
+        }
+        row.push(cell);
+    }
+    Some(row)
 }
 
 impl ScenesReport<'_> {
     /// Returns the figure of the force curves. With `has_letters` the legend names the scenes by
     /// the letters of the table.
     fn drawn(&self, has_letters: bool) -> Figure {
-        let title = |(number, scene): (usize, &ComparedScene<'_>)| match has_letters {
-            true => format!("{}: {}", letter(number), scene.document.title()),
-            false => scene.document.title().to_owned(),
-        };
-        let titles: Vec<String> = self.scenes.iter().enumerate().map(title).collect();
-        let scenes: Vec<_> = titles
-            .iter()
-            .zip(self.scenes)
-            .map(|(title, scene)| (title.as_str(), &scene.outcome))
-            .collect();
+        let mut titles = Vec::with_capacity(self.scenes.len());
+        for (number, scene) in self.scenes.iter().enumerate() {
+            let title = scene.document.title();
+            titles.push(if has_letters {
+                format!("{}: {title}", letter(number))
+            } else {
+                title.to_owned()
+            });
+        }
+        let mut scenes = Vec::with_capacity(self.scenes.len());
+        for (title, scene) in titles.iter().zip(self.scenes) {
+            scenes.push((title.as_str(), &scene.outcome));
+        }
         if self.panels {
             force_panels(&scenes)
         } else {
@@ -114,64 +140,58 @@ impl ScenesReport<'_> {
         let mut sentences = Vec::new();
         for (number, scene) in self.scenes.iter().enumerate() {
             let letter = letter(number);
-            let of_scene = match &scene.ensemble {
+            let warnings = match &scene.ensemble {
                 Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
                 None => warning_texts(&scene.outcome.warnings),
             };
-            sentences.extend(
-                of_scene
-                    .iter()
-                    .map(|sentence| format!("{letter}: {sentence}")),
-            );
+            for warning in warnings {
+                sentences.push(format!("{letter}: {warning}"));
+            }
         }
         sentences
+    }
+
+    /// Returns the headings of a table of all scenes.
+    fn header(&self) -> Vec<String> {
+        let mut header = vec![String::new()];
+        header.extend((0..self.scenes.len()).map(letter));
+        header
     }
 
     /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force;
     /// none if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
-        let ensembles = || self.scenes.iter().map(|scene| scene.ensemble.as_ref());
-        if ensembles().flatten().next().is_none() {
+        if self.scenes.iter().all(|scene| scene.ensemble.is_none()) {
             return Vec::new();
         }
-        let median =
-            |quantity| move |ensemble: &Ensemble| Some(ensemble.statistics(quantity)?.quartiles[1]);
-        let medians = |quantity| {
-            ensembles()
-                .map(|one| one.and_then(median(quantity)))
-                .collect::<Vec<_>>()
-        };
-        let numbers = NAMES.iter().zip(Ensemble::NUMBERS);
-        let mut rows: Vec<_> = numbers
-            .filter_map(|(name, of)| row(name, |value| rounded(of, value, 4), &medians(of)))
-            .collect();
-        let quartiles = |ensemble: Option<&Ensemble>| {
-            let all = ensemble.and_then(|ensemble| ensemble.statistics(Quantity::AdhesionForce));
-            all.map_or_else(
-                || "-".to_owned(),
-                |all| format_range((all.quartiles[0], all.quartiles[2]), 2, "N"),
-            )
-        };
-        rows.insert(
-            1.min(rows.len()),
-            std::iter::once("quartiles of F_a".to_owned())
-                .chain(ensembles().map(quartiles))
-                .collect(),
-        );
+        let mut rows = Vec::new();
+        for (name, quantity) in NAMES.iter().zip(Ensemble::NUMBERS) {
+            let mut medians = Vec::with_capacity(self.scenes.len());
+            for scene in self.scenes {
+                medians.push(scene.quartiles(quantity).map(|[_, median, _]| median));
+            }
+            rows.extend(row(name, |value| rounded(quantity, value, 4), &medians));
+        }
+        let mut quartiles = vec!["quartiles of F_a".to_owned()];
+        for scene in self.scenes {
+            quartiles.push(match scene.quartiles(Quantity::AdhesionForce) {
+                Some([lower, _, upper]) => format_range((lower, upper), 2, "N"),
+                None => "-".to_owned(),
+            });
+        }
+        // The quartiles follow the median of the adhesion force, which is the first row.
+        rows.insert(1.min(rows.len()), quartiles);
         rows
     }
-}
 
-impl Report for ScenesReport<'_> {
-    /// Returns the titles, the fields in which each scene differs from the first one, and tables of
-    /// the results with their ratios to the results of the first scene.
-    fn text(&self) -> Option<String> {
-        let mut sheet = Sheet::default();
-        let first = self.scenes.first()?.document;
+    /// Adds the titles of the scenes, and the fields in which each scene differs from the first.
+    fn add_differences(&self, sheet: &mut Sheet, first: &Document) {
         for (number, scene) in self.scenes.iter().enumerate() {
-            sheet.paragraph(&format!("{} {}", letter(number), scene.document.title()));
+            let letter = letter(number);
+            sheet.paragraph(&format!("{letter} {}", scene.document.title()));
         }
         for (number, scene) in self.scenes.iter().enumerate().skip(1) {
+            let letter = letter(number);
             let changes: Vec<String> = first
                 .changes_to(scene.document)
                 .iter()
@@ -182,58 +202,66 @@ impl Report for ScenesReport<'_> {
             } else {
                 changes.join(", ")
             };
-            sheet.heading(&format!(
-                "Different from A to {}: {changes}",
-                letter(number)
-            ));
+            sheet.heading(&format!("Different from A to {letter}: {changes}"));
         }
-        let letters = (0..self.scenes.len()).map(letter);
-        let head: Vec<String> = std::iter::once(String::new()).chain(letters).collect();
+    }
+
+    /// Adds a table of the results on the own profile of each scene.
+    fn add_results(&self, sheet: &mut Sheet) {
+        let mut rows = vec![self.header()];
+        for quantity in &QUANTITIES {
+            let mut values = Vec::with_capacity(self.scenes.len());
+            for scene in self.scenes {
+                values.push((quantity.value)(&scene.outcome));
+            }
+            let words = |value| format_quantity(value, quantity.unit);
+            rows.extend(row(quantity.name, words, &values));
+        }
+        let mut regimes = vec!["regime".to_owned()];
+        for scene in self.scenes {
+            let regime = scene.outcome.regime;
+            regimes.push(regime.map_or("-", Regime::name).to_owned());
+        }
+        rows.push(regimes);
+        sheet.table(&rows);
+    }
+}
+
+impl ComparedScene<'_> {
+    /// Returns lower quartile, median and upper quartile over the random profiles; `None` if they
+    /// are unknown.
+    fn quartiles(&self, quantity: Quantity) -> Option<[f64; 3]> {
+        let statistics = self.ensemble.as_ref()?.statistics(quantity)?;
+        Some(statistics.quartiles)
+    }
+}
+
+impl Report for ScenesReport<'_> {
+    /// Returns the titles, the fields in which each scene differs from the first one, and tables of
+    /// the results with their ratios to the results of the first scene.
+    fn text(&self) -> Option<String> {
+        let mut sheet = Sheet::default();
+        let first = self.scenes.first()?.document;
+        self.add_differences(&mut sheet, first);
         let medians = self.medians();
-        let several = self
-            .scenes
-            .iter()
-            .flat_map(|scene| &scene.ensemble)
-            .map(Ensemble::profiles)
-            .max();
-        let mut heading = "Results".to_owned();
-        if !medians.is_empty() {
-            let profiles = several.unwrap_or(1);
+        if medians.is_empty() {
+            sheet.heading("Results");
+        } else {
+            let ensembles = self.scenes.iter().flat_map(|scene| &scene.ensemble);
+            let profiles = ensembles.map(Ensemble::profiles).max().unwrap_or(1);
             sheet.heading(&format!(
                 "Medians over {profiles} random profiles; a fixed profile has none"
             ));
-            sheet.table(
-                &std::iter::once(head.clone())
-                    .chain(medians)
-                    .collect::<Vec<_>>(),
-            );
-            heading = "Results on the own profile of each scene".to_owned();
+            let mut rows = vec![self.header()];
+            rows.extend(medians);
+            sheet.table(&rows);
+            sheet.heading("Results on the own profile of each scene");
         }
-        let of_scenes = |of: fn(&Outcome) -> Option<f64>| {
-            self.scenes
-                .iter()
-                .map(|scene| of(&scene.outcome))
-                .collect::<Vec<_>>()
-        };
-        let mut table = vec![head];
-        table.extend(ROWS.iter().filter_map(|(name, unit, of)| {
-            row(name, |value| format_quantity(value, unit), &of_scenes(*of))
-        }));
-        let regime =
-            |scene: &ComparedScene<'_>| scene.outcome.regime.map_or("-", Regime::name).to_owned();
-        table.push(
-            std::iter::once("regime".to_owned())
-                .chain(self.scenes.iter().map(regime))
-                .collect(),
-        );
-        sheet.heading(&heading);
-        sheet.table(&table);
+        self.add_results(&mut sheet);
         sentences_section(&mut sheet, &self.warnings());
-        Some(format!(
-            "{}\n{}",
-            sheet.into_text(),
-            figure_text(&self.drawn(true), WIDTH, Colours::None)
-        ))
+        let text = sheet.into_text();
+        let curves = figure_text(&self.drawn(true), WIDTH, Colours::None);
+        Some(format!("{text}\n{curves}"))
     }
 
     fn figure(&self) -> Option<Figure> {

@@ -75,23 +75,30 @@ impl Section {
     /// Returns the chart of the heights over the position. `line` has the spring spacing of the
     /// profile and the index of its first spring, and `z` is the range of the vertical axis in m.
     pub fn chart(&self, line: LineFacts, z: Span) -> Chart {
-        let edge = |spring: usize| (line.first + spring) as f64 * line.spacing;
-        let x = (edge(self.first), edge(self.first + self.springs.max(1)));
-        let layer = |name: &str, ink, ends: fn(&Column) -> Option<(f64, f64)>| {
-            let columns = self.columns.iter().map(ends).collect();
-            Layer::new(name.into(), ink, Shape::Envelope { x, columns })
-        };
-        let layers = vec![
-            layer("surface", Ink::Surface, |column| Some(column.surface)),
-            layer("profile", Ink::Profile, |column| Some(column.line)),
-            layer("contact", Ink::Contact, |column| column.contact),
-        ];
-        let axis = |span, name, symbol| ChartAxis::new(AxisScale::Linear, span, name, symbol, "m");
+        let end = self.first + self.springs.max(1);
         let x = Span {
-            low: x.0,
-            high: x.1,
+            low: (line.first + self.first) as f64 * line.spacing,
+            high: (line.first + end) as f64 * line.spacing,
         };
-        Chart::new(axis(x, "position", "x"), axis(z, "height", "z"), layers)
+        let surface = self.envelope(x, |column| Some(column.surface));
+        let profile = self.envelope(x, |column| Some(column.line));
+        let contact = self.envelope(x, |column| column.contact);
+        let layers = vec![
+            Layer::new("surface".into(), Ink::Surface, surface),
+            Layer::new("profile".into(), Ink::Profile, profile),
+            Layer::new("contact".into(), Ink::Contact, contact),
+        ];
+        let x = ChartAxis::new(AxisScale::Linear, x, "position", "x", "m");
+        let y = ChartAxis::new(AxisScale::Linear, z, "height", "z", "m");
+        Chart::new(x, y, layers)
+    }
+
+    /// Returns the lowest and the highest heights in each column, over positions in m.
+    fn envelope(&self, positions: Span, heights: fn(&Column) -> Option<(f64, f64)>) -> Shape {
+        Shape::Envelope {
+            x: (positions.low, positions.high),
+            columns: self.columns.iter().map(heights).collect(),
+        }
     }
 }
 
@@ -118,12 +125,16 @@ impl Part {
 
     /// Returns the indices of the springs that the column with this number, from 0, shows.
     pub fn springs_of(self, column: usize) -> Range<usize> {
-        let start = |column: usize| {
-            self.first
-                + (column as u128 * self.springs as u128 / self.columns.max(1) as u128) as usize
-        };
-        let from = start(column);
-        from..start(column + 1).max(from + 1)
+        let begin = self.begin_of(column);
+        let end = self.begin_of(column + 1);
+        begin..end.max(begin + 1)
+    }
+
+    /// Returns the index of the first spring of a column. Columns of equal width need products that
+    /// may exceed 64 bits.
+    fn begin_of(self, column: usize) -> usize {
+        let before = column as u128 * self.springs as u128 / self.columns.max(1) as u128;
+        self.first + before as usize
     }
 }
 
@@ -141,39 +152,38 @@ impl SectionContact<'_> {
 
     /// Returns the index ranges of neighbouring springs in contact within the range `springs`.
     pub fn within(&self, springs: Range<usize>) -> impl Iterator<Item = Range<usize>> {
-        let begun = self
-            .patches
-            .partition_point(|patch| patch.last < springs.start);
-        let touching = self.patches[begun..]
+        let Range { start, end } = springs;
+        let first = self.patches.partition_point(|patch| patch.last < start);
+        self.patches[first..]
             .iter()
-            .take_while(move |patch| patch.first < springs.end);
-        touching
-            .map(move |patch| patch.first.max(springs.start)..patch.springs().end.min(springs.end))
+            .take_while(move |patch| patch.first < end)
+            .map(move |patch| patch.first.max(start)..patch.springs().end.min(end))
     }
 
     /// Reduces a part of the profile and its contact to the columns of a chart. Each profile needs
     /// its own `line`, which stores heights for the next call.
     pub fn section(&self, part: Part, line: &mut LineColumns) -> Section {
-        let Part {
-            first,
-            springs,
-            columns,
-        } = part;
         if line.part != part {
-            let heights = (0..columns).map(|column| self.heights(part.springs_of(column)));
+            let columns = 0..part.columns;
             *line = LineColumns {
                 part,
-                heights: heights.collect(),
+                heights: columns
+                    .map(|column| self.heights(part.springs_of(column)))
+                    .collect(),
             };
         }
-        let of = |(column, &heights)| self.column(part.springs_of(column), heights);
-        let columns = line.heights.iter().enumerate().map(of).collect();
-        // A hidden chart has no columns.
-        let heights = line.heights.iter().copied().reduce(wider);
-        let heights = heights.unwrap_or_else(|| self.heights(first..first + springs));
+        let mut columns = Vec::with_capacity(line.heights.len());
+        for (column, &heights) in line.heights.iter().enumerate() {
+            columns.push(self.column(part.springs_of(column), heights));
+        }
+        let heights = match line.heights.iter().copied().reduce(wider) {
+            Some(heights) => heights,
+            // A hidden chart has no columns.
+            None => self.heights(part.first..part.first + part.springs),
+        };
         Section {
-            first,
-            springs,
+            first: part.first,
+            springs: part.springs,
             heights,
             level: self.level(),
             columns,
@@ -182,15 +192,21 @@ impl SectionContact<'_> {
 
     /// Returns the lowest and the highest point of a range of springs, m.
     fn heights(&self, springs: Range<usize>) -> (f64, f64) {
-        let height = |gap: &f64| (self.summit - gap, self.summit - gap);
-        self.gaps[springs]
-            .iter()
-            .map(height)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), wider)
+        let mut lowest = f64::INFINITY;
+        let mut highest = f64::NEG_INFINITY;
+        for gap in &self.gaps[springs] {
+            let height = self.summit - gap;
+            lowest = lowest.min(height);
+            highest = highest.max(height);
+        }
+        (lowest, highest)
     }
 
+    /// Returns the column of a range of springs, on which the profile has these lowest and highest
+    /// heights.
     fn column(&self, springs: Range<usize>, line: (f64, f64)) -> Column {
-        let (mut free, mut contact) = (springs.len(), None);
+        let mut free = springs.len();
+        let mut contact: Option<(f64, f64)> = None;
         for touching in self.within(springs.clone()) {
             free -= touching.len();
             let heights = if touching == springs {
@@ -198,7 +214,10 @@ impl SectionContact<'_> {
             } else {
                 self.heights(touching)
             };
-            contact = Some(contact.map_or(heights, |contact| wider(contact, heights)));
+            contact = match contact {
+                Some(contact) => Some(wider(contact, heights)),
+                None => Some(heights),
+            };
         }
         let level = (self.level(), self.level());
         let surface = match contact {
@@ -214,8 +233,9 @@ impl SectionContact<'_> {
     }
 }
 
-fn wider(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
-    (one.0.min(other.0), one.1.max(other.1))
+/// Returns the range from the lower to the higher ends of two ranges.
+fn wider(first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
+    (first.0.min(second.0), first.1.max(second.1))
 }
 
 #[cfg(test)]

@@ -3,26 +3,32 @@
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::{counted_section, counted_texts};
-use asperity_data::{
-    AxisScale, Kind, Table, format_quantity, format_rounded, grouped, object, one_unit,
-};
+use crate::words::percent;
+use asperity_data::{AxisScale, Kind, Table, format_quantity, format_rounded, grouped, one_unit};
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span};
 use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
+use serde::Serialize;
 
 /// Smallest relative change that is written as a factor.
 const LARGE: f64 = 2.0;
+
 /// Smallest end of the axis of a chart in per cent.
 const LEAST: f64 = 1.0;
+
 /// Half the height of a bar, divided by the distance of bars.
 const HALF: f64 = 0.35;
+
+/// Text in place of the range of changes, if the scene does not allow the number.
+const NOT_ALLOWED: &str = "not allowed";
+
+const PROFILES: &str = "profiles";
 
 /// Report on how much the results of a scene change if one of its numbers is changed by +10 % or
 /// −10 %, for each number in turn. A whole number changes by at least 1, and a wavelength by at
 /// least one wave on the length.
 #[derive(Clone, Copy, Debug)]
 pub struct SensitivityReport<'a> {
-    /// Title of the scene.
     pub title: &'a str,
     /// Scene whose numbers are changed.
     pub scene: &'a Scene,
@@ -33,23 +39,21 @@ pub struct SensitivityReport<'a> {
 /// Writes a relative change: `+12 %`, `×4.2`.
 fn change_text(change: f64) -> String {
     let percent = 100.0 * change;
-    let digits = if percent.abs() < 9.95 { 1 } else { 0 };
-    match change {
-        _ if percent.abs() < 0.05 => "0 %".to_owned(),
-        LARGE.. => format!("×{}", format_rounded(1.0 + change, 3, "1")),
-        _ => format!("{percent:+.digits$} %"),
+    if percent.abs() < 0.05 {
+        "0 %".to_owned()
+    } else if change >= LARGE {
+        format!("×{}", format_rounded(1.0 + change, 3, "1"))
+    } else {
+        let digits = if percent.abs() < 9.95 { 1 } else { 0 };
+        format!("{percent:+.digits$} %")
     }
 }
 
 /// Writes the relative change of a number to two digits: `+10 %`, `-11 %`.
 fn step_text(step: f64) -> String {
     let sign = if step < 0.0 { "-" } else { "+" };
-    format!("{sign}{} %", format_rounded(100.0 * step.abs(), 2, "1"))
+    format!("{sign}{}", percent(step.abs(), 2))
 }
-
-/// Text in place of the range of changes, if the scene does not allow the number.
-const NOT_ALLOWED: &str = "not allowed";
-const PROFILES: &str = "profiles";
 
 /// Changes of the results for one changed number, or for one end of the range over the profiles.
 struct Side<'a> {
@@ -63,11 +67,23 @@ struct Side<'a> {
     range: Option<(f64, f64)>,
 }
 
-impl Side<'_> {
+impl<'a> Side<'a> {
+    /// Returns the changes for the smaller number (`side` 0) or the larger number (`side` 1).
+    fn of_number(sensitivity: &Sensitivity, influence: &'a Influence, side: usize) -> Self {
+        let changed = influence.sides[side].1;
+        Side {
+            influence: Some(influence),
+            side,
+            changes: changed.map(|changed| sensitivity.changes(&changed.medians)),
+            range: changed.and_then(|changed| changed.range[0]),
+        }
+    }
+
     fn name(&self) -> Label {
-        let Some(Influence { axis, .. }) = self.influence else {
+        let Some(influence) = self.influence else {
             return PROFILES.into();
         };
+        let axis = &influence.axis;
         let short = axis
             .name
             .replace("force of ", "")
@@ -75,54 +91,69 @@ impl Side<'_> {
         Label::symbol_or_name(axis.symbol, &short)
     }
 
-    /// Returns the change of the number in words: in per cent, or as a difference for a whole
-    /// number.
-    fn step(&self) -> String {
+    /// Returns the value of the unchanged number; empty for the profiles.
+    fn value(&self) -> String {
         match self.influence {
-            None => ["least", "most"][self.side].to_owned(),
-            Some(one) if one.axis.is_whole() => format!("{:+}", one.sides[self.side].0 - one.value),
-            Some(one) => step_text(one.step(self.side)),
+            Some(influence) => format_quantity(influence.value, influence.axis.unit),
+            None => String::new(),
         }
     }
 
-    fn text(&self, result: usize) -> String {
-        let change = self.changes.and_then(|changes| changes[result]);
-        change.map_or_else(|| "-".to_owned(), change_text)
+    /// Returns the change of the number in words: in per cent, or as a difference for a whole
+    /// number.
+    fn step(&self) -> String {
+        let Some(influence) = self.influence else {
+            return ["least", "most"][self.side].to_owned();
+        };
+        if influence.axis.is_whole() {
+            let (changed, _) = influence.sides[self.side];
+            format!("{:+}", changed - influence.value)
+        } else {
+            step_text(influence.step(self.side))
+        }
+    }
+
+    /// Returns the relative change of a result; `None` if it is unknown.
+    fn change(&self, result: usize) -> Option<f64> {
+        self.changes?[result]
+    }
+
+    fn change_in_words(&self, result: usize) -> String {
+        match self.change(result) {
+            Some(change) => change_text(change),
+            None => "-".to_owned(),
+        }
+    }
+
+    /// Returns the changes of F_a on single profiles in words; empty for a fixed profile.
+    fn range_in_words(&self) -> String {
+        match self.range {
+            Some((least, most)) => one_unit([change_text(least), change_text(most)]),
+            None if self.changes.is_none() => NOT_ALLOWED.to_owned(),
+            None => String::new(),
+        }
     }
 }
 
 /// Returns both changes of at most `most` numbers, with the largest influence on a result first.
 /// The range over the profiles follows.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
-    let numbers = sensitivity
-        .ordered(result)
-        .into_iter()
-        .take(most)
-        .flat_map(|influence| {
-            [0, 1].map(|side| {
-                let changed = &influence.sides[side].1;
-                let changes = changed
-                    .as_ref()
-                    .map(|changed| sensitivity.changes(&changed.medians));
-                let range = changed.as_ref().and_then(|changed| changed.range[0]);
-                Side {
-                    influence: Some(influence),
-                    side,
-                    changes,
-                    range,
-                }
-            })
-        });
-    let profiles = sensitivity.range.iter().flat_map(|ends| {
-        let changes = |side: usize| Some(sensitivity.changes(&ends[side]));
-        [0, 1].map(|side| Side {
-            influence: None,
-            side,
-            changes: changes(side),
-            range: None,
-        })
-    });
-    numbers.chain(profiles).collect()
+    let mut sides = Vec::new();
+    for influence in sensitivity.ordered(result).into_iter().take(most) {
+        sides.push(Side::of_number(sensitivity, influence, 0));
+        sides.push(Side::of_number(sensitivity, influence, 1));
+    }
+    if let Some(ends) = sensitivity.range {
+        for (side, results) in ends.iter().enumerate() {
+            sides.push(Side {
+                influence: None,
+                side,
+                changes: Some(sensitivity.changes(results)),
+                range: None,
+            });
+        }
+    }
+    sides
 }
 
 /// Returns a table of the changes of the median results: a row of headings, a row of medians of the
@@ -130,125 +161,149 @@ fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>>
 /// and change of the number, change of F_a with its range over the profiles, change of F_a(d=0),
 /// and change of the dissipated energy.
 pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String; 7]> {
-    let row = |texts: [&str; 3], range: &str, result: &dyn Fn(usize) -> String| {
-        let [name, value, change] = texts.map(str::to_owned);
-        [
+    let has_profiles = sensitivity.range.is_some();
+    let mut rows = vec![
+        headings(has_profiles),
+        present_row(sensitivity, has_profiles),
+    ];
+    for side in sides(sensitivity, 0, most) {
+        // Only the first of both rows has name and value.
+        let mut name = String::new();
+        let mut value = String::new();
+        if side.side == 0 {
+            name = side.name().to_string();
+            value = side.value();
+        }
+        rows.push([
             name,
             value,
-            change,
-            result(0),
-            range.to_owned(),
-            result(1),
-            result(2),
-        ]
+            side.step(),
+            side.change_in_words(0),
+            side.range_in_words(),
+            side.change_in_words(1),
+            side.change_in_words(2),
+        ]);
+    }
+    rows
+}
+
+fn headings(has_profiles: bool) -> [String; 7] {
+    let single_profiles = if has_profiles { "single profiles" } else { "" };
+    let [force, touch, energy] = Sensitivity::RESULTS.map(|result| result.symbol());
+    let headings = [
+        "number",
+        "value",
+        "change",
+        force,
+        single_profiles,
+        touch,
+        energy,
+    ];
+    headings.map(String::from)
+}
+
+/// Returns the row with the results of the unchanged scene.
+fn present_row(sensitivity: &Sensitivity, has_profiles: bool) -> [String; 7] {
+    let name = if has_profiles { "median" } else { "this scene" };
+    let present = |result: usize| match sensitivity.present[result] {
+        Some(value) => format_quantity(value, Sensitivity::RESULTS[result].unit()),
+        None => "-".to_owned(),
     };
-    let results = Sensitivity::RESULTS;
-    let several = if sensitivity.range.is_some() {
-        "single profiles"
-    } else {
-        ""
-    };
-    let head = row(["number", "value", "change"], several, &|result| {
-        results[result].symbol().to_owned()
-    });
-    let scene = row(
-        [
-            if several.is_empty() {
-                "this scene"
-            } else {
-                "median"
-            },
-            "",
-            "",
-        ],
-        "",
-        &|result| {
-            let value = sensitivity.present[result];
-            value.map_or_else(
-                || "-".to_owned(),
-                |value| format_quantity(value, results[result].unit()),
-            )
-        },
-    );
-    let changes = sides(sensitivity, 0, most).into_iter().map(|side| {
-        let value = side
-            .influence
-            .map(|one| format_quantity(one.value, one.axis.unit))
-            .unwrap_or_default();
-        let (name, step) = (side.name().to_string(), side.step());
-        let named = if side.side == 0 {
-            [name.as_str(), &value]
-        } else {
-            [""; 2]
-        };
-        let range = side
-            .range
-            .map(|(least, most)| one_unit([least, most].map(change_text)));
-        let not_allowed = side.changes.is_none().then(|| NOT_ALLOWED.to_owned());
-        row(
-            [named[0], named[1], &step],
-            &range.or(not_allowed).unwrap_or_default(),
-            &|of| side.text(of),
-        )
-    });
-    [head, scene].into_iter().chain(changes).collect()
+    [
+        name.to_owned(),
+        String::new(),
+        String::new(),
+        present(0),
+        String::new(),
+        present(1),
+        present(2),
+    ]
 }
 
 /// Returns a bar chart of the changes of one result in per cent, with two bars for each of at most
 /// `most` numbers. `result` is an index of [`Sensitivity::RESULTS`].
 pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) -> Chart {
-    let shown = sides(sensitivity, result, most);
-    let percent = |side: &Side<'_>| Some(100.0 * side.changes?[result]?);
-    let numbers = shown.iter().filter(|side| side.influence.is_some());
-    let end = 1.05
-        * numbers
-            .filter_map(percent)
-            .map(f64::abs)
-            .fold(LEAST, f64::max);
-    // Nothing falls by more than all of itself.
-    let span = Span {
-        low: -end.min(105.0),
-        high: end,
-    };
-    let (mut bars, mut names, mut beyond) = (
-        [const { Vec::new() }; 3],
-        Vec::new(),
-        [const { Vec::new() }; 2],
-    );
+    let sides = sides(sensitivity, result, most);
+    let span = span_of_changes(&sides, result);
+    let mut bars = Bars::default();
+    let mut names = Vec::new();
     // The lowest bar is at 0.
-    for (row, side) in (0..).map(f64::from).zip(shown.iter().rev()) {
-        names.push(
-            side.name()
-                .then(&format!(", {}: {}", side.step(), side.text(result))),
-        );
-        let Some(change) = percent(side) else {
-            continue;
-        };
-        let bar = ((change.min(0.0), change.max(0.0)), (row - HALF, row + HALF));
-        bars[side.influence.map_or(2, |_| side.side)].push(bar);
-        if change < span.low || change > span.high {
-            beyond[usize::from(change > 0.0)].push((change.clamp(span.low, span.high), row));
+    for (place, side) in (0..).map(f64::from).zip(sides.iter().rev()) {
+        let step = side.step();
+        let words = side.change_in_words(result);
+        names.push(side.name().then(&format!(", {step}: {words}")));
+        if let Some(change) = side.change(result) {
+            bars.add(side, place, 100.0 * change, span);
         }
     }
-    let bars = [Ink::Surface, Ink::Contact, Ink::Kept]
-        .into_iter()
-        .zip(bars.map(Shape::Boxes));
-    let ends = beyond.into_iter().zip([Sign::Left, Sign::Right]);
-    let ends = ends.map(|(points, sign)| (Ink::Text, Shape::signs(points, sign)));
-    let layers = std::iter::once((Ink::Quiet, Shape::Upright(0.0)))
-        .chain(bars)
-        .chain(ends);
-    let layers = layers
-        .map(|(ink, shape)| Layer::unnamed(ink, shape))
-        .collect();
-    let x = ChartAxis::new(
-        AxisScale::Linear,
-        span,
-        "change of",
-        Sensitivity::RESULTS[result].symbol(),
-        "%",
-    );
-    Chart::new(x, ChartAxis::of_names(names), layers)
+    let symbol = Sensitivity::RESULTS[result].symbol();
+    let x = ChartAxis::new(AxisScale::Linear, span, "change of", symbol, "%");
+    Chart::new(x, ChartAxis::of_names(names), bars.layers())
+}
+
+/// Returns the span of the axis of changes in per cent. Changes over the profiles may lie beyond
+/// it.
+fn span_of_changes(sides: &[Side<'_>], result: usize) -> Span {
+    let mut largest = LEAST;
+    for side in sides {
+        if side.influence.is_some()
+            && let Some(change) = side.change(result)
+        {
+            largest = f64::max(largest, (100.0 * change).abs());
+        }
+    }
+    let end = 1.05 * largest;
+    Span {
+        // Nothing falls by more than all of itself.
+        low: -end.min(105.0),
+        high: end,
+    }
+}
+
+/// Range of a bar along the horizontal and along the vertical axis.
+type Bar = ((f64, f64), (f64, f64));
+
+/// Bars of a chart of changes, and marks where bars reach beyond the chart.
+#[derive(Default)]
+struct Bars {
+    of_smaller_numbers: Vec<Bar>,
+    of_larger_numbers: Vec<Bar>,
+    of_profiles: Vec<Bar>,
+    beyond_left: Vec<(f64, f64)>,
+    beyond_right: Vec<(f64, f64)>,
+}
+
+impl Bars {
+    /// Adds a bar at a place of the vertical axis, with a change in per cent.
+    fn add(&mut self, side: &Side<'_>, place: f64, change: f64, span: Span) {
+        let bars = match side.influence {
+            None => &mut self.of_profiles,
+            Some(_) if side.side == 0 => &mut self.of_smaller_numbers,
+            Some(_) => &mut self.of_larger_numbers,
+        };
+        let width = (change.min(0.0), change.max(0.0));
+        let height = (place - HALF, place + HALF);
+        bars.push((width, height));
+        if change < span.low || change > span.high {
+            let end = (change.clamp(span.low, span.high), place);
+            if change > 0.0 {
+                self.beyond_right.push(end);
+            } else {
+                self.beyond_left.push(end);
+            }
+        }
+    }
+
+    fn layers(self) -> Vec<Layer> {
+        vec![
+            Layer::unnamed(Ink::Quiet, Shape::Upright(0.0)),
+            Layer::unnamed(Ink::Surface, Shape::Boxes(self.of_smaller_numbers)),
+            Layer::unnamed(Ink::Contact, Shape::Boxes(self.of_larger_numbers)),
+            Layer::unnamed(Ink::Kept, Shape::Boxes(self.of_profiles)),
+            Layer::unnamed(Ink::Text, Shape::signs(self.beyond_left, Sign::Left)),
+            Layer::unnamed(Ink::Text, Shape::signs(self.beyond_right, Sign::Right)),
+        ]
+    }
 }
 
 impl SensitivityReport<'_> {
@@ -257,25 +312,25 @@ impl SensitivityReport<'_> {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
         }
-        let profiles = match self.sensitivity.range {
-            Some(_) => format!(
+        let profiles = if self.sensitivity.range.is_some() {
+            format!(
                 "All are medians over the same {} random profiles; beside them the range of F_a of single profiles.",
                 self.sensitivity.profiles
-            ),
-            None => Ensemble::FIXED.to_owned(),
+            )
+        } else {
+            Ensemble::FIXED.to_owned()
         };
-        let has_wavelengths = self
-            .sensitivity
-            .influences
-            .iter()
-            .any(|one| one.axis.path.starts_with("roughness.wavelengths"));
+        let mut influences = self.sensitivity.influences.iter();
+        let has_wavelengths =
+            influences.any(|influence| influence.axis.path.starts_with("roughness.wavelengths"));
         let waves = if has_wavelengths {
             " A wavelength changes so that whole waves fit on the length. Where the length changes, the numbers of waves on it \
              stay."
         } else {
             ""
         };
-        format!("{}{waves} {profiles}", others_stay(self.scene.adhesion))
+        let others = others_stay(self.scene.adhesion);
+        format!("{others}{waves} {profiles}")
     }
 }
 
@@ -293,103 +348,187 @@ pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
 
 impl Report for SensitivityReport<'_> {
     fn text(&self) -> Option<String> {
+        let sensitivity = self.sensitivity;
         let mut sheet = Sheet::default();
         sheet.paragraph(self.title);
-        if self.sensitivity.missing().is_none() {
+        if sensitivity.missing().is_none() {
             let springs = grouped(self.scene.numerics.points);
-            let of = if self.sensitivity.range.is_some() {
+            let results = if sensitivity.range.is_some() {
                 "medians"
             } else {
                 "results"
             };
             sheet.heading(&format!(
-                "Changes of the {of} where one number changes, {springs} springs"
+                "Changes of the {results} where one number changes, {springs} springs"
             ));
-            sheet.table(&sensitivity_table(self.sensitivity, usize::MAX));
+            sheet.table(&sensitivity_table(sensitivity, usize::MAX));
         }
         sheet.heading(&self.note());
-        counted_section(
-            &mut sheet,
-            &self.sensitivity.warnings,
-            self.sensitivity.profiles,
-        );
+        counted_section(&mut sheet, &sensitivity.warnings, sensitivity.profiles);
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        let values = |values: [Option<f64>; 3]| {
-            object! { "adhesion_force": values[0], "first_touch_adhesion_force": values[1], "dissipated_energy": values[2] }
-        };
-        let ends = |range: [Option<(f64, f64)>; 3]| {
-            object! { "adhesion_force": range[0], "first_touch_adhesion_force": range[1], "dissipated_energy": range[2] }
-        };
-        let side = move |influence: &Influence, side: usize| {
-            let (value, changed) = influence.sides[side];
-            let change = influence.step(side);
-            changed.map(|changed| {
-                object! {
-                    "value": value, "change": change, "results": values(changed.medians),
-                    "profile_changes": ends(changed.range),
-                }
-            })
-        };
-        let influence = |influence: &Influence| {
-            let [smaller, larger] = [side(influence, 0), side(influence, 1)];
-            object! {
-                "path": influence.axis.path.clone(), "name": influence.axis.name.clone(), "value": influence.value,
-                "smaller": smaller, "larger": larger,
-            }
-        };
-        let range = self.sensitivity.range;
-        Some(Box::new(object! {
-            "scene": self.scene,
-            "warnings": counted_texts(&self.sensitivity.warnings, self.sensitivity.profiles),
-            "step": Sensitivity::STEP,
-            "profiles": self.sensitivity.profiles,
-            "results": values(self.sensitivity.present),
-            "range": range.map(|[least, most]| object! { "least": values(least), "most": values(most) }),
-            "numbers": self.sensitivity.influences.iter().map(influence).collect::<Vec<_>>(),
+        let sensitivity = self.sensitivity;
+        Some(Box::new(SensitivityJson {
+            scene: self.scene,
+            warnings: counted_texts(&sensitivity.warnings, sensitivity.profiles),
+            step: Sensitivity::STEP,
+            profiles: sensitivity.profiles,
+            results: ResultsJson::new(sensitivity.present),
+            range: sensitivity.range.map(|[least, most]| RangeJson {
+                least: ResultsJson::new(least),
+                most: ResultsJson::new(most),
+            }),
+            numbers: sensitivity.influences.iter().map(NumberJson::new).collect(),
         }))
     }
 
     /// Returns a table of the medians of the results: a row for the unchanged scene, then a row for
     /// each number and each change by +10 % or −10 %.
     fn table(&self) -> Option<Table<'_>> {
-        let rows = || {
-            let all = self.sensitivity.influences.iter();
-            let sides = all.flat_map(|one| {
-                let row = |side: &(f64, Option<Changed>)| {
-                    Some((one.axis.path.as_str(), Some(side.0), side.1?))
-                };
-                one.sides.iter().filter_map(row).collect::<Vec<_>>()
-            });
-            let present = Changed {
-                medians: self.sensitivity.present,
-                ..Changed::default()
-            };
-            std::iter::once(("", None, present)).chain(sides)
-        };
-        let longest = self
-            .sensitivity
-            .influences
-            .iter()
-            .map(|one| one.axis.path.len())
+        let paths = self.sensitivity.influences.iter();
+        let longest = paths
+            .map(|influence| influence.axis.path.len())
             .max()
             .unwrap_or(0);
-        let mut table = Table::of(rows).with("path", Kind::Text(longest), |row| row.0);
-        table = table.real("value", |row| row.1);
-        for (index, quantity) in Sensitivity::RESULTS.iter().enumerate() {
+        let rows = table_rows(self.sensitivity);
+        let mut table = Table::of(move || rows.clone().into_iter())
+            .with("path", Kind::Text(longest), |row| row.path)
+            .real("value", |row| row.value);
+        for (result, quantity) in Sensitivity::RESULTS.iter().enumerate() {
             let name = quantity.name();
-            table = table.real(name, move |row| row.2.medians[index]);
-            let change = |end| format!("{name}_{end}_change");
-            table = table.with(change("least"), Kind::Real, move |row| {
-                row.2.range[index].map(|ends| ends.0)
-            });
-            table = table.with(change("most"), Kind::Real, move |row| {
-                row.2.range[index].map(|ends| ends.1)
-            });
+            let least = format!("{name}_least_change");
+            let most = format!("{name}_most_change");
+            table = table
+                .real(name, move |row| row.results.medians[result])
+                .with(least, Kind::Real, move |row| {
+                    row.results.range[result].map(|ends| ends.0)
+                })
+                .with(most, Kind::Real, move |row| {
+                    row.results.range[result].map(|ends| ends.1)
+                });
         }
         Some(table.done())
+    }
+}
+
+/// Row of the table: results for a value of a number of the scene.
+#[derive(Clone)]
+struct TableRow<'a> {
+    /// Path of the changed number; empty for the unchanged scene.
+    path: &'a str,
+    value: Option<f64>,
+    results: Changed,
+}
+
+fn table_rows(sensitivity: &Sensitivity) -> Vec<TableRow<'_>> {
+    let mut rows = vec![TableRow {
+        path: "",
+        value: None,
+        results: Changed {
+            medians: sensitivity.present,
+            ..Changed::default()
+        },
+    }];
+    for influence in &sensitivity.influences {
+        for (value, changed) in influence.sides {
+            if let Some(results) = changed {
+                rows.push(TableRow {
+                    path: &influence.axis.path,
+                    value: Some(value),
+                    results,
+                });
+            }
+        }
+    }
+    rows
+}
+
+/// JSON object of a sensitivity, in SI units.
+#[derive(Serialize)]
+struct SensitivityJson<'a> {
+    scene: &'a Scene,
+    warnings: Vec<String>,
+    step: f64,
+    profiles: u64,
+    results: ResultsJson<f64>,
+    range: Option<RangeJson>,
+    numbers: Vec<NumberJson<'a>>,
+}
+
+/// Values that belong to the results of [`Sensitivity::RESULTS`]; `None` for an unknown value.
+#[derive(Serialize)]
+struct ResultsJson<T> {
+    adhesion_force: Option<T>,
+    first_touch_adhesion_force: Option<T>,
+    dissipated_energy: Option<T>,
+}
+
+/// Smallest and largest results of the unchanged scene among the profiles.
+#[derive(Serialize)]
+struct RangeJson {
+    least: ResultsJson<f64>,
+    most: ResultsJson<f64>,
+}
+
+#[derive(Serialize)]
+struct NumberJson<'a> {
+    path: &'a str,
+    name: &'a str,
+    value: f64,
+    /// Results for the smaller number; `None` if the scene does not allow it.
+    smaller: Option<ChangedJson>,
+    larger: Option<ChangedJson>,
+}
+
+#[derive(Serialize)]
+struct ChangedJson {
+    value: f64,
+    change: f64,
+    results: ResultsJson<f64>,
+    /// Smallest and largest relative changes among the profiles.
+    profile_changes: ResultsJson<(f64, f64)>,
+}
+
+impl<T> ResultsJson<T> {
+    fn new(values: [Option<T>; 3]) -> Self {
+        let [
+            adhesion_force,
+            first_touch_adhesion_force,
+            dissipated_energy,
+        ] = values;
+        ResultsJson {
+            adhesion_force,
+            first_touch_adhesion_force,
+            dissipated_energy,
+        }
+    }
+}
+
+impl<'a> NumberJson<'a> {
+    fn new(influence: &'a Influence) -> Self {
+        NumberJson {
+            path: &influence.axis.path,
+            name: &influence.axis.name,
+            value: influence.value,
+            smaller: ChangedJson::new(influence, 0),
+            larger: ChangedJson::new(influence, 1),
+        }
+    }
+}
+
+impl ChangedJson {
+    /// Collects the results for the smaller number (`side` 0) or the larger number (`side` 1).
+    fn new(influence: &Influence, side: usize) -> Option<Self> {
+        let (value, changed) = influence.sides[side];
+        let changed = changed?;
+        Some(ChangedJson {
+            value,
+            change: influence.step(side),
+            results: ResultsJson::new(changed.medians),
+            profile_changes: ResultsJson::new(changed.range),
+        })
     }
 }
 

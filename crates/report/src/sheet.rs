@@ -1,22 +1,35 @@
 //! Plain text with aligned columns, for a terminal of 80 columns.
 
 use asperity_data::{format_quantity, printable, wrap};
+use std::ops::Range;
 
 /// Width of a line in characters, which is the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Smallest width of a last column in characters, and its indentation on its own line.
+/// Smallest width in characters of a last column. A last column with less room begins on a line of
+/// its own.
 const FEWEST_IN_LAST: usize = 20;
+
+/// Indentation in characters of a last column on a line of its own.
 const INDENT: usize = 4;
 
 /// Width in characters of the labels before the values of rows.
 const LABEL: usize = 26;
+
+/// Blanks between two columns of a table.
+const BETWEEN: usize = 2;
 
 /// Plain text of at most 80 columns, to which headings, rows, tables and paragraphs are added one
 /// by one.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
+}
+
+/// Cell of a table, with the width of its column in characters.
+struct Cell<'a> {
+    text: &'a str,
+    width: usize,
 }
 
 impl Sheet {
@@ -27,22 +40,24 @@ impl Sheet {
         sheet.into_text()
     }
 
-    /// Returns the finished text.
     pub fn into_text(self) -> String {
         self.text
     }
 
     /// Adds a heading, after an empty line unless the heading is the first.
     pub fn heading(&mut self, heading: &str) {
-        self.text
-            .push_str(if self.text.is_empty() { "" } else { "\n" });
+        if !self.text.is_empty() {
+            self.text.push('\n');
+        }
         self.paragraph(heading);
     }
 
     /// Adds a paragraph, which is broken into lines of at most 80 columns.
     pub fn paragraph(&mut self, text: &str) {
-        for line in text.lines().flat_map(|line| wrap(line, WIDTH)) {
-            self.line(&line);
+        for line in text.lines() {
+            for part in wrap(line, WIDTH) {
+                self.line(&part);
+            }
         }
     }
 
@@ -59,10 +74,9 @@ impl Sheet {
     /// Adds a row of a label and a number, given in the SI unit `unit` and written with a prefix.
     /// `None` adds nothing.
     pub fn quantity(&mut self, label: &str, value: impl Into<Option<f64>>, unit: &str) {
-        self.row_of(
-            label,
-            value.into().map(|value| format_quantity(value, unit)),
-        );
+        if let Some(value) = value.into() {
+            self.row(label, format_quantity(value, unit));
+        }
     }
 
     /// Adds a row of a label and a value. `None` adds nothing.
@@ -72,75 +86,52 @@ impl Sheet {
         }
     }
 
-    /// Adds a table with aligned columns.
+    /// Adds a table with aligned columns. Columns that do not fit beside each other are further
+    /// tables, each with the first column again.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
-        let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
-        let length = |row: &R, column: usize| {
-            row.as_ref()
-                .get(column)
-                .map_or(0, |cell| cell.chars().count())
-        };
-        let width = |column: usize| {
-            rows.iter()
-                .map(|row| length(row, column))
-                .max()
-                .unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..columns).map(width).collect();
-        let mut next = columns.min(1);
+        let widths = widths_of(rows);
+        let mut begin = widths.len().min(1);
         loop {
-            let (begin, mut room) = (
-                next,
-                WIDTH.saturating_sub(widths.first().map_or(0, |width| width + 2)),
-            );
-            while next < columns {
-                // Only the last column holds sentences, which continue on further lines.
-                let needed = if next + 1 == columns {
-                    widths[next].min(FEWEST_IN_LAST)
-                } else {
-                    widths[next]
-                };
-                if needed > room && next > begin {
-                    break;
-                }
-                room = room.saturating_sub(widths[next] + 2);
-                next += 1;
-            }
+            let end = end_of_part(&widths, begin);
             for row in rows {
-                let cells: Vec<_> = row.as_ref().iter().enumerate().collect();
-                let shown = cells
-                    .iter()
-                    .filter(|(column, _)| *column == 0 || (begin..next).contains(column));
-                self.cells(
-                    &shown
-                        .map(|(column, cell)| (widths[*column], cell.as_str()))
-                        .collect::<Vec<_>>(),
-                );
+                self.table_row(row.as_ref(), &widths, begin..end);
             }
-            if next >= columns {
+            if end >= widths.len() {
                 return;
             }
             self.text.push('\n');
+            begin = end;
         }
     }
 
-    /// Adds a line of cells, each with the width of its column. The last cell begins on the next
-    /// line if it has too little room.
-    fn cells(&mut self, cells: &[(usize, &str)]) {
-        let Some(((_, last), others)) = cells.split_last() else {
+    /// Adds a line with the first cell of a row and the cells of some columns.
+    fn table_row(&mut self, row: &[String], widths: &[usize], columns: Range<usize>) {
+        let mut cells = Vec::with_capacity(row.len());
+        for (column, text) in row.iter().enumerate() {
+            if column == 0 || columns.contains(&column) {
+                let width = widths[column];
+                cells.push(Cell { text, width });
+            }
+        }
+        self.cells(&cells);
+    }
+
+    /// Adds a line of cells. The last cell begins on the next line if it has too little room.
+    fn cells(&mut self, cells: &[Cell<'_>]) {
+        let Some((last, others)) = cells.split_last() else {
             return;
         };
-        let mut before: String = others
-            .iter()
-            .map(|(width, cell)| padded(cell, width + 2))
-            .collect();
+        let mut before = String::new();
+        for cell in others {
+            before += &padded(cell.text, cell.width + BETWEEN);
+        }
         let mut room = WIDTH.saturating_sub(before.chars().count());
-        if room < FEWEST_IN_LAST && last.chars().count() > room {
+        if room < FEWEST_IN_LAST && last.text.chars().count() > room {
             self.line(&before);
             before = " ".repeat(INDENT);
             room = WIDTH - INDENT;
         }
-        for line in wrap(last, room) {
+        for line in wrap(last.text, room) {
             self.line(&format!("{before}{line}"));
             before = " ".repeat(before.chars().count());
         }
@@ -153,12 +144,47 @@ impl Sheet {
     }
 }
 
+/// Returns the width of each column of a table: the number of characters of its longest cell.
+fn widths_of<R: AsRef<[String]>>(rows: &[R]) -> Vec<usize> {
+    let mut widths = Vec::new();
+    for row in rows {
+        for (column, text) in row.as_ref().iter().enumerate() {
+            let width = text.chars().count();
+            if column == widths.len() {
+                widths.push(width);
+            } else {
+                widths[column] = width.max(widths[column]);
+            }
+        }
+    }
+    widths
+}
+
+/// Returns the index after the last column that fits beside the first column, counted from the
+/// column `begin`. At least one column counts as fitting.
+fn end_of_part(widths: &[usize], begin: usize) -> usize {
+    let first = widths.first().map_or(0, |width| width + BETWEEN);
+    let mut room = WIDTH.saturating_sub(first);
+    for (column, &width) in widths.iter().enumerate().skip(begin) {
+        // Only the last column holds sentences, which continue on further lines.
+        let is_last = column + 1 == widths.len();
+        let needed = if is_last {
+            width.min(FEWEST_IN_LAST)
+        } else {
+            width
+        };
+        if needed > room && column > begin {
+            return column;
+        }
+        room = room.saturating_sub(width + BETWEEN);
+    }
+    widths.len()
+}
+
 /// Returns at most `most` evenly spaced rows of a table, always with the last one.
 pub(crate) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
-    let (last, stride) = (
-        rows.len().saturating_sub(1),
-        rows.len().div_ceil(most).max(1),
-    );
+    let last = rows.len().saturating_sub(1);
+    let stride = rows.len().div_ceil(most).max(1);
     rows.skip(last % stride).step_by(stride)
 }
 

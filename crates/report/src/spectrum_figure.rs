@@ -3,7 +3,7 @@
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_surface::spectra::{Along, Bin, End};
+use asperity_surface::spectra::{Along, End};
 use asperity_surface::{Analysis, EquivalentLine};
 use std::f64::consts::TAU;
 
@@ -43,33 +43,60 @@ pub(crate) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     }
 }
 
-/// Returns logarithmically spaced wave numbers, about `per_decade` per decade.
-pub(crate) fn wave_numbers([low, high]: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
+/// Returns logarithmically spaced wave numbers between two wave numbers, about `per_decade` per
+/// decade.
+pub(crate) fn wave_numbers(range: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
+    let [low, high] = range;
     let pieces = (per_decade * (high / low).log10()).ceil().max(1.0);
     (0..=pieces as u32)
         .map(move |piece| (low * (high / low).powf(f64::from(piece) / pieces)).min(high))
 }
 
-fn measured(faces: &[&Analysis]) -> Vec<Layer> {
-    let spectra = faces.iter().enumerate().flat_map(|(face, analysis)| {
-        analysis
-            .spectra
-            .iter()
-            .map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
-    });
-    let layer = |(number, (name, bins)): (usize, (&str, &Vec<Bin>))| {
-        let points = bins
-            .iter()
-            .map(|bin| (bin.wave_number, bin.power))
-            .collect();
-        let name = Label::plain(&format!("measured, {name}"));
-        Layer::new(
-            name,
-            Ink::Series(number),
-            Shape::signs(points, Sign::of_series(number)),
-        )
-    };
-    spectra.enumerate().map(layer).collect()
+/// Returns a spectrum as a curve over a range of wave numbers.
+fn curve(range: [f64; 2], spectrum: impl Fn(f64) -> f64) -> Vec<SpectrumPoint> {
+    wave_numbers(range, PER_DECADE)
+        .map(|q| (q, spectrum(q)))
+        .collect()
+}
+
+/// Returns the measured spectra of all faces.
+fn measured_layers(faces: &[&Analysis]) -> Vec<Layer> {
+    let mut layers = Vec::new();
+    for (face, analysis) in faces.iter().enumerate() {
+        for (direction, bins) in &analysis.spectra {
+            let name = format!("measured, {}", spectrum_name(face, *direction));
+            let points = bins
+                .iter()
+                .map(|bin| (bin.wave_number, bin.power))
+                .collect();
+            let number = layers.len();
+            let signs = Shape::signs(points, Sign::of_series(number));
+            layers.push(Layer::new(Label::plain(&name), Ink::Series(number), signs));
+        }
+    }
+    layers
+}
+
+/// Returns the limits of a measured spectrum, as upright lines.
+fn limits(analysis: &Analysis) -> Vec<Layer> {
+    let mut limits = Vec::new();
+    if let Some(roll_off) = analysis.power_law.and_then(|fit| fit.roll_off) {
+        let limit = Shape::Upright(roll_off.value);
+        limits.push(Layer::new("roll-off".into(), Ink::Surface, limit));
+    }
+    if matches!(analysis.end, End::Continues(_)) {
+        let limit = Shape::Upright(analysis.isotropic.last_node());
+        limits.push(Layer::new("last resolved wave".into(), Ink::Quiet, limit));
+    }
+    if let Some(wavelength) = analysis.reliability_cutoff {
+        let limit = Shape::Upright(TAU / wavelength);
+        limits.push(Layer::new(
+            "reliability cut-off".into(),
+            Ink::Contact,
+            limit,
+        ));
+    }
+    limits
 }
 
 impl Spectra {
@@ -78,50 +105,21 @@ impl Spectra {
     fn of_analysis(analysis: &Analysis) -> Self {
         let isotropic = &analysis.isotropic;
         let range = isotropic.range();
-        let over = |spectrum: &dyn Fn(f64) -> f64| {
-            wave_numbers(range, PER_DECADE)
-                .map(|q| (q, spectrum(q)))
-                .collect::<Vec<_>>()
-        };
-        let fit = analysis.power_law;
-        let continues = matches!(analysis.end, End::Continues(_));
-        let limits = [
-            (
-                fit.and_then(|fit| fit.roll_off)
-                    .map(|roll_off| roll_off.value),
-                "roll-off",
-                Ink::Surface,
-            ),
-            (
-                continues.then(|| isotropic.last_node()),
-                "last resolved wave",
-                Ink::Quiet,
-            ),
-            (
-                analysis.reliability_cutoff.map(|length| TAU / length),
-                "reliability cut-off",
-                Ink::Contact,
-            ),
-        ];
-        let limit = |(at, name, ink): (Option<f64>, &str, Ink)| {
-            Some(Layer::new(name.into(), ink, Shape::Upright(at?)))
-        };
-        let mut layers: Vec<Layer> = limits.into_iter().filter_map(limit).collect();
-        layers.extend(measured(&[analysis]));
-        let line = |name, points, stroke| Layer::new(name, Ink::Text, Shape::line(points, stroke));
-        layers.push(line(
-            "fit".into(),
-            over(&|q| isotropic.cut(q)),
-            Stroke::Solid,
-        ));
-        layers.extend(fit.map(|fit| {
-            let name = Label::plain("self-affine fit, ").join(&Label::symbol("H"));
-            let name = name.then(&format!(" = {:.2}", fit.hurst.value));
-            line(name, over(&|q| fit.cut(q, range)), SELF_AFFINE)
-        }));
+        let mut layers = limits(analysis);
+        layers.extend(measured_layers(&[analysis]));
+        let fit = Shape::line(curve(range, |q| isotropic.cut(q)), Stroke::Solid);
+        layers.push(Layer::new("fit".into(), Ink::Text, fit));
+        if let Some(fit) = analysis.power_law {
+            let hurst = fit.hurst.value;
+            let name = Label::plain("self-affine fit, ")
+                .join(&Label::symbol("H"))
+                .then(&format!(" = {hurst:.2}"));
+            let line = Shape::line(curve(range, |q| fit.cut(q, range)), SELF_AFFINE);
+            layers.push(Layer::new(name, Ink::Text, line));
+        }
         Spectra {
             measured: layers,
-            line: over(&|q| isotropic.line(q)),
+            line: curve(range, |q| isotropic.line(q)),
             heights: Vec::new(),
         }
     }
@@ -137,12 +135,9 @@ impl Spectra {
         let line = EquivalentLine {
             faces: faces.iter().map(|face| face.isotropic.clone()).collect(),
         };
-        let line = wave_numbers(line.range(), PER_DECADE)
-            .map(|q| (q, line.power(q)))
-            .collect();
         Spectra {
-            measured: measured(faces),
-            line,
+            measured: measured_layers(faces),
+            line: curve(line.range(), |q| line.power(q)),
             heights: Vec::new(),
         }
     }
@@ -151,46 +146,49 @@ impl Spectra {
     pub fn chart(&self) -> Chart {
         let mut layers = self.measured.clone();
         if !self.line.is_empty() {
-            let shape = Shape::line(self.line.clone(), Stroke::Solid);
-            layers.push(Layer::new("profile".into(), Ink::Loading, shape));
+            let line = Shape::line(self.line.clone(), Stroke::Solid);
+            layers.push(Layer::new("profile".into(), Ink::Loading, line));
         }
         if !self.heights.is_empty() {
-            let shape = Shape::signs(self.heights.clone(), Sign::Cross);
-            layers.push(Layer::new(
-                "heights of the profile".into(),
-                Ink::Manual,
-                shape,
-            ));
+            let signs = Shape::signs(self.heights.clone(), Sign::Cross);
+            let name = "heights of the profile".into();
+            layers.push(Layer::new(name, Ink::Manual, signs));
         }
-        let measured = self.measured.iter().flat_map(|layer| match &layer.shape {
-            Shape::Curve { points, stroke, .. } if *stroke != Some(SELF_AFFINE) => {
-                points.as_slice()
-            }
-            _ => &[],
-        });
-        let all: Vec<_> = measured
-            .chain(&self.line)
-            .chain(&self.heights)
-            .copied()
-            .collect();
+
+        let mut points = self.measured_points();
+        points.extend(&self.line);
+        let without_heights = points.len();
+        points.extend(&self.heights);
+        let x = Span::around(points.iter().map(|(q, _)| q.log10()), 0.03);
         // Besides the waves of the line, heights contain only rounding errors.
-        let without_heights = all.len() - self.heights.len();
-        let shown = if without_heights > 0 {
-            &all[..without_heights]
-        } else {
-            &all[..]
-        };
-        let x = Span::around(all.iter().map(|(q, _)| q.log10()), 0.03);
-        let powers = shown.iter().map(|(_, power)| *power);
+        if without_heights > 0 {
+            points.truncate(without_heights);
+        }
+        let powers = points.iter().map(|(_, power)| *power);
         let y = Span::of_values(AxisScale::Logarithmic, powers, MOST_DECADES).widened(0.04);
-        let axis = |span, name, symbol, unit| {
-            ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
-        };
+        let scale = AxisScale::Logarithmic;
         Chart::new(
-            axis(x, "wave number", "q", "rad/m"),
-            axis(y, "power spectral density", "C", "m³"),
+            ChartAxis::new(scale, x, "wave number", "q", "rad/m"),
+            ChartAxis::new(scale, y, "power spectral density", "C", "m³"),
             layers,
         )
+    }
+
+    /// Returns the points of the measured spectra and of their fit, without the self-affine fit.
+    fn measured_points(&self) -> Vec<SpectrumPoint> {
+        let mut points = Vec::new();
+        for layer in &self.measured {
+            if let Shape::Curve {
+                points: of_layer,
+                stroke,
+                ..
+            } = &layer.shape
+                && *stroke != Some(SELF_AFFINE)
+            {
+                points.extend(of_layer);
+            }
+        }
+        points
     }
 }
 

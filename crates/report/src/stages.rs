@@ -9,48 +9,38 @@ use asperity_scene::stages::{PlannedStage, Workload};
 /// passes together, the memory that the step needs, and the reason why the step runs or is skipped.
 pub fn stages_text(plan: &Workload) -> String {
     let mut rows = vec![["stage", "passes", "springs", "memory", "because"].map(String::from)];
-    let count = |count: u64| {
-        if count > 0 {
-            grouped(count)
-        } else {
-            String::new()
-        }
-    };
-    for PlannedStage {
-        stage,
-        runs,
-        because,
-        passes,
-        springs_touched,
-        bytes,
-    } in &plan.stages
-    {
-        let memory = if *bytes > 0 {
-            memory_size(*bytes)
-        } else {
-            String::new()
-        };
-        let passes = match *passes {
-            _ if !runs => "skipped".to_owned(),
-            None => "per stage".to_owned(),
-            Some(0) => "runs".to_owned(),
-            Some(passes) => grouped(passes),
-        };
-        let touched = springs_touched.map_or_else(String::new, count);
-        rows.push([
-            stage.name().into(),
-            passes,
-            touched,
-            memory,
-            (*because).into(),
-        ]);
-    }
+    rows.extend(plan.stages.iter().map(row));
     let mut sheet = Sheet::default();
     sheet.table(&rows);
-    let (springs, peak) = (grouped(plan.springs), memory_size(plan.resident_bytes));
+    let springs = grouped(plan.springs);
+    let peak = memory_size(plan.resident_bytes);
     let program = memory_size(Workload::PROGRAM);
     sheet.heading(&format!(
         "{springs} springs under the body; about {peak} of memory at any one time, {program} of them the program"
     ));
     sheet.into_text()
+}
+
+fn row(planned: &PlannedStage) -> [String; 5] {
+    let passes = match planned.passes {
+        _ if !planned.runs => "skipped".to_owned(),
+        None => "per stage".to_owned(),
+        Some(0) => "runs".to_owned(),
+        Some(passes) => grouped(passes),
+    };
+    let springs = match planned.springs_touched {
+        None | Some(0) => String::new(),
+        Some(springs) => grouped(springs),
+    };
+    let memory = match planned.bytes {
+        0 => String::new(),
+        bytes => memory_size(bytes),
+    };
+    [
+        planned.stage.name().into(),
+        passes,
+        springs,
+        memory,
+        planned.because.into(),
+    ]
 }

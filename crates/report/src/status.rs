@@ -14,12 +14,12 @@ const LONGEST_HOST: usize = 20;
 pub fn status_text(plan: &Plan, status: &Status) -> String {
     let mut sheet = Sheet::default();
     sheet.paragraph(&plan.title);
-    let share = 100.0 * status.done as f64 / status.total.max(1) as f64;
+    let done = grouped(status.done);
+    let total = grouped(status.total);
+    let percent = 100.0 * status.done as f64 / status.total.max(1) as f64;
+    let missing = grouped(status.missing);
     sheet.heading(&format!(
-        "{} of {} records are there, {share:.1} %; {} are missing",
-        grouped(status.done),
-        grouped(status.total),
-        grouped(status.missing)
+        "{done} of {total} records are there, {percent:.1} %; {missing} are missing"
     ));
     if status.failed > 0 {
         let failed = grouped(status.failed);
@@ -28,41 +28,53 @@ pub fn status_text(plan: &Plan, status: &Status) -> String {
         ));
     }
     if status.damaged > 0 {
-        sheet.paragraph(&format!(
-            "{} torn or damaged lines are left out.",
-            grouped(status.damaged)
-        ));
+        let damaged = grouped(status.damaged);
+        sheet.paragraph(&format!("{damaged} torn or damaged lines are left out."));
     }
-    let mut rows = vec![
-        [
-            "shard",
-            "there",
-            "of",
-            "machine",
-            "process",
-            "wrote",
-            "per second",
-        ]
-        .map(String::from),
+    add_shards(&mut sheet, status);
+    sheet.into_text()
+}
+
+/// Adds a table of the processes that computed each shard.
+fn add_shards(sheet: &mut Sheet, status: &Status) {
+    let header = [
+        "shard",
+        "there",
+        "of",
+        "machine",
+        "process",
+        "wrote",
+        "per second",
     ];
+    let mut rows = vec![header.map(String::from)];
     for shard in &status.shards {
         for (index, attempt) in shard.attempts.iter().enumerate() {
-            let first = |text: String| if index == 0 { text } else { String::new() };
+            // Only the first row of a shard has its numbers.
+            let [name, done, total] = if index == 0 {
+                [
+                    shard.shard.clone(),
+                    grouped(shard.done),
+                    grouped(shard.total),
+                ]
+            } else {
+                Default::default()
+            };
+            let rate = match attempt.rate {
+                Some(rate) => format!("{rate:.2}"),
+                None => String::new(),
+            };
             rows.push([
-                first(shard.shard.clone()),
-                first(grouped(shard.done)),
-                first(grouped(shard.total)),
+                name,
+                done,
+                total,
                 attempt.host.chars().take(LONGEST_HOST).collect(),
                 attempt.process.to_string(),
                 grouped(attempt.records),
-                attempt
-                    .rate
-                    .map_or_else(String::new, |rate| format!("{rate:.2}")),
+                rate,
             ]);
         }
     }
     sheet.table(&rows);
-    sheet.into_text()
 }
 
 /// Returns the progress of a running study in one line: results computed so far and in all, results
@@ -74,20 +86,24 @@ pub fn progress_text(progress: &StudyProgress) -> String {
         total,
         ..
     } = *progress;
-    let share = if total == 0 {
+    let percent = if total == 0 {
         100.0
     } else {
         100.0 * done as f64 / total as f64
     };
-    let mut text = format!("{done} of {total} records, {share:.1} %");
-    if let Some(rate) = progress.rate().filter(|_| done > before) {
+    let mut text = format!("{done} of {total} records, {percent:.1} %");
+    if done > before
+        && let Some(rate) = progress.rate()
+    {
         let decimals = if rate >= 100.0 { 0 } else { 2 };
-        text.push_str(&format!(", {rate:.decimals$} per second"));
-        if let Some(left) = progress.left().filter(|_| done < total) {
-            text.push_str(&format!(", {} left", duration(left)));
+        text += &format!(", {rate:.decimals$} per second");
+        if done < total
+            && let Some(left) = progress.left()
+        {
+            text += &format!(", {} left", duration(left));
         }
     } else if before > 0 {
-        text.push_str(" were there before");
+        text += " were there before";
     }
     text
 }
@@ -95,12 +111,16 @@ pub fn progress_text(progress: &StudyProgress) -> String {
 /// Writes a duration: `2 min 5 s`.
 pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs();
-    let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
-    match (hours, minutes) {
-        (0, 0) => format!("{seconds} s"),
-        (0, _) => format!("{minutes} min {} s", seconds % 60),
-        (48.., _) => format!("{} d {} h", hours / 24, hours % 24),
-        _ => format!("{hours} h {minutes} min"),
+    let minutes = seconds / 60;
+    let hours = minutes / 60;
+    if hours >= 48 {
+        format!("{} d {} h", hours / 24, hours % 24)
+    } else if hours > 0 {
+        format!("{hours} h {} min", minutes % 60)
+    } else if minutes > 0 {
+        format!("{minutes} min {} s", seconds % 60)
+    } else {
+        format!("{seconds} s")
     }
 }
 

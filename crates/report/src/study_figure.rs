@@ -6,13 +6,16 @@ use asperity_plot::{
     Span, Stroke, value_label,
 };
 use asperity_scene::Regime;
-use asperity_study::maps::Grid;
-use asperity_study::{Quantity, Statistics};
+use asperity_study::maps::{Grid, GridLayer};
+use asperity_study::{Axis, Quantity, Statistics};
 
 /// Smallest number of decades of a quantity that gets a second, logarithmic chart.
 const DECADES_FOR_SECOND: f64 = 1.5;
-/// Largest number of decades of a logarithmic axis and of the colour scale of a map.
+
+/// Largest number of decades of a logarithmic axis.
 const MOST_DECADES: f64 = 12.0;
+
+/// Largest number of decades of the colour scale of a map.
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
 /// Upper end, in units of the largest mean, above which a confidence interval is not drawn. Few
@@ -22,22 +25,45 @@ const MOST_OF_BAND: f64 = 2.0;
 /// Smallest ratio of the ranges of both signs whose colours show the sign.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
-/// Regimes on a map, each with its sign in a picture, letter in a terminal, and ink.
-const REGIMES: [(Regime, Sign, char, Ink); 3] = [
-    (Regime::PressureInsensitive, Sign::Dot, 'i', Ink::Surface),
-    (Regime::PressureSensitive, Sign::Up, 's', Ink::Manual),
-    (Regime::NonAdhesive, Sign::Cross, 'n', Ink::Quiet),
+/// How a regime is shown on a map.
+struct RegimeMark {
+    regime: Regime,
+    /// Sign in a picture.
+    sign: Sign,
+    /// Letter in a terminal.
+    letter: char,
+    ink: Ink,
+}
+
+const REGIMES: [RegimeMark; 3] = [
+    RegimeMark {
+        regime: Regime::PressureInsensitive,
+        sign: Sign::Dot,
+        letter: 'i',
+        ink: Ink::Surface,
+    },
+    RegimeMark {
+        regime: Regime::PressureSensitive,
+        sign: Sign::Up,
+        letter: 's',
+        ink: Ink::Manual,
+    },
+    RegimeMark {
+        regime: Regime::NonAdhesive,
+        sign: Sign::Cross,
+        letter: 'n',
+        ink: Ink::Quiet,
+    },
 ];
 
 /// Returns a figure with these charts of a parameter study. Lines below the title give the values
 /// on those axes of the study that do not vary in the charts.
 pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
     let statements = grid.fixed.iter().map(|fixed| Label::statement(fixed));
-    let fixed = statements.reduce(|line, statement| line.then(", ").join(&statement));
-    let (title, notes) = (title.into(), fixed.into_iter().collect());
+    let note = statements.reduce(|line, statement| line.then(", ").join(&statement));
     Figure {
-        title,
-        notes,
+        title: title.into(),
+        notes: note.into_iter().collect(),
         charts,
         size: Figure::SMALL,
         ..Figure::default()
@@ -49,87 +75,117 @@ pub fn study_figure(title: &str, grid: &Grid, charts: Vec<Chart>) -> Figure {
 /// of adhesion. If `whole` is true, a cell that is not computed yet shows the value of a computed
 /// cell nearby.
 pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> {
-    let (across, up) = (&grid.across, grid.up.as_ref()?);
-    let values = means(&grid.statistics(quantity, whole));
-    let layer = grid.layer(quantity);
-    let scale = layer.map_or(AxisScale::Linear, |layer| layer.scale);
-    let ends = layer.map_or(Some((0.0, 1.0)), |layer| layer.range);
-    let ends = ends.map_or_else(Vec::new, |(low, high)| vec![low, high]);
-    // Both signs of a quantity have colours of their own, unless one of them is rare.
-    let (shades, range) = match ends.as_slice() {
-        [low, high] if -low > LEAST_OF_A_SIGN * high && *high > -LEAST_OF_A_SIGN * low => (
-            Shades::Diverging,
-            Span::around([-low, *low, *high, -high].into_iter(), 0.0),
-        ),
-        _ => (
-            Shades::Sequential,
-            Span::of_values(scale, ends.into_iter(), MOST_DECADES_OF_MAP),
-        ),
-    };
-    let class =
-        |regime: &Option<Regime>| REGIMES.iter().position(|(one, ..)| Some(*one) == *regime);
-    // The axis of a regime names its protocol; beside other quantities letters show the regime from
-    // first touch.
-    let letters_of = match quantity.is_regime() {
-        true => String::new(),
-        false => format!(" ({})", quantity.short_protocol()),
-    };
-    let class_names = REGIMES.map(|(regime, sign, letter, ink)| Class {
-        sign,
-        letter: Some(letter),
-        name: format!("{}{letters_of}", regime.name()),
-        ink,
+    let across = &grid.across;
+    let up = grid.up.as_ref()?;
+    let shading = Shading::new(grid.layer(quantity));
+    let contour = vanishing(grid, quantity).map(|share| Contour {
+        name: vanishing_label(share),
+        field: means(&grid.statistics(share, whole)),
+        level: Regime::VANISHING_SHARE,
     });
     let map = HeatMap {
         columns: across.values.clone(),
         rows: up.values.clone(),
-        values,
-        key: axis_of(quantity, scale, range),
-        shades,
-        classes: grid.regimes(quantity, whole).iter().map(class).collect(),
-        class_names: class_names.to_vec(),
-        contour: vanishing(grid, quantity).map(|share| Contour {
-            name: vanishing_label(share),
-            field: means(&grid.statistics(share, whole)),
-            level: Regime::VANISHING_SHARE,
-        }),
+        values: means(&grid.statistics(quantity, whole)),
+        key: quantity_axis(quantity, shading.scale, shading.span),
+        shades: shading.shades,
+        classes: classes(&grid.regimes(quantity, whole)),
+        class_names: class_names(quantity),
+        contour,
     };
+    let layer = Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)));
     Some(Chart {
         heading: heading(quantity),
-        x: axis_over(across, HeatMap::span(across.scale(), &across.values)),
-        y: axis_over(up, HeatMap::span(up.scale(), &up.values)),
-        layers: vec![Layer::unnamed(Ink::Text, Shape::Map(Box::new(map)))],
+        x: study_axis(across, HeatMap::span(across.scale(), &across.values)),
+        y: study_axis(up, HeatMap::span(up.scale(), &up.values)),
+        layers: vec![layer],
     })
+}
+
+/// Colours of a map: their scale, and the span of values that they show.
+struct Shading {
+    scale: AxisScale,
+    shades: Shades,
+    span: Span,
+}
+
+impl Shading {
+    /// Returns the colours of a layer of a grid. Without a layer they are for values from 0 to 1.
+    fn new(layer: Option<&GridLayer>) -> Self {
+        let (scale, range) = match layer {
+            Some(layer) => (layer.scale, layer.range),
+            None => (AxisScale::Linear, Some((0.0, 1.0))),
+        };
+        // Both signs of a quantity have colours of their own, unless one of them is rare.
+        if let Some((low, high)) = range
+            && -low > LEAST_OF_A_SIGN * high
+            && high > -LEAST_OF_A_SIGN * low
+        {
+            return Shading {
+                scale,
+                shades: Shades::Diverging,
+                span: Span::around([-low, low, high, -high].into_iter(), 0.0),
+            };
+        }
+        let ends = range.into_iter().flat_map(|(low, high)| [low, high]);
+        Shading {
+            scale,
+            shades: Shades::Sequential,
+            span: Span::of_values(scale, ends, MOST_DECADES_OF_MAP),
+        }
+    }
+}
+
+/// Returns the index of each regime in [`REGIMES`]; `None` for a cell without a regime.
+fn classes(regimes: &[Option<Regime>]) -> Vec<Option<usize>> {
+    let mut classes = Vec::with_capacity(regimes.len());
+    for regime in regimes {
+        classes.push(REGIMES.iter().position(|mark| Some(mark.regime) == *regime));
+    }
+    classes
+}
+
+/// Returns the regimes in the legend of a map of a quantity.
+fn class_names(quantity: Quantity) -> Vec<Class> {
+    // The axis of a regime names its protocol; beside other quantities letters show the regime from
+    // first touch.
+    let protocol = if quantity.is_regime() {
+        String::new()
+    } else {
+        format!(" ({})", quantity.short_protocol())
+    };
+    let mut names = Vec::with_capacity(REGIMES.len());
+    for mark in &REGIMES {
+        names.push(Class {
+            sign: mark.sign,
+            letter: Some(mark.letter),
+            name: format!("{}{protocol}", mark.regime.name()),
+            ink: mark.ink,
+        });
+    }
+    names
 }
 
 /// Returns a chart of a quantity over the first axis of `grid`, with a curve for each value of the
 /// second axis. If the vertical axis is linear and the largest mean is at least 10^1.5 times the
 /// smallest mean above zero, a second chart with a logarithmic vertical axis follows.
 pub fn study_curves(grid: &Grid, quantity: Quantity) -> Vec<Chart> {
-    let across = &grid.across;
     let scale = grid
         .layer(quantity)
         .map_or(AxisScale::Linear, |layer| layer.scale);
     let estimates = grid.statistics(quantity, false);
-    let places = coordinates(across);
-    let layers = layers(grid, quantity, &estimates);
-    let is_small = scale == AxisScale::Linear && spans_decades(&estimates);
-    let chart = |scale: AxisScale| {
-        let x = axis_over(across, Span::around(places.iter().copied(), 0.03));
-        let y = axis_of(quantity, scale, range(grid, quantity, &estimates, scale));
-        let scale = if is_small && scale == AxisScale::Logarithmic {
-            ", logarithmic scale"
-        } else {
-            ""
-        };
-        Chart {
-            heading: heading(quantity).then(scale),
-            ..Chart::new(x, y, layers.clone())
-        }
+    let curves = Curves {
+        grid,
+        quantity,
+        estimates: &estimates,
     };
-    std::iter::once(chart(scale))
-        .chain(is_small.then(|| chart(AxisScale::Logarithmic)))
-        .collect()
+    let first = curves.chart(scale);
+    if scale != AxisScale::Linear || !spans_decades(&estimates) {
+        return vec![first];
+    }
+    let second = curves.chart(AxisScale::Logarithmic);
+    let heading = second.heading.clone().then(", logarithmic scale");
+    vec![first, Chart { heading, ..second }]
 }
 
 fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
@@ -139,37 +195,36 @@ fn means(estimates: &[Option<Statistics>]) -> Vec<Option<f64>> {
         .collect()
 }
 
-fn coordinates(axis: &asperity_study::Axis) -> Vec<f64> {
+fn coordinates(axis: &Axis) -> Vec<f64> {
+    let scale = axis.scale();
     axis.values
         .iter()
-        .map(|value| axis.scale().coordinate(*value))
+        .map(|value| scale.coordinate(*value))
         .collect()
 }
 
-fn axis_over(axis: &asperity_study::Axis, span: Span) -> ChartAxis {
+fn study_axis(axis: &Axis, span: Span) -> ChartAxis {
     ChartAxis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
+/// Returns the name of a quantity in words, with hyphens where the name of the column has none.
 fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
     }
-    let hyphenated = [
-        ("first touch", "first-touch"),
-        ("zero force a", "zero-force a"),
-        ("pull off", "pull-off"),
-    ];
-    let name = quantity.name().replace('_', " ");
-    hyphenated
-        .iter()
-        .fold(name, |name, (words, word)| name.replace(words, word))
+    quantity
+        .name()
+        .replace('_', " ")
+        .replace("first touch", "first-touch")
+        .replace("zero force a", "zero-force a")
+        .replace("pull off", "pull-off")
 }
 
 fn heading(quantity: Quantity) -> Label {
     Label::quantity(&name(quantity), quantity.symbol())
 }
 
-fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
+fn quantity_axis(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
     let name = if quantity.symbol().is_empty() {
         name(quantity)
     } else {
@@ -182,151 +237,189 @@ fn axis_of(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis {
 /// is the quantity itself, or the first recorded one.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
-    let own = shares.contains(&quantity).then_some(quantity);
-    own.or_else(|| {
-        shares
-            .into_iter()
-            .find(|share| grid.layer(*share).is_some())
-    })
+    if shares.contains(&quantity) {
+        return Some(quantity);
+    }
+    shares
+        .into_iter()
+        .find(|share| grid.layer(*share).is_some())
 }
 
 /// Returns the name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
-    let (force, ideal) = share
-        .symbol()
-        .split_once('/')
-        .unwrap_or((share.symbol(), ""));
+    let symbol = share.symbol();
+    let (force, ideal) = symbol.split_once('/').unwrap_or((symbol, ""));
     Label::symbol(&format!("{force} = {} {ideal}", Regime::VANISHING_SHARE))
-}
-
-fn range(
-    grid: &Grid,
-    quantity: Quantity,
-    estimates: &[Option<Statistics>],
-    scale: AxisScale,
-) -> Span {
-    let known = || estimates.iter().flatten();
-    let from = Span::of_values(scale, known().map(|estimate| estimate.mean), MOST_DECADES);
-    let ends = known().flat_map(|one| {
-        let ((low, high), [lower, _, upper]) = (one.ends(), one.quartiles);
-        let shown = if grid.up.is_none() { 5 } else { 3 };
-        [one.mean, low, high, lower, upper].into_iter().take(shown)
-    });
-    let all = Span::around(ends.map(|end| scale.coordinate(end)), 0.0);
-    match scale {
-        AxisScale::Linear if quantity.bounds().0 == 0.0 && from.low == 0.0 => {
-            let high = all.high.min(MOST_OF_BAND * from.high);
-            Span {
-                low: -0.03 * high,
-                high: 1.05 * high,
-            }
-        }
-        AxisScale::Linear => all.widened(0.05),
-        AxisScale::Logarithmic => {
-            let most = from.high + MOST_OF_BAND.log10();
-            Span {
-                high: all.high.clamp(from.high, most),
-                ..from
-            }
-            .widened(0.05)
-        }
-    }
 }
 
 /// Returns true if a quantity falls over too many decades for a linear scale.
 fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
-    let means = || estimates.iter().flatten().map(|estimate| estimate.mean);
-    let above = means().filter(|mean| *mean > 0.0);
-    let lowest = above.clone().fold(f64::INFINITY, f64::min);
-    let highest = above.fold(0.0, f64::max);
-    means().all(|mean| mean >= 0.0) && (highest / lowest).log10() >= DECADES_FOR_SECOND
-}
-
-/// Returns layers of the curves with their confidence intervals, and for a single curve also median
-/// and quartiles of the profiles. Vertical lines mark where adhesion without a preload vanishes.
-fn layers(grid: &Grid, quantity: Quantity, estimates: &[Option<Statistics>]) -> Vec<Layer> {
-    let places = &grid.across.values;
-    let curves: Vec<_> = estimates.chunks(places.len().max(1)).collect();
-    let mut layers = Vec::new();
-    let mut add = |name: Label, ink: Ink, sign: Sign, estimates: &[Option<Statistics>]| {
-        let known = || places.iter().copied().zip(estimates);
-        if estimates
-            .iter()
-            .flatten()
-            .any(|one| one.ends().0 < one.ends().1)
-        {
-            let ends =
-                |one: &Option<Statistics>| one.map_or((f64::NAN, f64::NAN), |one| one.ends());
-            let band = known()
-                .map(|(x, one)| (x, ends(one).0, ends(one).1))
-                .collect();
-            layers.push(Layer::new(
-                "95 % confidence of the mean".into(),
-                ink,
-                Shape::Band(band),
-            ));
-        }
-        let points = |of: fn(&Statistics) -> f64| {
-            known()
-                .map(move |(x, one)| (x, one.as_ref().map_or(f64::NAN, of)))
-                .collect::<Vec<_>>()
-        };
-        if grid.up.is_none() && estimates.iter().flatten().any(|one| one.count > 1) {
-            let band = points(|one| one.quartiles[0])
-                .into_iter()
-                .zip(points(|one| one.quartiles[2]));
-            let band = band
-                .map(|((x, lower), (_, upper))| (x, lower, upper))
-                .collect();
-            layers.push(Layer::new(
-                "quartiles of the profiles".into(),
-                Ink::Quiet,
-                Shape::Band(band),
-            ));
-            let median = Shape::line(points(|one| one.quartiles[1]), Stroke::Dashed);
-            layers.push(Layer::new("median".into(), Ink::Quiet, median));
-        }
-        let (points, stroke) = (points(|one| one.mean), Some(Stroke::Solid));
-        layers.push(Layer::new(
-            name,
-            ink,
-            Shape::Curve {
-                points,
-                stroke,
-                sign: Some(sign),
-            },
-        ));
-    };
-    match (&grid.up, curves.first()) {
-        // Curves that are equal to the last bit do not depend on the axis up.
-        (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
-            let symbol = Label::symbol_or_name(up.symbol, &up.name);
-            add(
-                Label::plain("any ").join(&symbol),
-                Ink::Quiet,
-                Sign::Dot,
-                first,
-            );
-        }
-        (Some(up), _) => {
-            for (number, (curve, value)) in curves.iter().zip(&up.values).enumerate() {
-                let name = value_label(&up.name, up.symbol, up.unit, *value);
-                add(name, Ink::Series(number), Sign::of_series(number), curve);
-            }
-        }
-        (None, first) => {
-            first
-                .into_iter()
-                .for_each(|curve| add("mean".into(), Ink::Series(0), Sign::Dot, curve));
+    let mut lowest = f64::INFINITY;
+    let mut highest: f64 = 0.0;
+    for estimate in estimates.iter().flatten() {
+        let mean = estimate.mean;
+        if mean > 0.0 {
+            lowest = lowest.min(mean);
+            highest = highest.max(mean);
+        } else if mean != 0.0 {
+            // A negative mean, or none, has no place on a logarithmic scale.
+            return false;
         }
     }
-    layers.extend(vanishing(grid, quantity).into_iter().flat_map(|share| {
-        let at = |crossing| Shape::Upright(grid.across.scale().number(crossing));
-        crossings(grid, share)
-            .into_iter()
-            .map(move |crossing| Layer::new(vanishing_label(share), Ink::Quiet, at(crossing)))
-    }));
-    layers
+    (highest / lowest).log10() >= DECADES_FOR_SECOND
+}
+
+/// Estimates of a quantity in all cells of a grid, drawn as curves over the first axis.
+struct Curves<'a> {
+    grid: &'a Grid,
+    quantity: Quantity,
+    estimates: &'a [Option<Statistics>],
+}
+
+impl Curves<'_> {
+    /// Returns the chart of all curves with this vertical scale.
+    fn chart(&self, scale: AxisScale) -> Chart {
+        let across = &self.grid.across;
+        let places = coordinates(across);
+        let x = study_axis(across, Span::around(places.into_iter(), 0.03));
+        let y = quantity_axis(self.quantity, scale, self.span(scale));
+        Chart {
+            heading: heading(self.quantity),
+            ..Chart::new(x, y, self.layers())
+        }
+    }
+
+    /// Returns the span of the vertical axis. It has room for the means, for confidence intervals
+    /// that are not very wide, and for the quartiles of a single curve.
+    fn span(&self, scale: AxisScale) -> Span {
+        let known = || self.estimates.iter().flatten();
+        let of_means = known().map(|estimate| estimate.mean);
+        let means = Span::of_values(scale, of_means, MOST_DECADES);
+        let mut ends = Vec::new();
+        for estimate in known() {
+            let (low, high) = estimate.ends();
+            ends.extend([estimate.mean, low, high]);
+            if self.is_single() {
+                let [lower, _, upper] = estimate.quartiles;
+                ends.extend([lower, upper]);
+            }
+        }
+        let all = Span::around(ends.into_iter().map(|end| scale.coordinate(end)), 0.0);
+        if scale == AxisScale::Logarithmic {
+            let most = means.high + MOST_OF_BAND.log10();
+            let high = all.high.clamp(means.high, most);
+            return Span { high, ..means }.widened(0.05);
+        }
+        let (least, _) = self.quantity.bounds();
+        if least == 0.0 && means.low == 0.0 {
+            let high = all.high.min(MOST_OF_BAND * means.high);
+            return Span {
+                low: -0.03 * high,
+                high: 1.05 * high,
+            };
+        }
+        all.widened(0.05)
+    }
+
+    /// Returns true for a single curve, which is drawn with the spread of the profiles.
+    fn is_single(&self) -> bool {
+        self.grid.up.is_none()
+    }
+
+    /// Returns layers of the curves with their confidence intervals, and for a single curve also
+    /// median and quartiles of the profiles. Vertical lines mark where adhesion without a preload
+    /// vanishes.
+    fn layers(&self) -> Vec<Layer> {
+        let places = self.grid.across.values.len();
+        let curves: Vec<_> = self.estimates.chunks(places.max(1)).collect();
+        let mut layers = Vec::new();
+        match (&self.grid.up, curves.first()) {
+            // Curves that are equal to the last bit do not depend on the axis up.
+            (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
+                let symbol = Label::symbol_or_name(up.symbol, &up.name);
+                let name = Label::plain("any ").join(&symbol);
+                self.add_curve(&mut layers, name, Ink::Quiet, Sign::Dot, first);
+            }
+            (Some(up), _) => {
+                for (number, (curve, value)) in curves.iter().zip(&up.values).enumerate() {
+                    let name = value_label(&up.name, up.symbol, up.unit, *value);
+                    let ink = Ink::Series(number);
+                    let sign = Sign::of_series(number);
+                    self.add_curve(&mut layers, name, ink, sign, curve);
+                }
+            }
+            (None, Some(curve)) => {
+                self.add_curve(&mut layers, "mean".into(), Ink::Series(0), Sign::Dot, curve);
+            }
+            (None, None) => {}
+        }
+        if let Some(share) = vanishing(self.grid, self.quantity) {
+            for crossing in crossings(self.grid, share) {
+                let place = Shape::Upright(self.grid.across.scale().number(crossing));
+                layers.push(Layer::new(vanishing_label(share), Ink::Quiet, place));
+            }
+        }
+        layers
+    }
+
+    /// Adds the layers of one curve. A cell without an estimate interrupts it.
+    fn add_curve(
+        &self,
+        layers: &mut Vec<Layer>,
+        name: Label,
+        ink: Ink,
+        sign: Sign,
+        estimates: &[Option<Statistics>],
+    ) {
+        let known = || estimates.iter().flatten();
+        let has_interval = known().any(|estimate| estimate.ends().0 < estimate.ends().1);
+        if has_interval {
+            let band = self.band(estimates, Statistics::ends);
+            let name = "95 % confidence of the mean".into();
+            layers.push(Layer::new(name, ink, band));
+        }
+        if self.is_single() && known().any(|estimate| estimate.count > 1) {
+            let quartiles = self.band(estimates, |estimate| {
+                let [lower, _, upper] = estimate.quartiles;
+                (lower, upper)
+            });
+            let name = "quartiles of the profiles".into();
+            layers.push(Layer::new(name, Ink::Quiet, quartiles));
+            let median = self.points(estimates, |estimate| estimate.quartiles[1]);
+            let median = Shape::line(median, Stroke::Dashed);
+            layers.push(Layer::new("median".into(), Ink::Quiet, median));
+        }
+        let mean = Shape::Curve {
+            points: self.points(estimates, |estimate| estimate.mean),
+            stroke: Some(Stroke::Solid),
+            sign: Some(sign),
+        };
+        layers.push(Layer::new(name, ink, mean));
+    }
+
+    /// Returns a number of each estimate over the first axis; NaN where there is no estimate.
+    fn points(
+        &self,
+        estimates: &[Option<Statistics>],
+        number: fn(&Statistics) -> f64,
+    ) -> Vec<(f64, f64)> {
+        let mut points = Vec::with_capacity(estimates.len());
+        for (place, estimate) in self.grid.across.values.iter().zip(estimates) {
+            points.push((*place, estimate.as_ref().map_or(f64::NAN, number)));
+        }
+        points
+    }
+
+    /// Returns a band between two numbers of each estimate over the first axis; NaN where there is
+    /// no estimate.
+    fn band(&self, estimates: &[Option<Statistics>], ends: fn(&Statistics) -> (f64, f64)) -> Shape {
+        let mut band = Vec::with_capacity(estimates.len());
+        for (place, estimate) in self.grid.across.values.iter().zip(estimates) {
+            let (low, high) = estimate.as_ref().map_or((f64::NAN, f64::NAN), ends);
+            band.push((*place, low, high));
+        }
+        Shape::Band(band)
+    }
 }
 
 /// Returns the coordinates on the horizontal axis at which F_a(d=0)/F_a,max vanishes.
@@ -339,16 +432,20 @@ fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     if curves.any(|curve| Some(curve) != first) {
         return Vec::new();
     }
-    let ends = places.windows(2).zip(first.unwrap_or_default().windows(2));
-    ends.filter_map(|(x, value)| {
-        let (first, second) = (
-            value[0]? - Regime::VANISHING_SHARE,
-            value[1]? - Regime::VANISHING_SHARE,
-        );
-        let crosses = (first < 0.0) != (second < 0.0);
-        crosses.then(|| x[0] + (x[1] - x[0]) * first / (first - second))
-    })
-    .collect()
+    let mut crossings = Vec::new();
+    let shares = first.unwrap_or_default().windows(2);
+    for (place, share) in places.windows(2).zip(shares) {
+        let [Some(before), Some(after)] = *share else {
+            continue;
+        };
+        let before = before - Regime::VANISHING_SHARE;
+        let after = after - Regime::VANISHING_SHARE;
+        if (before < 0.0) != (after < 0.0) {
+            let width = place[1] - place[0];
+            crossings.push(place[0] + width * before / (before - after));
+        }
+    }
+    crossings
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::ensemble::{headline, rounded};
 use crate::sheet::Sheet;
-use crate::trust::trust;
+use crate::trust::add_trust;
 use crate::warnings::{counted_section, warnings_section};
 use asperity_contact::{Move, Work};
 use asperity_data::{Warning, format_quantity, grouped};
@@ -16,192 +16,191 @@ use asperity_study::{Ensemble, Quantity};
 /// are counted.
 const MOST_STAGES: usize = 8;
 
-/// Returns the results of a scene as plain text of at most 80 columns. Results over random profiles
-/// come first, if they are computed. Results on the own profile follow, with the estimated error of
-/// the adhesion force and the number of springs for a tolerance, if they are given. `deviation` is
-/// the deviation of the adhesion force due to the spectrum of a measured surface, in N.
-pub(crate) fn summary(
-    scene: &Scene,
-    outcome: &Outcome,
-    estimate: Option<&Estimate>,
-    choice: Option<&Choice>,
-    ensemble: Option<&Ensemble>,
-    deviation: Option<f64>,
-) -> String {
-    let mut sheet = Sheet::default();
-    sheet.paragraph(&scene.title);
-    sheet.paragraph(&scene.notice);
-    match ensemble {
-        Some(ensemble) => counted_section(&mut sheet, &ensemble.warnings(), ensemble.profiles()),
-        None => warnings_section(&mut sheet, &outcome.warnings),
-    }
-    match ensemble {
-        Some(ensemble) => headline(&mut sheet, ensemble),
-        None if scene.seed().is_none() => sheet.heading(Ensemble::FIXED),
-        None => {}
-    }
-    line(&mut sheet, outcome);
-    bodies(&mut sheet, outcome);
-    adhesion(&mut sheet, scene, outcome, estimate);
-    trust(&mut sheet, (scene, outcome), estimate, ensemble, deviation);
-    contact(&mut sheet, outcome);
-    cost(&mut sheet, &outcome.history.work, &outcome.timings);
-    if let Some(choice) = choice {
-        let mut sentence = choice.sentence();
-        if outcome.warnings.iter().any(Warning::leaves_errors_unknown) {
-            sentence += " It does not include what follows from the warnings above.";
+/// Results of a scene that are summed up for a reader.
+#[derive(Clone, Copy)]
+pub(crate) struct Summary<'a> {
+    pub(crate) scene: &'a Scene,
+    /// Results on the own profile of the scene.
+    pub(crate) outcome: &'a Outcome,
+    /// Estimated error of the adhesion force; `None` if it is unknown.
+    pub(crate) estimate: Option<&'a Estimate>,
+    /// How the number of springs was chosen for a tolerance; `None` without a tolerance.
+    pub(crate) choice: Option<&'a Choice>,
+    /// Results over random profiles; `None` if they were not computed.
+    pub(crate) ensemble: Option<&'a Ensemble>,
+    /// Deviation of the adhesion force due to the spectrum of a measured surface, in N; `None` if
+    /// it was not computed.
+    pub(crate) deviation: Option<f64>,
+}
+
+impl Summary<'_> {
+    /// Returns the results as plain text of at most 80 columns. Results over random profiles come
+    /// first, results on the own profile follow.
+    pub(crate) fn text(&self) -> String {
+        let outcome = self.outcome;
+        let mut sheet = Sheet::default();
+        sheet.paragraph(&self.scene.title);
+        sheet.paragraph(&self.scene.notice);
+        match self.ensemble {
+            Some(ensemble) => {
+                counted_section(&mut sheet, &ensemble.warnings(), ensemble.profiles());
+                headline(&mut sheet, ensemble);
+            }
+            None => {
+                warnings_section(&mut sheet, &outcome.warnings);
+                if self.scene.seed().is_none() {
+                    sheet.heading(Ensemble::FIXED);
+                }
+            }
         }
-        sheet.heading(&sentence);
+        add_line(&mut sheet, outcome);
+        add_bodies(&mut sheet, outcome);
+        self.add_adhesion(&mut sheet);
+        add_trust(
+            &mut sheet,
+            self.scene,
+            outcome,
+            self.estimate,
+            self.ensemble,
+            self.deviation,
+        );
+        add_contact(&mut sheet, outcome);
+        add_cost(&mut sheet, &outcome.history.work, &outcome.timings);
+        if let Some(choice) = self.choice {
+            let mut sentence = choice.sentence();
+            if outcome.warnings.iter().any(Warning::leaves_errors_unknown) {
+                sentence += " It does not include what follows from the warnings above.";
+            }
+            sheet.heading(&sentence);
+        }
+        sheet.into_text()
     }
-    sheet.into_text()
+
+    fn add_adhesion(&self, sheet: &mut Sheet) {
+        let outcome = self.outcome;
+        let figures = &outcome.figures;
+        sheet.heading("Adhesion");
+        sheet.row("loading", loading(&self.scene.loading));
+        add_deciding_shares(sheet, outcome);
+        sheet.quantity("preload F_n", figures.preload, "N");
+        sheet.quantity("at indentation", figures.preload_indentation, "m");
+        let error = match self.estimate {
+            Some(estimate) => format!(", {}", estimate.words()),
+            None if figures.adhesion_force.is_some() => ", error unknown".to_owned(),
+            None => String::new(),
+        };
+        sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
+        sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
+        sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
+        let share = outcome
+            .adhesion_share()
+            .map(|share| rounded(Quantity::AdhesionShare, share, 4));
+        sheet.row_of("share F_a/F_a,max", share);
+        let at_touch = outcome.first_touch_adhesion_force;
+        sheet.quantity("at first touch F_a(d=0)", at_touch, "N");
+        let at_zero_force = outcome.zero_force_adhesion_force;
+        sheet.quantity("at zero force F_a(F=0)", at_zero_force, "N");
+        sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
+        let wave_ratio = outcome.steep_waves.map(|waves| waves.ratio);
+        sheet.quantity("λ²/(AR)", wave_ratio, "1");
+        sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
+        add_dissipated_energy(sheet, outcome);
+        if let Some(instrument) = outcome.instrument {
+            sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
+            let displacement = instrument.pull_off_displacement;
+            sheet.quantity("pull-off displacement", displacement, "m");
+            sheet.quantity("loop area ∮F dD", instrument.loop_area, "J");
+        }
+    }
 }
 
 /// Returns the main results of a computed scene as text: title, κ, e_el/γ, regime, preload,
 /// adhesion forces and dissipated energy.
 pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
-    let figures = &outcome.figures;
+    let at_touch = outcome.first_touch_adhesion_force;
     let mut sheet = Sheet::default();
     sheet.paragraph(&scene.title);
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", outcome.governing.kappa, "1");
     sheet.quantity("e_el/γ", outcome.governing.elastic_energy_ratio, "1");
     sheet.row("regime", regime(outcome));
-    sheet.quantity("preload F_n", figures.preload, "N");
+    sheet.quantity("preload F_n", outcome.figures.preload, "N");
     sheet.row("adhesion force F_a", adhesion_force(outcome));
-    sheet.quantity(
-        "at first touch F_a(d=0)",
-        outcome.first_touch_adhesion_force,
-        "N",
-    );
-    dissipated_energy(&mut sheet, outcome);
+    sheet.quantity("at first touch F_a(d=0)", at_touch, "N");
+    add_dissipated_energy(&mut sheet, outcome);
     warnings_section(&mut sheet, &outcome.warnings);
     sheet.into_text()
 }
 
-fn quantity(value: Option<f64>, unit: &str) -> Option<String> {
-    value.map(|value| format_quantity(value, unit))
-}
-
-fn line(sheet: &mut Sheet, outcome: &Outcome) {
-    let (facts, amplitude) = (&outcome.line, outcome.governing.amplitude);
+fn add_line(sheet: &mut Sheet, outcome: &Outcome) {
+    let facts = &outcome.line;
     // The numbers from here on are those of one profile.
-    sheet.heading(&facts.seed.map_or("Profile".to_owned(), |seed| {
-        format!("Profile of seed {seed}")
-    }));
-    sheet.row("springs N", grouped(facts.points as u64));
-    let under_body = outcome.history.work.springs;
-    if under_body != facts.points as u64 {
-        sheet.row("below the form", grouped(under_body));
+    match facts.seed {
+        Some(seed) => sheet.heading(&format!("Profile of seed {seed}")),
+        None => sheet.heading("Profile"),
+    }
+    let springs = facts.points as u64;
+    sheet.row("springs N", grouped(springs));
+    let springs_under_body = outcome.history.work.springs;
+    if springs_under_body != springs {
+        sheet.row("below the form", grouped(springs_under_body));
     }
     sheet.quantity("length L", facts.length, "m");
     sheet.quantity("spacing Δx", facts.spacing, "m");
     if let Some((first, last)) = facts.modes {
-        sheet.row("modes", format!("{} to {}", first, grouped(last)));
-        let [longest, shortest] =
-            [first, last].map(|mode| format_quantity(facts.length / mode as f64, "m"));
+        sheet.row("modes", format!("{first} to {}", grouped(last)));
+        let longest = format_quantity(facts.length / first as f64, "m");
+        let shortest = format_quantity(facts.length / last as f64, "m");
         sheet.row("waves", format!("{longest} to {shortest}"));
     }
-    match amplitude {
-        None => sheet.row("roughness", "none"),
-        Some(amplitude) => {
-            sheet.quantity("rms height h", amplitude.rms_height, "m");
-            let dense = facts
-                .continuum_rms_gradient
-                .filter(|&gradient| gradient > 0.0);
-            let dense = quantity(dense, "1").map_or_else(String::new, |gradient| {
-                format!(" (by the integrals of eq. 12: {gradient})")
-            });
-            sheet.row(
-                "rms gradient ⟨∇z⟩",
-                format_quantity(amplitude.rms_gradient, "1") + &dense,
-            );
-        }
+    let Some(amplitude) = outcome.governing.amplitude else {
+        sheet.row("roughness", "none");
+        return;
+    };
+    sheet.quantity("rms height h", amplitude.rms_height, "m");
+    let mut gradient = format_quantity(amplitude.rms_gradient, "1");
+    if let Some(continuum) = facts.continuum_rms_gradient
+        && continuum > 0.0
+    {
+        let continuum = format_quantity(continuum, "1");
+        gradient += &format!(" (by the integrals of eq. 12: {continuum})");
     }
+    sheet.row("rms gradient ⟨∇z⟩", gradient);
 }
 
-fn bodies(sheet: &mut Sheet, outcome: &Outcome) {
+fn add_bodies(sheet: &mut Sheet, outcome: &Outcome) {
     let governing = &outcome.governing;
     sheet.heading("Bodies");
     sheet.quantity("effective modulus E*", governing.effective_modulus, "Pa");
-    let work = quantity(governing.work_of_adhesion, "J/m²");
-    sheet.row("work of adhesion γ", work.unwrap_or_else(|| "none".into()));
+    match governing.work_of_adhesion {
+        Some(work) => sheet.quantity("work of adhesion γ", work, "J/m²"),
+        None => sheet.row("work of adhesion γ", "none"),
+    }
     sheet.quantity("on closing γ₁", governing.closing_work, "J/m²");
     sheet.quantity("elastic energy e_el", governing.elastic_energy(), "J/m²");
     sheet.quantity("κ = √(h⟨∇z⟩E*/γ)", governing.kappa, "1");
     sheet.quantity("e_el/γ", governing.elastic_energy_ratio, "1");
 }
 
-fn adhesion(sheet: &mut Sheet, scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) {
-    let figures = &outcome.figures;
-    sheet.heading("Adhesion");
-    sheet.row("loading", loading(&scene.loading));
-    deciding_shares(sheet, outcome);
-    sheet.quantity("preload F_n", figures.preload, "N");
-    sheet.quantity("at indentation", figures.preload_indentation, "m");
-    let force = figures.adhesion_force.is_some();
-    let error = estimate.map_or_else(
-        || force.then(|| "error unknown".to_owned()),
-        |one| Some(one.words()),
-    );
-    let error = error.map_or_else(String::new, |error| format!(", {error}"));
-    sheet.row("adhesion force F_a", adhesion_force(outcome) + &error);
-    sheet.quantity("pull-off indentation", figures.pull_off_indentation, "m");
-    sheet.quantity("coefficient F_a/F_n", figures.adhesion_coefficient, "1");
-    let share = outcome
-        .adhesion_share()
-        .map(|share| rounded(Quantity::AdhesionShare, share, 4));
-    sheet.row_of("share F_a/F_a,max", share);
-    sheet.quantity(
-        "at first touch F_a(d=0)",
-        outcome.first_touch_adhesion_force,
-        "N",
-    );
-    sheet.quantity(
-        "at zero force F_a(F=0)",
-        outcome.zero_force_adhesion_force,
-        "N",
-    );
-    sheet.quantity("smooth body F_smooth", outcome.smooth_adhesion_force, "N");
-    sheet.quantity("λ²/(AR)", outcome.steep_waves.map(|waves| waves.ratio), "1");
-    sheet.quantity("ideal F_a,max", outcome.ideal_adhesion_force, "N");
-    dissipated_energy(sheet, outcome);
-    if let Some(instrument) = outcome.instrument {
-        sheet.quantity("loading stiffness k", instrument.stiffness, "N/m");
-        sheet.quantity(
-            "pull-off displacement",
-            instrument.pull_off_displacement,
-            "m",
-        );
-        sheet.quantity("loop area ∮F dD", instrument.loop_area, "J");
-    }
-}
-
+/// Returns the regime of adhesion in words, with the protocol that decides it.
 fn regime(outcome: &Outcome) -> String {
-    let adhesive = outcome.governing.adhesive_work().is_some();
+    let is_adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
-        let why = if adhesive {
+        let reason = if is_adhesive {
             "not known: the loading does not pull the bodies off"
         } else {
             "none: no adhesion"
         };
-        return why.to_owned();
+        return reason.to_owned();
     };
-    if !adhesive {
-        return format!("{}: the scene has no adhesion", regime.name());
+    let name = regime.name();
+    if !is_adhesive {
+        return format!("{name}: the scene has no adhesion");
     }
-    let both = match outcome.regime_after_zero_force {
+    let both_protocols = match outcome.regime_after_zero_force {
         Some(other) if other != regime => {
-            let share = outcome
-                .zero_force_adhesion_force
-                .zip(outcome.figures.adhesion_force);
-            let percent = share.map_or(100.0, |(part, whole)| (100.0 * part / whole).round());
-            let already = if percent < 100.0 {
-                format!("{percent} % of F_a")
-            } else {
-                "full adhesion".to_owned()
-            };
+            let already = zero_force_adhesion(outcome);
             return format!(
-                "{} turned at first touch; turned at zero force already at {already}",
-                regime.name()
+                "{name} turned at first touch; turned at zero force already at {already}"
             );
         }
         Some(_) => " and at zero force",
@@ -212,177 +211,172 @@ fn regime(outcome: &Outcome) -> String {
         Regime::PressureSensitive => "adhesion is small without a preload",
         Regime::NonAdhesive => "almost no adhesion, also after the preload",
     };
-    format!("{} turned at first touch{both}: {meaning}", regime.name())
+    format!("{name} turned at first touch{both_protocols}: {meaning}")
 }
 
-fn deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
+/// Returns the adhesion after a turn at zero force in words: `62 % of F_a`, `full adhesion`.
+fn zero_force_adhesion(outcome: &Outcome) -> String {
+    let at_zero_force = outcome.zero_force_adhesion_force;
+    let percent = match (at_zero_force, outcome.figures.adhesion_force) {
+        (Some(part), Some(whole)) => (100.0 * part / whole).round(),
+        _ => 100.0,
+    };
+    if percent < 100.0 {
+        format!("{percent} % of F_a")
+    } else {
+        "full adhesion".to_owned()
+    }
+}
+
+/// Adds the regime, and the shares of adhesion that decide it.
+fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", regime(outcome));
     if outcome.regime.is_none() {
         return;
     }
-    let (first_touch, adhesion) = (
-        outcome.first_touch_adhesion_force,
-        outcome.figures.adhesion_force,
-    );
-    let (zero_force, smooth) = (
-        outcome.zero_force_adhesion_force,
-        outcome.smooth_adhesion_force,
-    );
+    let adhesion = outcome.figures.adhesion_force;
     let preload = outcome.figures.preload;
-    let says = ["most of it", "less than half"];
-    share(
-        sheet,
-        "  F_a(d=0)/F_a",
-        first_touch,
-        adhesion,
-        Regime::INSENSITIVE_SHARE,
-        says,
-    );
-    let says = ["adhesion", "vanished"];
-    share(
+    let first_touch = outcome.first_touch_adhesion_force;
+    let zero_force = outcome.zero_force_adhesion_force;
+    let smooth = outcome.smooth_adhesion_force;
+
+    let of_whole = Threshold {
+        value: Regime::INSENSITIVE_SHARE,
+        reached: "most of it",
+        below: "less than half",
+    };
+    let of_smooth = Threshold {
+        value: Regime::VANISHING_SHARE,
+        reached: "adhesion",
+        below: "vanished",
+    };
+    add_share(sheet, "  F_a(d=0)/F_a", first_touch, adhesion, &of_whole);
+    add_share(
         sheet,
         "  F_a(d=0)/F_smooth",
         first_touch,
         smooth,
-        Regime::VANISHING_SHARE,
-        says,
+        &of_smooth,
     );
-    let says = ["most of it", "less than half"];
-    share(
-        sheet,
-        "  F_a(F=0)/F_a",
-        zero_force,
-        adhesion,
-        Regime::INSENSITIVE_SHARE,
-        says,
-    );
-    let says = ["adhesion", "vanished"];
-    share(
-        sheet,
-        "  F_a(F=0)/F_smooth",
-        zero_force,
-        smooth,
-        Regime::VANISHING_SHARE,
-        says,
-    );
-    if preload.is_some_and(|preload| preload <= 0.0) && first_touch != adhesion {
-        let says = ["adhesion without a preload", "vanished without a preload"];
-        share(
-            sheet,
-            "  F_a/F_smooth",
-            adhesion,
-            smooth,
-            Regime::VANISHING_SHARE,
-            says,
-        );
+    add_share(sheet, "  F_a(F=0)/F_a", zero_force, adhesion, &of_whole);
+    add_share(sheet, "  F_a(F=0)/F_smooth", zero_force, smooth, &of_smooth);
+
+    let has_no_preload = preload.is_some_and(|preload| preload <= 0.0);
+    if has_no_preload && first_touch != adhesion {
+        let without_preload = Threshold {
+            value: Regime::VANISHING_SHARE,
+            reached: "adhesion without a preload",
+            below: "vanished without a preload",
+        };
+        add_share(sheet, "  F_a/F_smooth", adhesion, smooth, &without_preload);
     }
-    let says = ["not negligible", "negligible"];
-    share(
-        sheet,
-        "  F_a/F_n",
-        adhesion,
-        preload,
-        Regime::NEGLIGIBLE_COEFFICIENT,
-        says,
-    );
+    let of_preload = Threshold {
+        value: Regime::NEGLIGIBLE_COEFFICIENT,
+        reached: "not negligible",
+        below: "negligible",
+    };
+    add_share(sheet, "  F_a/F_n", adhesion, preload, &of_preload);
 }
 
-/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion: `from_on`
-/// at or above the threshold, `below` otherwise.
-fn share(
+/// Share from which a conclusion holds.
+struct Threshold {
+    value: f64,
+    /// Conclusion for a share at or above the threshold.
+    reached: &'static str,
+    /// Conclusion for a smaller share.
+    below: &'static str,
+}
+
+/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion.
+fn add_share(
     sheet: &mut Sheet,
     label: &str,
     part: Option<f64>,
     whole: Option<f64>,
-    threshold: f64,
-    [from_on, below]: [&str; 2],
+    threshold: &Threshold,
 ) {
-    // A share of zero has no meaning.
-    let (Some(part), Some(whole)) = (part, whole.filter(|&whole| whole > 0.0)) else {
+    let (Some(part), Some(whole)) = (part, whole) else {
         return;
     };
+    // A share of zero has no meaning.
+    if whole.is_nan() || whole <= 0.0 {
+        return;
+    }
     // Products, as in the comparison of the regime itself.
-    let (side, says) = if part >= threshold * whole {
-        ("at least", from_on)
+    let (side, conclusion) = if part >= threshold.value * whole {
+        ("at least", threshold.reached)
     } else {
-        ("below", below)
+        ("below", threshold.below)
     };
     let share = format_quantity(part / whole, "1");
-    sheet.row(label, format!("{share}, {side} {threshold}: {says}"));
+    let value = threshold.value;
+    sheet.row(label, format!("{share}, {side} {value}: {conclusion}"));
 }
 
-/// Adds rows with the dissipated energy and the Tabor number, which shows whether the energy is
-/// valid.
-fn dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
-    let energy = outcome.figures.dissipated_energy;
+/// Adds the dissipated energy, and the Tabor number, which shows whether the energy is valid.
+fn add_dissipated_energy(sheet: &mut Sheet, outcome: &Outcome) {
+    let Some(energy) = outcome.figures.dissipated_energy else {
+        return;
+    };
     sheet.quantity("dissipated energy", energy, "J");
-    // The number shows whether the energy is valid.
-    sheet.quantity(
-        "Tabor number μ",
-        outcome.tabor_number.filter(|_| energy.is_some()),
-        "1",
-    );
+    sheet.quantity("Tabor number μ", outcome.tabor_number, "1");
 }
 
 fn adhesion_force(outcome: &Outcome) -> String {
-    quantity(outcome.figures.adhesion_force, "N")
-        .unwrap_or_else(|| "none: the loading does not pull the bodies off".into())
-}
-
-fn loading(legs: &[Move]) -> String {
-    let text = loading_text(legs, format_quantity);
-    match text.match_indices(", ").nth(MOST_STAGES - 1) {
-        Some((end, _)) => {
-            format!(
-                "{} and {} more stages",
-                &text[..=end],
-                text[end + 1..].split(", ").count()
-            )
-        }
-        None => text,
+    match outcome.figures.adhesion_force {
+        Some(force) => format_quantity(force, "N"),
+        None => "none: the loading does not pull the bodies off".to_owned(),
     }
 }
 
-fn contact(sheet: &mut Sheet, outcome: &Outcome) {
+/// Returns the loading in words. Stages after the first ones are counted.
+fn loading(stages: &[Move]) -> String {
+    let text = loading_text(stages, format_quantity);
+    let Some((end, _)) = text.match_indices(", ").nth(MOST_STAGES - 1) else {
+        return text;
+    };
+    let listed = &text[..=end];
+    let more = text[end + 1..].split(", ").count();
+    format!("{listed} and {more} more stages")
+}
+
+/// Adds the contact at the end of the loading.
+fn add_contact(sheet: &mut Sheet, outcome: &Outcome) {
     let Some(end) = outcome.history.legs.last().and_then(|leg| leg.curve.last()) else {
         return;
     };
     sheet.heading("At the end");
     sheet.quantity("indentation d", end.indentation, "m");
     if end.springs == 0 {
-        return sheet.row("contact", "none: separated");
+        sheet.row("contact", "none: separated");
+        return;
     }
     sheet.quantity("force F", end.force, "N");
-    let length = end.contact_length;
-    let share = format_quantity(100.0 * length / outcome.line.length, "1");
-    sheet.row(
-        "contact length",
-        format!("{}, {share} % of L", format_quantity(length, "m")),
-    );
+    let length = format_quantity(end.contact_length, "m");
+    let percent = format_quantity(100.0 * end.contact_length / outcome.line.length, "1");
+    sheet.row("contact length", format!("{length}, {percent} % of L"));
     sheet.row("contact patches", grouped(end.fragments));
 }
 
-fn cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
+/// Adds the work of the solver, and the computing times of its stages.
+fn add_cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     sheet.heading("Work");
     for (label, count) in counts(work) {
-        sheet.row_of(label, (count > 0).then(|| grouped(count)));
+        if count > 0 {
+            sheet.row(label, grouped(count));
+        }
     }
-    let Timings {
-        line,
-        tree,
-        passes,
-        curve,
-        without_preload,
-    } = *timings;
     let stages = [
-        ("line", line),
-        ("tree", tree),
-        ("loop", passes),
-        ("curve", curve),
-        ("without preload", without_preload),
+        ("line", timings.line),
+        ("tree", timings.tree),
+        ("loop", timings.passes),
+        ("curve", timings.curve),
+        ("without preload", timings.without_preload),
     ];
-    let stages =
-        stages.map(|(stage, seconds)| format!("{stage} {}", format_quantity(seconds, "s")));
+    let stages = stages.map(|(stage, seconds)| {
+        let time = format_quantity(seconds, "s");
+        format!("{stage} {time}")
+    });
     let total = format_quantity(timings.total(), "s");
     sheet.row("time", format!("{total}: {}", stages.join(", ")));
 }
@@ -450,7 +444,15 @@ mod tests {
     }
 
     fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
-        summary(scene, outcome, estimate, None, None, None)
+        let summary = Summary {
+            scene,
+            outcome,
+            estimate,
+            choice: None,
+            ensemble: None,
+            deviation: None,
+        };
+        summary.text()
     }
 
     #[test]

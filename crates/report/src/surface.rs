@@ -5,6 +5,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
 use crate::warnings::{sentences_section, warning_texts};
+use crate::words::whole_percent;
 use asperity_contact::Move;
 use asperity_data::{
     Kind, Table, Warning, format_quantity, format_range, grouped, path_name, per_cent,
@@ -13,16 +14,16 @@ use asperity_plot::Figure;
 use asperity_scene::{CheckedScene, Governing, Scene};
 use asperity_study::RegimeCounts;
 use asperity_study::trust::{MeasuredAdhesion, ProfileAdhesion};
-use asperity_surface::spectra::{Along, Bin, End, Node};
-use asperity_surface::{
-    Analysis, EquivalentLine, LineMoments, Moment, PointStatistics, ValueWithError,
-};
+use asperity_surface::spectra::{Bin, End, Node};
+use asperity_surface::{Analysis, EquivalentLine, Moment, PointStatistics, ValueWithError};
 use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
 
+/// Number of points per decade of wave numbers of the equivalent line in the table.
 const LINE_PER_DECADE: f64 = 10.0;
 
+/// Name of the spectrum of the equivalent line in the table.
 const LINE: &str = "equivalent line";
 
 /// Returns in words the median, quartiles and range of the adhesion force over random profiles that
@@ -31,15 +32,13 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
     let forces = computed
         .adhesion_force()
         .filter(|forces| forces.count >= 2)?;
-    let fit = computed
-        .fit_interval()
-        .map(|fit| format!(", fit error {}", format_range(fit, 2, "N")));
-    Some(format!(
-        "{} profiles: {}{}",
-        forces.count,
-        forces.words("N"),
-        fit.unwrap_or_default()
-    ))
+    let fit = match computed.fit_interval() {
+        Some(interval) => format!(", fit error {}", format_range(interval, 2, "N")),
+        None => String::new(),
+    };
+    let profiles = forces.count;
+    let words = forces.words("N");
+    Some(format!("{profiles} profiles: {words}{fit}"))
 }
 
 /// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of
@@ -64,7 +63,7 @@ pub struct SurfaceReport {
 impl SurfaceReport {
     /// Returns a warning if attraction has too long a range for the summits of the surface; `None`
     /// without a modulus and a work of adhesion.
-    fn of_tabor_number(&self) -> Option<Warning> {
+    fn tabor_warning(&self) -> Option<Warning> {
         let (scene, _) = self.adhesion.as_ref()?;
         let modes = self
             .line
@@ -81,55 +80,21 @@ impl SurfaceReport {
 impl Report for SurfaceReport {
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
-        for (number, MeasuredFace { files, analysis }) in self.faces.iter().enumerate() {
-            sheet.heading(if number == 0 {
+        for (number, face) in self.faces.iter().enumerate() {
+            let heading = if number == 0 {
                 "Measured surface"
             } else {
                 "Opposite face"
-            });
-            files
-                .iter()
-                .for_each(|file| sheet.row("file", file.describe()));
-            measured(&mut sheet, analysis);
-            sheet.heading("Self-affine fit");
-            self_affine(&mut sheet, analysis);
+            };
+            add_face(&mut sheet, heading, face);
         }
         sheet.heading("Equivalent line");
-        moments(&mut sheet, self);
-        let [low, high] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
-        let last = |analysis: &Analysis| analysis.isotropic.range()[1];
-        let analyses = self.faces.iter().map(|face| &face.analysis);
-        let end = match analyses.max_by(|one, other| last(one).total_cmp(&last(other))) {
-            Some(Analysis {
-                end: End::Continues(_),
-                ..
-            }) => "continued as a power law",
-            Some(Analysis {
-                ends_inside: true, ..
-            }) => "the spectrum ends inside the scan",
-            _ => "the last resolved wave; shorter ones are left out",
-        };
-        sheet.row("wavelengths", format!("{low} to {high} ({end})"));
-        let gradient = format_quantity(self.line.moments().rms_gradient.value * FRAC_1_SQRT_2, "1");
-        let energy = 100.0 * FRAC_2_PI;
-        sheet.row(
-            "the profile itself",
-            format!("⟨∇z⟩ = {gradient}, {energy:.0} % of e_el if used unchanged"),
-        );
+        self.add_moments(&mut sheet);
+        self.add_wavelengths(&mut sheet);
         if let Some((scene, computed)) = &self.adhesion {
-            adhesion(&mut sheet, scene, computed.as_ref());
+            add_adhesion(&mut sheet, scene, computed.as_ref());
         }
-        let mut warnings = Vec::new();
-        for (number, face) in self.faces.iter().enumerate() {
-            let whose = if number == 0 { "" } else { "opposite face: " };
-            warnings.extend(
-                face.warnings()
-                    .iter()
-                    .map(|warning| format!("{whose}{warning}")),
-            );
-        }
-        warnings.extend(self.of_tabor_number().iter().map(Warning::to_string));
-        sentences_section(&mut sheet, &warnings);
+        sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
     }
 
@@ -137,127 +102,225 @@ impl Report for SurfaceReport {
     /// analysis of the opposite body.
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         let (first, others) = self.faces.split_first()?;
-        let adhesion = self
-            .adhesion
-            .as_ref()
-            .and_then(|(scene, computed)| Some((scene, computed.as_ref()?)));
-        let adhesion = adhesion.map(|(scene, computed)| {
-            let [regimes, regimes_after_zero_force] = computed.regimes();
-            AdhesionJson {
-                length: scene.length,
-                springs: scene.numerics.points,
-                preload: preload(scene),
-                adhesion_force: computed
-                    .adhesion_force()
-                    .filter(|forces| forces.spread.is_some()),
-                fit_deviation: computed.fit_deviation(),
-                regimes,
-                regimes_after_zero_force,
-                lines: &computed.profiles,
-            }
-        });
-        let of_first = FaceJson::new(first);
-        let mut warnings = of_first.warnings;
-        warnings.extend(self.of_tabor_number().iter().map(Warning::to_string));
+        let adhesion = match &self.adhesion {
+            Some((scene, Some(computed))) => Some(AdhesionJson::new(scene, computed)),
+            _ => None,
+        };
+        let face = FaceJson::new(first);
+        let mut warnings = face.warnings;
+        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
         Some(Box::new(FaceJson {
             equivalent_line: Some(self.moments()),
             adhesion: Some(adhesion),
             opposite: others.first().map(|face| Box::new(FaceJson::new(face))),
             warnings,
-            ..of_first
+            ..face
         }))
     }
 
     /// Returns a table of the spectra. A row has the name of the spectrum, a wave number in rad/m,
     /// the power spectral density in m³, and the number of averaged waves.
     fn table(&self) -> Option<Table<'_>> {
-        let names = || {
-            self.faces
-                .iter()
-                .enumerate()
-                .flat_map(|(face, MeasuredFace { analysis, .. })| {
-                    analysis
-                        .spectra
-                        .iter()
-                        .map(move |(direction, bins)| (spectrum_name(face, *direction), bins))
-                })
-        };
-        let longest = names()
-            .map(|(name, _)| name.chars().count())
-            .fold(LINE.len(), usize::max);
-        let rows = move || {
-            let row = |name, bin: &Bin| (name, bin.wave_number, bin.power, Some(bin.waves));
-            let measured =
-                names().flat_map(move |(name, bins)| bins.iter().map(move |bin| row(name, bin)));
-            let line = wave_numbers(self.line.range(), LINE_PER_DECADE);
-            measured.chain(line.map(|q| (LINE, q, self.line.power(q), None)))
-        };
-        let table = Table::of(rows).with("spectrum", Kind::Text(longest), |row| row.0);
-        let table = table
-            .real("wave_number", |row| row.1)
-            .real("power", |row| row.2);
-        Some(table.real("waves", |row| row.3).done())
+        let mut longest = LINE.len();
+        for (number, face) in self.faces.iter().enumerate() {
+            for (direction, _) in &face.analysis.spectra {
+                let name = spectrum_name(number, *direction);
+                longest = longest.max(name.chars().count());
+            }
+        }
+        let rows = self.spectrum_rows();
+        let table = Table::of(move || rows.clone().into_iter())
+            .with("spectrum", Kind::Text(longest), |row| row.spectrum)
+            .real("wave_number", |row| row.wave_number)
+            .real("power", |row| row.power)
+            .real("waves", |row| row.waves);
+        Some(table.done())
     }
 
     fn figure(&self) -> Option<Figure> {
-        let files = self
-            .faces
-            .iter()
-            .flat_map(|face| &face.files)
-            .filter_map(|file| file.path.file_name());
-        let names: Vec<String> = files.map(|name| path_name(Path::new(name))).collect();
+        let mut names = Vec::new();
+        for file in self.faces.iter().flat_map(|face| &face.files) {
+            if let Some(name) = file.path.file_name() {
+                names.push(path_name(Path::new(name)));
+            }
+        }
         let analyses: Vec<&Analysis> = self.faces.iter().map(|face| &face.analysis).collect();
-        Some(Figure::of_chart(
-            &names.join(", "),
-            Spectra::of_faces(&analyses).chart(),
-        ))
+        let chart = Spectra::of_faces(&analyses).chart();
+        Some(Figure::of_chart(&names.join(", "), chart))
     }
 }
 
 impl SurfaceReport {
     /// Returns the moments of the equivalent line, and quantities that follow from them.
     fn moments(&self) -> [MomentRow; 6] {
-        let LineMoments {
-            rms_height,
-            rms_gradient,
-            height_gradient,
-            energy_per_modulus,
-            ..
-        } = self.line.moments();
-        let stiff = |moment: Moment| Some(moment.scaled(self.modulus?));
-        let over_work = |moment: Moment| Some(moment.scaled(1.0 / self.work?));
-        let energy = stiff(energy_per_modulus);
-        let row = |label, key, unit, value| MomentRow {
-            label,
-            key,
-            unit,
-            value,
-        };
+        let moments = self.line.moments();
+        let energy = self.times_modulus(moments.energy_per_modulus);
+        let stiff_height_gradient = self.times_modulus(moments.height_gradient);
+        // κ has half the relative error of h⟨∇z⟩.
+        let kappa = self.over_work(stiff_height_gradient).map(Moment::root);
         [
-            row("rms height h", "rms_height", "m", Some(rms_height)),
-            row("rms gradient ⟨∇z⟩", "rms_gradient", "1", Some(rms_gradient)),
-            row(
-                "e_el/E*",
-                "energy_per_modulus",
-                "m",
-                Some(energy_per_modulus),
-            ),
-            row("elastic energy e_el", "elastic_energy", "J/m²", energy),
-            // κ has half the relative error of h⟨∇z⟩.
-            row(
-                "κ",
-                "kappa",
-                "1",
-                stiff(height_gradient).and_then(over_work).map(Moment::root),
-            ),
-            row(
-                "e_el/γ",
-                "elastic_energy_ratio",
-                "1",
-                energy.and_then(over_work),
-            ),
+            MomentRow {
+                label: "rms height h",
+                key: "rms_height",
+                unit: "m",
+                value: Some(moments.rms_height),
+            },
+            MomentRow {
+                label: "rms gradient ⟨∇z⟩",
+                key: "rms_gradient",
+                unit: "1",
+                value: Some(moments.rms_gradient),
+            },
+            MomentRow {
+                label: "e_el/E*",
+                key: "energy_per_modulus",
+                unit: "m",
+                value: Some(moments.energy_per_modulus),
+            },
+            MomentRow {
+                label: "elastic energy e_el",
+                key: "elastic_energy",
+                unit: "J/m²",
+                value: energy,
+            },
+            MomentRow {
+                label: "κ",
+                key: "kappa",
+                unit: "1",
+                value: kappa,
+            },
+            MomentRow {
+                label: "e_el/γ",
+                key: "elastic_energy_ratio",
+                unit: "1",
+                value: self.over_work(energy),
+            },
         ]
     }
+
+    /// Returns a moment times the effective modulus; `None` without a modulus.
+    fn times_modulus(&self, moment: Moment) -> Option<Moment> {
+        Some(moment.scaled(self.modulus?))
+    }
+
+    /// Returns a moment divided by the work of adhesion; `None` without a work of adhesion.
+    fn over_work(&self, moment: Option<Moment>) -> Option<Moment> {
+        Some(moment?.scaled(1.0 / self.work?))
+    }
+
+    /// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el
+    /// is known.
+    fn add_moments(&self, sheet: &mut Sheet) {
+        let header = ["", "value", "statistical", "method", "missing short waves"];
+        let mut rows = vec![header.map(String::from)];
+        for row in self.moments() {
+            let Some(moment) = row.value else {
+                continue;
+            };
+            if row.key == "energy_per_modulus" && self.modulus.is_some() {
+                continue;
+            }
+            let missing = if moment.missing_short_waves == 0.0 {
+                "none".to_owned()
+            } else {
+                let share = per_cent(moment.missing_short_waves / moment.value);
+                format!("up to {share}")
+            };
+            rows.push([
+                // As wide as the labels of the other rows.
+                format!("  {:22}", row.label),
+                format_quantity(moment.value, row.unit),
+                format!("± {}", per_cent(moment.statistical / moment.value)),
+                format!("± {}", per_cent(moment.method / moment.value)),
+                missing,
+            ]);
+        }
+        sheet.table(&rows);
+    }
+
+    /// Adds the waves of the equivalent line, with what follows at their short end, and the
+    /// gradient of the profile itself.
+    fn add_wavelengths(&self, sheet: &mut Sheet) {
+        let [longest, shortest] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
+        let end = self.end_in_words();
+        sheet.row("wavelengths", format!("{longest} to {shortest} ({end})"));
+        let gradient = self.line.moments().rms_gradient.value * FRAC_1_SQRT_2;
+        let gradient = format_quantity(gradient, "1");
+        let energy = whole_percent(FRAC_2_PI);
+        sheet.row(
+            "the profile itself",
+            format!("⟨∇z⟩ = {gradient}, {energy} of e_el if used unchanged"),
+        );
+    }
+
+    /// Returns what follows at the short end of the spectrum, by the face with the shortest waves.
+    fn end_in_words(&self) -> &'static str {
+        let analyses = self.faces.iter().map(|face| &face.analysis);
+        let finest = analyses.max_by(|first, second| {
+            let [_, last_of_first] = first.isotropic.range();
+            let [_, last_of_second] = second.isotropic.range();
+            last_of_first.total_cmp(&last_of_second)
+        });
+        match finest {
+            Some(analysis) if matches!(analysis.end, End::Continues(_)) => {
+                "continued as a power law"
+            }
+            Some(analysis) if analysis.ends_inside => "the spectrum ends inside the scan",
+            _ => "the last resolved wave; shorter ones are left out",
+        }
+    }
+
+    /// Returns the warnings about both faces and about the attraction.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            let whose = if number == 0 { "" } else { "opposite face: " };
+            for warning in face.warnings() {
+                warnings.push(format!("{whose}{warning}"));
+            }
+        }
+        warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
+        warnings
+    }
+
+    /// Returns the points of the measured spectra, and of the spectrum of the equivalent line.
+    fn spectrum_rows(&self) -> Vec<SpectrumRow> {
+        let mut rows = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            for (direction, bins) in &face.analysis.spectra {
+                let spectrum = spectrum_name(number, *direction);
+                for bin in bins {
+                    rows.push(SpectrumRow {
+                        spectrum,
+                        wave_number: bin.wave_number,
+                        power: bin.power,
+                        waves: Some(bin.waves),
+                    });
+                }
+            }
+        }
+        for wave_number in wave_numbers(self.line.range(), LINE_PER_DECADE) {
+            rows.push(SpectrumRow {
+                spectrum: LINE,
+                wave_number,
+                power: self.line.power(wave_number),
+                waves: None,
+            });
+        }
+        rows
+    }
+}
+
+/// Row of the table of spectra.
+#[derive(Clone)]
+struct SpectrumRow {
+    spectrum: &'static str,
+    /// Wave number, rad/m.
+    wave_number: f64,
+    /// Power spectral density, m³.
+    power: f64,
+    /// Number of averaged waves; `None` for the equivalent line.
+    waves: Option<u64>,
 }
 
 /// Moment of the equivalent line, or a quantity that follows from moments. The value is `None` if
@@ -273,37 +336,69 @@ struct MomentRow {
 /// Returns the preload of the scene of an equivalent line in N; `None` if the loading turns at zero
 /// force.
 fn preload(scene: &Scene) -> Option<f64> {
-    match scene.loading.first() {
-        Some(Move::ToForce(force)) => Some(*force),
-        _ => None,
-    }
+    let Some(Move::ToForce(force)) = scene.loading.first() else {
+        return None;
+    };
+    Some(*force)
 }
 
-fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
+/// Adds the files of a face and the results of their analysis.
+fn add_face(sheet: &mut Sheet, heading: &str, face: &MeasuredFace) {
+    sheet.heading(heading);
+    for file in &face.files {
+        sheet.row("file", file.describe());
+    }
+    let statistics = &face.analysis.statistics;
+    sheet.quantity("rms height Pq, Sq", statistics.rms_height, "m");
+    sheet.quantity("rms slope PΔq", statistics.rms_slope, "1");
+    sheet.quantity("rms gradient Sdq", statistics.rms_gradient, "1");
+    sheet.quantity("skewness", statistics.skewness, "1");
+    let kurtosis = format_quantity(statistics.kurtosis, "1");
+    sheet.row("kurtosis", format!("{kurtosis} (3: normal)"));
+    let cutoff = face.analysis.reliability_cutoff;
+    sheet.quantity("reliability cut-off", cutoff, "m");
+    sheet.heading("Self-affine fit");
+    add_self_affine_fit(sheet, &face.analysis);
+}
+
+fn add_self_affine_fit(sheet: &mut Sheet, analysis: &Analysis) {
+    let Some(fit) = &analysis.power_law else {
+        sheet.row("fit", "none with 0 < H < 1");
+        return;
+    };
+    sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
+    let wavelength = match fit.roll_off {
+        Some(roll_off) => {
+            let value = TAU / roll_off.value;
+            let error = value * roll_off.error / roll_off.value;
+            with_error(ValueWithError { value, error }, "m")
+        }
+        None => "none found inside the scan".to_owned(),
+    };
+    sheet.row("roll-off wavelength", wavelength);
+}
+
+/// Adds the adhesion of random profiles with the spectrum of the equivalent line.
+fn add_adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
     sheet.heading("Adhesion of the equivalent line");
-    let loading = preload(scene).map_or_else(
-        || "turned at zero force (--preload presses before)".to_owned(),
-        |force| format!("to {}, then pull", format_quantity(force, "N")),
-    );
+    let preload = preload(scene);
+    let loading = match preload {
+        Some(force) => format!("to {}, then pull", format_quantity(force, "N")),
+        None => "turned at zero force (--preload presses before)".to_owned(),
+    };
     sheet.row("loading", loading);
+    let length = format_quantity(scene.length, "m");
     let springs = grouped(scene.numerics.points);
-    sheet.row(
-        "length L",
-        format!(
-            "{} on {springs} springs",
-            format_quantity(scene.length, "m")
-        ),
-    );
-    let label = if preload(scene).is_some() {
+    sheet.row("length L", format!("{length} on {springs} springs"));
+    let label = if preload.is_some() {
         "adhesion force F_a"
     } else {
         "adhesion force F_a(F=0)"
     };
     let Some(computed) = computed else {
-        return sheet.row(
-            label,
-            format!("not computed on {springs} springs; --profiles 16 does"),
-        );
+        let hint = format!("not computed on {springs} springs; --profiles 16 does");
+        sheet.row(label, hint);
+        return;
     };
     let force = measured_adhesion_text(computed);
     sheet.row(
@@ -311,89 +406,31 @@ fn adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion
         force.unwrap_or_else(|| "none: nothing is pulled".to_owned()),
     );
     let forces = computed.adhesion_force();
-    forces
-        .and_then(|forces| forces.warning("F_a"))
-        .iter()
-        .for_each(|warning| sheet.row("", warning));
-    let count = computed.profiles.len();
-    let labels = ["regimes, first touch", "regimes, zero force"];
-    for (label, regimes) in labels.into_iter().zip(computed.regimes()) {
-        let each = regimes
-            .present()
-            .map(|(name, some)| format!("{name} on {some} of {count}"));
-        sheet.row(label, each.collect::<Vec<_>>().join(", ") + " profiles");
+    if let Some(warning) = forces.and_then(|forces| forces.warning("F_a")) {
+        sheet.row("", warning);
     }
+    let profiles = computed.profiles.len();
+    let [from_touch, after_zero_force] = computed.regimes();
+    let regimes = regimes_in_words(from_touch, profiles);
+    sheet.row("regimes, first touch", regimes);
+    let regimes = regimes_in_words(after_zero_force, profiles);
+    sheet.row("regimes, zero force", regimes);
 }
 
-fn self_affine(sheet: &mut Sheet, analysis: &Analysis) {
-    let Some(fit) = &analysis.power_law else {
-        return sheet.row("fit", "none with 0 < H < 1");
-    };
-    sheet.row("Hurst exponent H", with_error(fit.hurst, "1"));
-    let wavelength = fit.roll_off.map(|roll_off| {
-        let length = TAU / roll_off.value;
-        let error = length * roll_off.error / roll_off.value;
-        with_error(
-            ValueWithError {
-                value: length,
-                error,
-            },
-            "m",
-        )
-    });
-    sheet.row(
-        "roll-off wavelength",
-        wavelength.unwrap_or_else(|| "none found inside the scan".to_owned()),
-    );
+/// Returns the numbers of profiles in each regime: `non-adhesive on 3 of 4 profiles`.
+fn regimes_in_words(regimes: RegimeCounts, profiles: usize) -> String {
+    let each: Vec<String> = regimes
+        .present()
+        .map(|(name, count)| format!("{name} on {count} of {profiles}"))
+        .collect();
+    each.join(", ") + " profiles"
 }
 
-fn measured(sheet: &mut Sheet, analysis: &Analysis) {
-    let statistics = &analysis.statistics;
-    sheet.quantity("rms height Pq, Sq", statistics.rms_height, "m");
-    sheet.quantity("rms slope PΔq", statistics.rms_slope, "1");
-    sheet.quantity("rms gradient Sdq", statistics.rms_gradient, "1");
-    sheet.quantity("skewness", statistics.skewness, "1");
-    sheet.row(
-        "kurtosis",
-        format!("{} (3: normal)", format_quantity(statistics.kurtosis, "1")),
-    );
-    sheet.quantity("reliability cut-off", analysis.reliability_cutoff, "m");
-}
-
-/// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el is
-/// known.
-fn moments(sheet: &mut Sheet, report: &SurfaceReport) {
-    let mut rows =
-        vec![["", "value", "statistical", "method", "missing short waves"].map(str::to_owned)];
-    for MomentRow {
-        label,
-        key,
-        unit,
-        value,
-    } in report.moments()
-    {
-        let Some(moment) =
-            value.filter(|_| key != "energy_per_modulus" || report.modulus.is_none())
-        else {
-            continue;
-        };
-        let share = |error: f64| per_cent(error / moment.value);
-        let [statistical, method] =
-            [moment.statistical, moment.method].map(|error| format!("± {}", share(error)));
-        let missing = match moment.missing_short_waves {
-            0.0 => "none".to_owned(),
-            change => format!("up to {}", share(change)),
-        };
-        // As wide as the labels of the other rows.
-        let (label, value) = (format!("  {label:22}"), format_quantity(moment.value, unit));
-        rows.push([label, value, statistical, method, missing]);
-    }
-    sheet.table(&rows);
-}
-
+/// Writes a value with its relative error: `0.8 ± 5 %`.
 fn with_error(estimate: ValueWithError, unit: &str) -> String {
+    let value = format_quantity(estimate.value, unit);
     let error = per_cent(estimate.error / estimate.value.abs());
-    format!("{} ± {error}", format_quantity(estimate.value, unit))
+    format!("{value} ± {error}")
 }
 
 /// JSON object of the surfaces of one face, in SI units. The object of the first face also contains
@@ -437,18 +474,39 @@ struct AdhesionJson<'a> {
     lines: &'a [ProfileAdhesion],
 }
 
+/// Writes each moment under its key.
 fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(rows.iter().flatten().map(|row| (row.key, row.value)))
+}
+
+impl<'a> AdhesionJson<'a> {
+    fn new(scene: &Scene, computed: &'a MeasuredAdhesion) -> Self {
+        let [regimes, regimes_after_zero_force] = computed.regimes();
+        AdhesionJson {
+            length: scene.length,
+            springs: scene.numerics.points,
+            preload: preload(scene),
+            adhesion_force: computed
+                .adhesion_force()
+                .filter(|forces| forces.spread.is_some()),
+            fit_deviation: computed.fit_deviation(),
+            regimes,
+            regimes_after_zero_force,
+            lines: &computed.profiles,
+        }
+    }
 }
 
 impl<'a> FaceJson<'a> {
     /// Collects the facts of one face.
     fn new(face: &'a MeasuredFace) -> Self {
         let MeasuredFace { files, analysis } = face;
-        let spectrum = |(direction, bins): &'a (Along, Vec<Bin>)| SpectrumJson {
-            name: spectrum_name(0, *direction),
-            bins,
-        };
+        let mut profile_spectra = Vec::with_capacity(analysis.spectra.len());
+        for (direction, bins) in &analysis.spectra {
+            // Each face has an object of its own, so that its spectra do not name the face.
+            let name = spectrum_name(0, *direction);
+            profile_spectra.push(SpectrumJson { name, bins });
+        }
         FaceJson {
             version: env!("CARGO_PKG_VERSION"),
             files,
@@ -459,7 +517,7 @@ impl<'a> FaceJson<'a> {
             equivalent_line: None,
             adhesion: None,
             spectrum: analysis.isotropic.nodes().collect(),
-            profile_spectra: analysis.spectra.iter().map(spectrum).collect(),
+            profile_spectra,
             ends_inside_scan: analysis.ends_inside,
             warnings: warning_texts(&face.warnings()),
             opposite: None,

@@ -7,33 +7,35 @@ use asperity_data::{Warning, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
-use asperity_study::trust::{Budget, Criterion, criteria};
+use asperity_study::trust::{Budget, criteria};
 
 /// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their
 /// sources.
-pub(crate) fn trust(
+pub(crate) fn add_trust(
     sheet: &mut Sheet,
-    (scene, outcome): (&Scene, &Outcome),
+    scene: &Scene,
+    outcome: &Outcome,
     estimate: Option<&Estimate>,
     ensemble: Option<&Ensemble>,
     deviation: Option<f64>,
 ) {
-    let budget = Budget::of(outcome, estimate, ensemble, deviation);
-    let errors = budget.map_or_else(Vec::new, |budget| {
-        error_rows(scene, outcome, estimate, &budget, ensemble, None)
-    });
-    for (heading, rows) in [
-        (
-            "Adhesion without a preload, by several theories",
-            theory_rows(scene, outcome, ensemble),
-        ),
-        ("Errors of F_a by their sources", errors),
-    ] {
-        if !rows.is_empty() {
-            sheet.heading(heading);
-        }
-        rows.into_iter()
-            .for_each(|(name, words)| sheet.row(name, words));
+    let theories = theory_rows(scene, outcome, ensemble);
+    let heading = "Adhesion without a preload, by several theories";
+    add_rows(sheet, heading, theories);
+    if let Some(budget) = Budget::of(outcome, estimate, ensemble, deviation) {
+        let errors = error_rows(scene, outcome, estimate, &budget, ensemble, None);
+        add_rows(sheet, "Errors of F_a by their sources", errors);
+    }
+}
+
+/// Adds rows below a heading; nothing without rows.
+fn add_rows(sheet: &mut Sheet, heading: &str, rows: Vec<(&str, String)>) {
+    if rows.is_empty() {
+        return;
+    }
+    sheet.heading(heading);
+    for (name, words) in rows {
+        sheet.row(name, words);
     }
 }
 
@@ -46,27 +48,23 @@ pub fn theory_rows(
     ensemble: Option<&Ensemble>,
 ) -> Vec<(&'static str, String)> {
     let criteria = criteria(scene, outcome, ensemble);
-    let smooth = outcome.governing.amplitude.is_none() && !criteria.is_empty();
-    let smooth = smooth.then(|| {
-        (
-            "criteria of roughness",
-            "do not apply: the body is smooth".to_owned(),
-        )
-    });
-    let mut last = "";
-    let row = |criterion: Criterion| {
-        let name = if criterion.name == last {
+    let mut rows = Vec::new();
+    if outcome.governing.amplitude.is_none() && !criteria.is_empty() {
+        let words = "do not apply: the body is smooth".to_owned();
+        rows.push(("criteria of roughness", words));
+    }
+    // Only the first row of a theory has its name.
+    let mut last_name = "";
+    for criterion in criteria {
+        let name = if criterion.name == last_name {
             ""
         } else {
             criterion.name
         };
-        last = criterion.name;
-        (name, criterion.words())
-    };
-    smooth
-        .into_iter()
-        .chain(criteria.into_iter().map(row))
-        .collect()
+        last_name = criterion.name;
+        rows.push((name, criterion.words()));
+    }
+    rows
 }
 
 /// Returns the errors of the adhesion force by their sources: number of springs, sample of
@@ -81,64 +79,98 @@ pub fn error_rows(
     ensemble: Option<&Ensemble>,
     reference: Option<&Reference>,
 ) -> Vec<(&'static str, String)> {
-    let words = |share: f64| {
-        if share > 1.0 {
-            "more than ± 100 %".to_owned()
-        } else {
-            format!("± {}", per_cent(share))
-        }
-    };
-    let share = |share: Option<f64>| share.map(words);
-    let grid = match share(budget.grid) {
-        Some(grid) if estimate.is_some_and(|estimate| estimate.near_step) => {
-            format!("{grid}, near a step of F_a(F_n)")
-        }
-        grid => grid.unwrap_or_else(|| "not known".to_owned()),
-    };
     let is_exceeded = outcome.warnings.iter().any(Warning::exceeds_errors);
-    let is_random = scene.seed().is_some();
-    let profiles = ensemble.map_or(1, Ensemble::computed);
-    let sample = match share(budget.sample) {
-        Some(sample) => format!("{sample} of the median of {profiles} profiles"),
-        None if is_random => "not known: too few profiles".to_owned(),
+    let mut rows = vec![
+        ("grid", grid_in_words(budget, estimate)),
+        (
+            "sample of profiles",
+            sample_in_words(scene, budget, ensemble),
+        ),
+        ("surface", surface_in_words(scene, budget)),
+    ];
+    if let Some(difference) = reference.and_then(difference_words) {
+        rows.push(("three dimensions", difference));
+    }
+    rows.push(("model", model_in_words(scene, reference, is_exceeded)));
+    let largest = largest_in_words(budget, is_exceeded).to_owned();
+    rows.push(("largest known error", largest));
+    rows
+}
+
+/// Writes a relative error: `± 2 %`.
+fn error_in_words(error: f64) -> String {
+    if error > 1.0 {
+        "more than ± 100 %".to_owned()
+    } else {
+        format!("± {}", per_cent(error))
+    }
+}
+
+/// Returns the error due to the finite number of springs in words.
+fn grid_in_words(budget: &Budget, estimate: Option<&Estimate>) -> String {
+    let Some(error) = budget.grid.map(error_in_words) else {
+        return "not known".to_owned();
+    };
+    if estimate.is_some_and(|estimate| estimate.near_step) {
+        format!("{error}, near a step of F_a(F_n)")
+    } else {
+        error
+    }
+}
+
+/// Returns the error due to the finite number of random profiles in words.
+fn sample_in_words(scene: &Scene, budget: &Budget, ensemble: Option<&Ensemble>) -> String {
+    match budget.sample.map(error_in_words) {
+        Some(error) => {
+            let profiles = ensemble.map_or(1, Ensemble::computed);
+            format!("{error} of the median of {profiles} profiles")
+        }
+        None if scene.seed().is_some() => "not known: too few profiles".to_owned(),
         None => "none: the profile is fixed".to_owned(),
+    }
+}
+
+/// Returns the error due to the measured surface in words.
+fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
+    if let Some(error) = budget.surface.map(error_in_words) {
+        return format!("{error}, by the uncertainty of the measured spectrum");
+    }
+    let words = if scene.measured().is_none() {
+        "none: the scene states the surface"
+    } else if scene.seed().is_some() {
+        "not known: the uncertainty of the spectrum is not computed"
+    } else {
+        "not known: the measured profile counts as exact"
     };
-    let surface = match (share(budget.surface), scene.measured()) {
-        (Some(surface), _) => format!("{surface}, by the uncertainty of the measured spectrum"),
-        (None, Some(_)) if is_random => {
-            "not known: the uncertainty of the spectrum is not computed".to_owned()
-        }
-        (None, Some(_)) => "not known: the measured profile counts as exact".to_owned(),
-        (None, None) => "none: the scene states the surface".to_owned(),
+    words.to_owned()
+}
+
+/// Returns the error of the model in words. `is_exceeded` is true if a premise of the model does
+/// not hold, so that no error is known.
+fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: bool) -> String {
+    if let Some(reference) = reference {
+        return model_words(reference);
+    }
+    let words = if scene.roughness.is_some() {
+        "not known: the MDR is a model for rough bodies, whose adhesion is disputed"
+    } else if is_exceeded {
+        "not known: a premise does not hold (Warnings)"
+    } else {
+        "none for bodies of revolution whose equivalent profile rises everywhere"
     };
-    let model = match (reference, &scene.roughness) {
-        (Some(reference), _) => model_words(reference),
-        (None, Some(_)) => {
-            "not known: the MDR is a model for rough bodies, whose adhesion is disputed".into()
-        }
-        (None, None) if is_exceeded => "not known: a premise does not hold (Warnings)".into(),
-        (None, None) => {
-            "none for bodies of revolution whose equivalent profile rises everywhere".into()
-        }
-    };
-    let largest = match budget.largest {
+    words.to_owned()
+}
+
+/// Returns the source of the largest known error, with what reduces this error.
+fn largest_in_words(budget: &Budget, is_exceeded: bool) -> &'static str {
+    match budget.largest {
         None if is_exceeded => "not known: a premise does not hold (Warnings)",
         Some("grid") => "grid: more springs reduce it (--tolerance)",
         Some("sample") => "sample of profiles: more profiles reduce it (--profiles)",
         Some("model") => "model: more springs do not help",
         Some(_) => "surface: more or larger scans reduce it",
         None => "not known",
-    };
-    let mut rows = vec![
-        ("grid", grid),
-        ("sample of profiles", sample),
-        ("surface", surface),
-    ];
-    let difference = reference.and_then(difference_words);
-    rows.extend(difference.map(|difference| ("three dimensions", difference)));
-    rows.push(("model", model));
-    rows.push(("largest known error", largest.to_owned()));
-    rows
+    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::reference::omitted_waves;
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
-use asperity_scene::discretisation::{CostTable, Knob};
+use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
 use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of
@@ -11,107 +11,123 @@ use asperity_study::half_space::Reference;
 /// force curve if there is no adhesion force. If `reference`, the comparison with three dimensions,
 /// is given, the figure also has the error of the model as a level.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
-    let model = reference
-        .and_then(|reference| reference.budget.model)
-        .filter(|model| *model > 0.0);
-    let points = |knob: Knob| {
-        table
+    let mut points = Vec::new();
+    let mut layers = Vec::new();
+    let mut series = 0;
+    for knob in Knob::ALL {
+        let measured: Vec<Measured> = table
             .rows_of(knob)
             .filter_map(|row| table.point(row))
-            .collect::<Vec<_>>()
-    };
-    let series: Vec<_> = Knob::ALL
-        .into_iter()
-        .map(|knob| (knob, points(knob)))
-        .collect();
-    let series: Vec<_> = series
-        .into_iter()
-        .filter(|(_, points)| !points.is_empty())
-        .collect();
-    let squares = reference.and_then(|reference| {
-        let grid = reference.budget.grid.filter(|grid| *grid > 0.0)?;
-        Some((reference.options.cells, (reference.seconds_of_square, grid)))
-    });
-    let mut layers = Vec::new();
-    for (number, (knob, points)) in series.iter().enumerate() {
-        let of = |resolved: bool| {
-            let of = points
-                .iter()
-                .filter(move |(_, figure)| figure.resolved == resolved);
-            of.map(|&(seconds, figure)| (seconds, figure.error))
-        };
-        let (ink, sign) = (Ink::Series(number), Sign::of_series(number));
-        let line = points
-            .iter()
-            .map(|&(seconds, figure)| (seconds, figure.error))
+            .map(|(seconds, error)| Measured { seconds, error })
             .collect();
-        layers.push(Layer::unnamed(ink, Shape::line(line, Stroke::Solid)));
-        let order = table
-            .order(*knob)
-            .map_or_else(String::new, |order| format!(", order {order:.1}"));
-        let name = Label::plain(&format!("{}{order}", knob.name()));
-        layers.push(Layer::new(
-            name,
-            ink,
-            Shape::signs(of(true).collect(), sign),
-        ));
-        if of(false).next().is_some() {
-            let rings = Shape::signs(of(false).collect(), Sign::Ring);
-            layers.push(Layer::new(
-                "error below the error of the reference".into(),
-                ink,
-                rings,
-            ));
+        if measured.is_empty() {
+            continue;
+        }
+        points.extend(measured.iter().map(Measured::point));
+        layers.extend(series_layers(table, knob, series, &measured));
+        series += 1;
+    }
+    if let Some(reference) = reference
+        && let Some(point) = point_of_squares(reference)
+    {
+        points.push(point);
+        let cells = reference.options.cells;
+        let name = format!("three dimensions, {cells} × {cells} cells");
+        let sign = Shape::signs(vec![point], Sign::Cross);
+        layers.push(Layer::new(Label::plain(&name), Ink::Series(series), sign));
+    }
+    let model = reference.and_then(error_of_model);
+    if let (Some(reference), Some(model)) = (reference, model) {
+        let waves = omitted_waves(reference);
+        let name = format!("error of the model, which no springs reduce{waves}");
+        let level = Layer::new(Label::plain(&name), Ink::Quiet, Shape::Level(model));
+        layers.insert(0, level);
+    }
+
+    let times = Span::decades(points.iter().map(|(seconds, _)| seconds.log10()));
+    let errors = points.iter().map(|(_, error)| *error).chain(model);
+    let errors = Span::decades(errors.map(f64::log10));
+    let x = logarithmic_axis(times, "time of a run", "t", "s");
+    let y = if table.reference.adhesion_force.is_some() {
+        logarithmic_axis(errors, "relative error of", "F_a", "1")
+    } else {
+        logarithmic_axis(errors, "relative error of the curve", "", "1")
+    };
+    Figure::of_chart(title, Chart::new(x, y, layers))
+}
+
+/// Time and error of a run with one setting.
+struct Measured {
+    /// Computing time, s.
+    seconds: f64,
+    error: ErrorFigure,
+}
+
+impl Measured {
+    fn point(&self) -> (f64, f64) {
+        (self.seconds, self.error.error)
+    }
+}
+
+/// Returns a curve of one kind of setting, with signs at its points. Rings mark errors below the
+/// error of the reference. `number` counts the kinds of settings.
+fn series_layers(
+    table: &CostTable,
+    knob: Knob,
+    number: usize,
+    measured: &[Measured],
+) -> Vec<Layer> {
+    let ink = Ink::Series(number);
+    let mut resolved = Vec::new();
+    let mut unresolved = Vec::new();
+    for run in measured {
+        if run.error.resolved {
+            resolved.push(run.point());
+        } else {
+            unresolved.push(run.point());
         }
     }
-    if let Some((cells, at)) = squares {
-        let name = format!("three dimensions, {cells} × {cells} cells");
-        let shape = Shape::signs(vec![at], Sign::Cross);
-        layers.push(Layer::new(
-            Label::plain(&name),
-            Ink::Series(series.len()),
-            shape,
-        ));
+    let mut name = knob.name().to_owned();
+    if let Some(order) = table.order(knob) {
+        name += &format!(", order {order:.1}");
     }
-    if let Some(model) = model {
-        let waves = reference.map_or_else(String::new, omitted_waves);
-        let name = Label::plain(&format!(
-            "error of the model, which no springs reduce{waves}"
-        ));
-        layers.insert(0, Layer::new(name, Ink::Quiet, Shape::Level(model)));
+    let line = Shape::line(
+        measured.iter().map(Measured::point).collect(),
+        Stroke::Solid,
+    );
+    let signs = Shape::signs(resolved, Sign::of_series(number));
+    let mut layers = vec![
+        Layer::unnamed(ink, line),
+        Layer::new(Label::plain(&name), ink, signs),
+    ];
+    if !unresolved.is_empty() {
+        let rings = Shape::signs(unresolved, Sign::Ring);
+        let name = "error below the error of the reference".into();
+        layers.push(Layer::new(name, ink, rings));
     }
-    let mut all: Vec<(f64, f64)> = Vec::new();
-    for (_, points) in &series {
-        all.extend(
-            points
-                .iter()
-                .map(|(seconds, figure)| (*seconds, figure.error)),
-        );
-    }
-    all.extend(squares.map(|(_, at)| at));
-    let axis = |span: Span, name: &str, symbol: &str, unit: &str| {
-        ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
-    };
-    let times = Span::decades(all.iter().map(|(seconds, _)| seconds.log10()));
-    let errors = all.iter().map(|(_, error)| *error).chain(model);
-    let errors = Span::decades(errors.map(f64::log10));
-    let of_force = table.reference.adhesion_force.is_some();
-    let (name, symbol) = if of_force {
-        ("relative error of", "F_a")
-    } else {
-        ("relative error of the curve", "")
-    };
-    let x = axis(times, "time of a run", "t", "s");
-    Figure::of_chart(
-        title,
-        Chart::new(x, axis(errors, name, symbol, "1"), layers),
-    )
+    layers
+}
+
+/// Returns the computing time of a square in s and its error of the grid; `None` if the error is
+/// unknown or zero.
+fn point_of_squares(reference: &Reference) -> Option<(f64, f64)> {
+    let error = reference.budget.grid.filter(|error| *error > 0.0)?;
+    Some((reference.seconds_of_square, error))
+}
+
+/// Returns the error of the model; `None` if it is unknown or zero.
+fn error_of_model(reference: &Reference) -> Option<f64> {
+    reference.budget.model.filter(|error| *error > 0.0)
+}
+
+fn logarithmic_axis(span: Span, name: &str, symbol: &str, unit: &str) -> ChartAxis {
+    ChartAxis::new(AxisScale::Logarithmic, span, name, symbol, unit)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asperity_scene::discretisation::{CostReference, ErrorFigure, Row, Timing};
+    use asperity_scene::discretisation::{CostReference, Row, Timing};
 
     #[test]
     fn points_lie_at_time_and_error() {

@@ -3,7 +3,8 @@
 use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
-use crate::explorer::ghost::{Ghost, letter};
+use crate::explorer::ghost::Ghost;
+use asperity_report::letter;
 use asperity_study::half_space::SquareLoops;
 use std::sync::Arc;
 

@@ -4,16 +4,16 @@
 use super::row::{Exported, PaneRow, outcome};
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
-use crate::explorer::ghost::{Ghost, letter};
+use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
-use crate::explorer::text::counted;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark};
 use asperity_data::{AxisScale, format_rounded, grouped, quantile};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Name, Shape, Sign, Span, Stroke};
 use asperity_report::{
-    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, force_figure, loop_chart,
+    FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, counted, force_figure, letter,
+    loop_chart,
 };
 use asperity_scene::Governing;
 use asperity_scene::text::quoted;
@@ -144,7 +144,7 @@ fn panel(app: &App, size: Size) -> Panel {
         let at = marked(ghost).iter().map(|at| units.place(at)).collect();
         names.push(Name {
             at,
-            texts: vec![letter(number).to_owned()],
+            texts: vec![letter(number)],
             ink,
         });
     }

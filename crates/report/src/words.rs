@@ -1,0 +1,51 @@
+//! Numbers in words: shares in per cent, counts with their nouns, and letters of scenes.
+
+use asperity_data::{format_rounded, grouped};
+
+/// Returns a share in per cent, rounded to a number of significant digits: `0.34 %`. For errors
+/// [`asperity_data::per_cent`] chooses the digits.
+pub fn percent(share: f64, digits: usize) -> String {
+    format!("{} %", format_rounded(100.0 * share, digits, "1"))
+}
+
+/// Returns a share in whole per cent: `12 %`.
+pub(crate) fn whole_percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// Returns a number of things: `1 spring`, `1 024 springs`.
+pub fn counted(count: u64, noun: &str) -> String {
+    format!("{} {}", grouped(count), plural(noun, count))
+}
+
+/// Returns a noun with the ending that a number of things needs: `spring`, `springs`.
+pub(crate) fn plural(noun: &str, count: u64) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{noun}{ending}")
+}
+
+/// Returns the letter that names a scene in tables and legends: `A` for the number 0. After the 26
+/// letters of the alphabet follow `S26`, `S27` and so on.
+pub fn letter(number: usize) -> String {
+    match u8::try_from(number) {
+        Ok(place) if place < 26 => char::from(b'A' + place).to_string(),
+        _ => format!("S{number}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_in_words() {
+        assert_eq!(percent(0.0034, 2), "0.34 %");
+        assert_eq!(percent(0.8, 4), "80 %");
+        assert_eq!(whole_percent(0.126), "13 %");
+        assert_eq!(
+            [0, 1, 1024].map(|count| counted(count, "spring")),
+            ["0 springs", "1 spring", "1 024 springs"]
+        );
+        assert_eq!([0, 25, 26, 300].map(letter), ["A", "Z", "S26", "S300"]);
+    }
+}
