@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fields::field;
+use super::errors::NumberError;
 use super::text::ron_float;
 
 /// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter
@@ -53,8 +53,11 @@ impl RoughnessParameter {
     }
 
     /// Returns the symbol of the parameter in the equations, such as `κ`.
-    pub fn symbol(self) -> &'static str {
-        field(self.path(), None).map_or("", |field| field.symbol)
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            RoughnessParameter::Kappa => "κ",
+            RoughnessParameter::ElasticEnergyRatio => "e_el/γ",
+        }
     }
 
     /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if
@@ -206,6 +209,28 @@ impl Adhesion {
             strength: Strength::Parameter(parameter, value),
             ..self
         }
+    }
+}
+
+impl Adhesion {
+    /// Returns an adhesion with another number, which has the name of a field such as `work`.
+    /// `None` is a contact without adhesion, which gets an adhesion of this number alone.
+    pub(super) fn with_number(
+        adhesion: Option<Adhesion>,
+        name: &str,
+        number: f64,
+    ) -> Result<Adhesion, NumberError> {
+        let mut text = adhesion.map_or_else(AdhesionText::default, AdhesionText::from);
+        let slot = match name {
+            "work" => &mut text.work,
+            "closing_work" => &mut text.closing_work,
+            "kappa" => &mut text.kappa,
+            "elastic_energy_ratio" => &mut text.elastic_energy_ratio,
+            "range" => &mut text.range,
+            _ => return Err(NumberError::Missing),
+        };
+        *slot = Some(number);
+        Adhesion::try_from(text).map_err(NumberError::Contradiction)
     }
 }
 

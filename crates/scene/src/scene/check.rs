@@ -4,8 +4,6 @@
 //! No check allocates memory in proportion to a value of the scene. A scene of excessive size is
 //! therefore refused before anything is built.
 
-use serde_json::Value;
-
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION, target_field};
@@ -13,9 +11,10 @@ use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
+use super::slot::Value;
+use super::stages::stage_in_ron;
 use super::text::index::is_within;
 use super::text::{ron_float, ron_string};
-use super::tree::{Tree, in_ron, written};
 use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
 use asperity_surface::{Form, Unit};
@@ -28,7 +27,6 @@ const MOST_SAMPLES: u64 = 1 << 24;
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found {
         scene,
-        tree: Tree::of(scene),
         errors: Vec::new(),
     };
     for field in FIELDS {
@@ -97,7 +95,6 @@ fn smallest(value: f64) -> String {
 /// Errors that were found so far in a scene.
 struct Found<'s> {
     scene: &'s Scene,
-    tree: Tree,
     errors: Vec<SceneError>,
 }
 
@@ -116,12 +113,12 @@ impl Found<'_> {
         if is_met || of.iter().any(|path| self.has(path)) {
             return;
         }
-        let here = FIELDS
+        let field = FIELDS
             .iter()
-            .find(|field| field.path == path && self.tree.has(field));
-        let here = here.filter(|field| self.tree.inside(field).is_empty());
-        let value = here
-            .and_then(|field| self.tree.written(field))
+            .find(|field| field.path == path && field.is_in(self.scene));
+        let value = field
+            .filter(|field| field.inside(self.scene).is_empty())
+            .and_then(|field| field.written(self.scene))
             .unwrap_or_default();
         self.refuse(path, value, allowed, message);
     }
@@ -138,57 +135,57 @@ impl Found<'_> {
     }
 
     fn check_range(&mut self, field: &Field) {
-        let Some(value) = self.tree.value(field) else {
+        let scene = self.scene;
+        let Some(value) = field.value(scene) else {
             return;
         };
         let range = &field.range;
-        let wrong = match (range, value) {
-            (Range::Real(..), value) => {
-                (!value.as_f64().is_some_and(|value| range.contains(value))).then(|| written(value))
+        let is_allowed = match value {
+            Value::Real(number) => range.contains(number),
+            Value::Whole(number) => range.contains_whole(number),
+            Value::Modes(first, last) => {
+                first <= last && range.contains_whole(first) && range.contains_whole(last)
             }
-            (Range::Whole(..), value) => (!value
-                .as_u64()
-                .is_some_and(|value| range.contains_whole(value)))
-            .then(|| written(value)),
-            (Range::Band(..), Value::Array(ends)) => {
-                let ends: Vec<u64> = ends.iter().filter_map(Value::as_u64).collect();
-                let is_allowed =
-                    ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
-                (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
+            Value::Wavelengths(longest, shortest) => {
+                longest >= shortest && range.contains(longest) && range.contains(shortest)
             }
-            (Range::Wavelengths(..), Value::Array(ends)) => {
-                let ends = ends.iter().map(|end| end.as_f64().unwrap_or(f64::NAN));
-                let is_allowed =
-                    ends.clone().all(|end| range.contains(end)) && ends.is_sorted_by(|a, b| a >= b);
-                (!is_allowed).then(|| self.tree.written(field).unwrap_or_default())
+            Value::Text(text) => return self.check_text(field, text),
+            Value::Texts(texts) => {
+                self.check_count(field, texts.len());
+                for text in texts {
+                    self.check_text(field, text);
+                }
+                return;
             }
-            (Range::List { least, most, .. }, Value::Array(list))
-                if !(*least..=*most).contains(&list.len()) =>
-            {
-                Some(if list.is_empty() {
-                    "[]".to_owned()
-                } else {
-                    format!("a list of {}", list.len())
-                })
-            }
-            _ => None,
+            Value::Stages(stages) => return self.check_count(field, stages.len()),
+            Value::Observers(observers) => return self.check_count(field, observers.len()),
+            Value::Flag(_) | Value::Choice(_) | Value::Group => return,
         };
-        let texts = match (range, value) {
-            (Range::Text { .. }, text) => std::slice::from_ref(text),
-            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => list,
-            _ => &[],
-        };
-        let wrong_texts: Vec<_> = texts
-            .iter()
-            .filter_map(|text| wrong_text(field, text.as_str()?))
-            .collect();
-        for (value, allowed) in wrong
-            .map(|value| (value, field.allowed()))
-            .into_iter()
-            .chain(wrong_texts)
-        {
+        if !is_allowed {
+            let written = field.written(scene).unwrap_or_default();
+            self.refuse(field.path, written, &field.allowed(), field.name);
+        }
+    }
+
+    fn check_text(&mut self, field: &Field, text: &str) {
+        if let Some((value, allowed)) = wrong_text(field, text) {
             self.refuse(field.path, value, &allowed, field.name);
         }
+    }
+
+    fn check_count(&mut self, field: &Field, count: usize) {
+        let Range::List { least, most, .. } = field.range else {
+            return;
+        };
+        if (least..=most).contains(&count) {
+            return;
+        }
+        let value = if count == 0 {
+            "[]".to_owned()
+        } else {
+            format!("a list of {count}")
+        };
+        self.refuse(field.path, value, &field.allowed(), field.name);
     }
 
     fn check_targets(&mut self) {
@@ -284,7 +281,7 @@ impl Found<'_> {
         // The first number of a form is its size; waves may be higher than their sphere.
         let is_size = |field: &&Field| match waves > depth {
             true => field.path == "form.amplitude",
-            false => field.parent() == "form" && self.tree.has(field),
+            false => field.parent() == "form" && field.is_in(scene),
         };
         let size = FIELDS
             .iter()
@@ -467,7 +464,7 @@ impl Found<'_> {
             if is_separated && pulls {
                 let reason =
                     "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
-                self.refuse(&format!("loading.{index}"), in_ron(stage), "", reason);
+                self.refuse(&format!("loading.{index}"), stage_in_ron(stage), "", reason);
             }
             is_separated = *stage == Move::ToSeparation;
         }

@@ -9,11 +9,12 @@ use std::sync::OnceLock;
 
 use super::document::Document;
 use super::errors::Origin;
+use super::fields::FIELDS;
 use super::library::presets;
 use super::model::Scene;
 use super::read::read;
 use super::statements::describes;
-use super::text::index::Text;
+use super::text::index::{Text, is_within};
 use super::typed::with_typed;
 
 /// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that
@@ -40,9 +41,10 @@ fn have_same_solution(first: &Scene, second: &Scene) -> bool {
 
 /// Returns true if a field of the root, such as `material`, differs between two scenes.
 fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
-    let first = serde_json::to_value(first).unwrap_or_default();
-    let second = serde_json::to_value(second).unwrap_or_default();
-    first.get(group) != second.get(group)
+    FIELDS
+        .iter()
+        .filter(|field| is_within(field.path, group))
+        .any(|field| field.value(first) != field.value(second))
 }
 
 /// Title of a scene that was a built-in one before it was changed. `name` is the name of its file
@@ -121,7 +123,7 @@ impl Document {
 mod tests {
     use super::*;
     use crate::scene::open::open;
-    use crate::scene::tree::to_ron;
+    use crate::scene::written::to_ron;
 
     fn pressure_sensitive() -> Document {
         open("pressure-sensitive").unwrap()

@@ -10,9 +10,10 @@ use super::field::Field;
 use super::fields::FIELDS;
 use super::model::Scene;
 use super::read::read;
+use super::stages::{stage_in_ron, stages_in_ron};
 use super::text::index::{Text, is_within, line_column};
-use super::tree::{Tree, in_ron, to_ron};
 use super::typed::{check_length, with_typed};
+use super::written::to_ron;
 use asperity_contact::Move;
 
 /// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A
@@ -189,10 +190,10 @@ impl Document {
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
         let elements: Vec<_> = stages
             .iter()
-            .map(|(place, stage)| (*place, in_ron(stage)))
+            .map(|(place, stage)| (*place, stage_in_ron(stage)))
             .collect();
-        let loading = in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>());
-        let mut new = self.overridden(&[pair("loading", loading)])?;
+        let loading: Vec<Move> = stages.iter().map(|(_, stage)| *stage).collect();
+        let mut new = self.overridden(&[pair("loading", stages_in_ron(&loading))])?;
         let is_same = |text: &Text| {
             check_length(text.as_str()).is_ok()
                 && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == *new.scene)
@@ -221,7 +222,7 @@ impl Document {
             let field = FIELDS
                 .iter()
                 .find(|field| field.path == path && self.has(field))?;
-            Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
+            Some(field.default_in(&self.scene)).filter(|default| !default.is_empty())
         })
     }
 
@@ -232,7 +233,7 @@ impl Document {
     }
 
     fn has(&self, field: &Field) -> bool {
-        field.variant.is_none() || field.variant == self.text.variant(field.parent())
+        field.variant.is_none() || field.is_in(&self.scene)
     }
 
     /// Returns the name of the file or of the built-in scene from which the document was read.

@@ -188,6 +188,17 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
+/// Reason why a number of a scene cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NumberError {
+    /// The scene can have no number at this path.
+    #[error("the scene has no such number")]
+    Missing,
+    /// The number contradicts another number of the scene. The text names both.
+    #[error("{0}")]
+    Contradiction(String),
+}
+
 /// Returns the origin of an error at a byte of a text: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File {

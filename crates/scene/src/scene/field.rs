@@ -1,7 +1,8 @@
 //! One field of a scene with its path, symbol, unit, range, step, default and meaning.
 
 use super::range::{Range, choice_name};
-use super::stages::{STAGES, read_loading, stage_in_ron};
+use super::slot::Place;
+use super::stages::{STAGES, read_loading, stages_in_ron};
 use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
@@ -32,6 +33,8 @@ pub struct Field {
     pub meaning: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,
+    /// Where a scene has the value of the field.
+    pub(super) place: Place,
 }
 
 /// Function that converts typed text, without blanks around it, to the value of a field in RON.
@@ -61,7 +64,7 @@ pub enum Step {
 }
 
 /// Returns a required field with the usual unit and step for its range. Its name is its path.
-pub(super) const fn row(path: &'static str, range: Range) -> Field {
+pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field {
     let (step, unit, read): (_, _, Read) = match range {
         Range::Real(..) => (Step::Logarithmic, "1", read_number),
         Range::Whole(..) => (Step::Typed, "1", read_whole),
@@ -72,7 +75,7 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
     };
     Field {
         path,
-        variant: None,
+        variant: place.choice,
         name: path,
         symbol: "",
         unit,
@@ -81,18 +84,12 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
         default: "",
         meaning: "",
         read,
+        place,
     }
 }
 
 /// Methods that change one column of a row in the table of fields.
 impl Field {
-    pub(super) const fn of(self, variant: &'static str) -> Field {
-        Field {
-            variant: Some(variant),
-            ..self
-        }
-    }
-
     pub(super) const fn name(self, name: &'static str) -> Field {
         Field { name, ..self }
     }
@@ -137,7 +134,7 @@ impl Field {
         range: Range,
         meaning: &'static str,
     ) -> Field {
-        row(path, range).name(name).meaning(meaning)
+        row(path, Place::NOWHERE, range).name(name).meaning(meaning)
     }
 
     /// Returns this description with this SI unit.
@@ -193,6 +190,17 @@ impl Field {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
     }
 
+    /// Returns the part of a path behind the path of this field: `1` for `roughness.modes.1`, empty
+    /// for the path of the field itself. Returns `None` for a path that is not inside this field.
+    pub(super) fn inside_path<'p>(&self, path: &'p str) -> Option<&'p str> {
+        let rest = path.strip_prefix(self.path)?;
+        if rest.is_empty() {
+            Some(rest)
+        } else {
+            rest.strip_prefix('.')
+        }
+    }
+
     /// Returns the last part of the path: `hurst` for `roughness.hurst`.
     pub fn last(&self) -> &'static str {
         self.path
@@ -214,30 +222,39 @@ pub(super) const FILE_NAME: Range = Range::Text {
 };
 
 /// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce).
-pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
-    .of("ToForce")
-    .quantity("force of stage", "F", "N")
-    .meaning(
-        "target: the stage ends where the force first reaches this value; compression is positive",
-    );
+pub const LEG_FORCE: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToForce"),
+    Range::closed(-1e30, 1e30),
+)
+.quantity("force of stage", "F", "N")
+.meaning(
+    "target: the stage ends where the force first reaches this value; compression is positive",
+);
 
 /// Description of the indentation that ends a loading stage
 /// [`ToIndentation`](asperity_contact::Move::ToIndentation).
-pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
-    .of("ToIndentation")
-    .quantity("indentation of stage", "d", "m")
-    .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
+pub const LEG_INDENTATION: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToIndentation"),
+    Range::closed(-1e6, 1e6),
+)
+.quantity("indentation of stage", "d", "m")
+.meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
 /// Description of one loading stage, whose allowed choices are the kinds of stages.
-pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
+pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
 /// Description of the displacement that ends a loading stage
 /// [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
-pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
-    .of("ToDisplacement")
-    .quantity("displacement of stage", "D", "m")
-    .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
+pub const LEG_DISPLACEMENT: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToDisplacement"),
+    Range::closed(-1e6, 1e6),
+)
+.quantity("displacement of stage", "D", "m")
+.meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
 /// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
@@ -375,8 +392,7 @@ pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityErro
     if ron::from_str::<Vec<Move>>(typed).is_ok() {
         return Ok(typed.to_owned());
     }
-    let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
-    Ok(format!("[{}]", stages.join(", ")))
+    Ok(stages_in_ron(&read_loading(typed)?))
 }
 
 /// Splits a typed pair into its two parts: `4, 512`, `4–512`, `4 to 512`, with or without brackets.

@@ -3,7 +3,7 @@
 //! The types may hold invalid values. [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
-use super::fields::{SCENE_VERSION, default_of};
+use super::defaults::{EDGES, LOADING, POINTS, SAMPLES, SOLVER, read_default};
 use super::measured::Measured;
 use asperity_contact::{ContactError, Edges, Modulus, Move};
 use asperity_data::Warning;
@@ -14,6 +14,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
+/// Version of the format of scene files.
+pub const SCENE_VERSION: u32 = 1;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs on the shortest wave. With this number the adhesion force of a
@@ -342,12 +344,11 @@ struct NumericsText {
 
 impl Default for NumericsText {
     fn default() -> Self {
-        let [points, samples] = ["numerics.points", "numerics.samples"].map(default_of);
         NumericsText {
-            points,
-            solver: default_of("numerics.solver"),
+            points: read_default(POINTS),
+            solver: read_default(SOLVER),
             edges: None,
-            samples,
+            samples: read_default(SAMPLES),
         }
     }
 }
@@ -390,14 +391,14 @@ impl Solver {
     /// the exact solver, [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
-            Solver::Exact => default_of("numerics.edges"),
+            Solver::Exact => read_default(EDGES),
             Solver::Stepwise { .. } => Edges::Grid,
         }
     }
 }
 
 /// A quantity that is recorded in addition to the force curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Observer {
     /// The contact patches after each loading stage.
     Fragments,
@@ -406,5 +407,5 @@ pub enum Observer {
 }
 
 fn default_loading() -> Vec<Move> {
-    default_of("loading")
+    read_default(LOADING)
 }

@@ -1,7 +1,7 @@
 //! Loading stages: the table of their kinds, and loadings as text that can be read back.
 
 use super::range::choice_name;
-use super::text::ron_float;
+use super::text::real_in_ron;
 use asperity_contact::Move;
 use asperity_data::{QuantityError, parse_quantity, shown};
 use std::mem::discriminant;
@@ -108,8 +108,14 @@ pub fn stage_in_ron(stage: &Move) -> String {
     let name = choice_name(STAGES[kind]);
     number.map_or_else(
         || name.to_owned(),
-        |number| format!("{name}({})", ron_float(number)),
+        |number| format!("{name}({})", real_in_ron(number)),
     )
+}
+
+/// Returns a list of loading stages in RON.
+pub(super) fn stages_in_ron(stages: &[Move]) -> String {
+    let stages: Vec<String> = stages.iter().map(stage_in_ron).collect();
+    format!("[{}]", stages.join(", "))
 }
 
 /// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.

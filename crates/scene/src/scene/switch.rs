@@ -8,7 +8,7 @@ use super::field::Field;
 use super::model::Scene;
 use super::range::{Range, choice_key};
 use super::text::read_ron;
-use super::tree::{Tree, differing};
+use super::written::differing;
 
 /// Adhesion that a smooth body gets.
 const BY_WORK: &str = "(work: 0.05)";
@@ -115,7 +115,7 @@ impl Document {
             .into_iter()
             .find(|effect| effect.path() == field.path);
         let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
-        let Some(here) = Tree::of(self.scene()).written(field) else {
+        let Some(here) = field.written(self.scene()) else {
             return Ok(None);
         };
         let mut refused = None;
@@ -188,10 +188,9 @@ impl Document {
 /// Returns overrides that turn one scene into another. A field that is no longer given is replaced
 /// together with its group.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
-    let [from, to] = [from, to].map(Tree::of);
-    let changed = differing([&from, &to], |before, after| after || !before).into_iter();
-    changed
-        .map(|field| pair(field.path, to.written(field).unwrap_or_default()))
+    differing(from, to, |before, after| after || !before)
+        .into_iter()
+        .map(|field| pair(field.path, field.written(to).unwrap_or_default()))
         .collect()
 }
 
