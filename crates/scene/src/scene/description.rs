@@ -21,13 +21,14 @@ use super::typed::with_typed;
 /// of a table of results.
 fn is_built_in(opened: &Scene) -> bool {
     static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
-    let built_in = BUILT_IN.get_or_init(|| {
-        presets()
-            .iter()
-            .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
-            .collect()
-    });
-    built_in.contains(opened)
+    BUILT_IN.get_or_init(built_in_scenes).contains(opened)
+}
+
+fn built_in_scenes() -> Vec<Scene> {
+    presets()
+        .iter()
+        .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
+        .collect()
 }
 
 /// Returns true if two scenes have the same solution.
@@ -83,7 +84,6 @@ impl Document {
     /// The text without the words that are false of its values. `opened` is the scene as it was
     /// opened.
     fn without_false_words(&self, opened: &Scene) -> Text {
-        let is_own = |path: &str| self.overrides().iter().any(|(own, _)| own == path);
         let mut text = self.indexed_text().clone();
         for (path, _) in self.overrides() {
             let group = path.split('.').next().unwrap_or_default();
@@ -91,14 +91,18 @@ impl Document {
                 text = text.without_comments_beside(group);
             }
         }
-        if !is_own("notice") {
+        if !self.has_override("notice") {
             text = text.without_entry("notice");
         }
-        if !is_own("title") {
+        if !self.has_override("title") {
             let title = format!("{:?}", title_of_changed(self.file_name()));
             text = with_typed(&text, "title", &title).unwrap_or(text);
         }
         text
+    }
+
+    fn has_override(&self, path: &str) -> bool {
+        self.overrides().iter().any(|(own, _)| own == path)
     }
 
     /// Returns true if the title says that this is a changed built-in scene.
