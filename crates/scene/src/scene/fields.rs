@@ -26,11 +26,10 @@ pub const MOST_POINTS: u64 = 1 << 28;
 /// assert_eq!((radius.unit, radius.allowed().as_str()), ("m", "above 0, at most 1e9 m"));
 /// ```
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
-    let is_of =
-        |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
     FIELDS
         .iter()
-        .find(|field| field.path == path && is_of(field))
+        .filter(|field| field.path == path)
+        .find(|field| variant.is_none() || field.variant.is_none() || field.variant == variant)
 }
 
 /// Returns the fields directly inside the group or the variant at a path; an empty path is the
@@ -39,10 +38,10 @@ pub(super) fn fields_inside(
     path: &str,
     variant: Option<&str>,
 ) -> impl Iterator<Item = &'static Field> {
-    let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS
         .iter()
-        .filter(move |field| field.parent() == path && is_of(field))
+        .filter(move |field| field.parent() == path)
+        .filter(move |field| field.variant.is_none() || field.variant == variant)
 }
 
 const MATERIALS: Range = Choice(&[

@@ -95,10 +95,9 @@ impl Material {
     /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's
     /// ratio ν give E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
-        let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
         Material {
-            youngs_modulus,
-            poisson_ratio,
+            youngs_modulus: Some(youngs_modulus),
+            poisson_ratio: Some(poisson_ratio),
             effective_modulus: None,
         }
     }
@@ -116,10 +115,13 @@ impl Material {
     /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value
     /// is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
-        let [modulus, ratio] =
-            [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
-        self.effective_modulus
-            .map_or_else(|| Modulus::isotropic(modulus, ratio), Modulus::effective)
+        if let Some(effective_modulus) = self.effective_modulus {
+            return Modulus::effective(effective_modulus);
+        }
+        Modulus::isotropic(
+            self.youngs_modulus.unwrap_or(f64::NAN),
+            self.poisson_ratio.unwrap_or(f64::NAN),
+        )
     }
 }
 
@@ -216,9 +218,14 @@ impl Scene {
         else {
             return None;
         };
-        let mode = |wavelength: f64| (self.length / wavelength).round() as u64;
-        let (first, last) =
-            modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
+        let (first, last) = match (modes, wavelengths) {
+            (Some(modes), _) => modes,
+            (None, Some((longest, shortest))) => (
+                (self.length / longest).round() as u64,
+                (self.length / shortest).round() as u64,
+            ),
+            (None, None) => return None,
+        };
         let roll_off_mode = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
         Some(SelfAffine {
             hurst,
