@@ -36,8 +36,8 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
-/// Writes a number of a scene in RON. A number that is not finite, which no valid scene has, becomes
-/// `NaN`.
+/// Writes a number of a scene in RON. A number that is not finite becomes `NaN`; no valid scene has
+/// one, and messages show it as the author wrote it.
 pub(in crate::scene) fn real_in_ron(value: f64) -> String {
     ron_float(if value.is_finite() { value } else { f64::NAN })
 }
