@@ -200,18 +200,11 @@ pub fn choose(
     let mut error_of_finest = None;
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         trying(points);
-        let mut solved = Vec::new();
-        for edges in EDGES {
-            match runs.solve_around(&refined(scene, points, edges).map_err(RunError::from)?) {
-                Err(error) if is_too_coarse(&error) => refused = Some(error),
-                Err(error) if is_spent(&error) => {}
-                solution => solved.push(solution?),
-            }
-        }
+        let solved = solve_with_both_edges(scene, points, &mut runs, &mut refused)?;
         if stop() {
             return Err(ChoiceError::Stopped);
         }
-        let Ok(solved) = solved.try_into() else {
+        let Some(solved) = solved else {
             continue;
         };
         tried.push(solved);
@@ -237,6 +230,27 @@ pub fn choose(
         .and_then(|error| judge(&tried, error, tolerance))
         .map(Box::new);
     Err(ChoiceError::Unreached { tolerance, best })
+}
+
+/// Solves a scene with this number of springs and each edge model. Returns `None`, and the error in
+/// `refused`, if an edge model has no solution with so few springs, or if memory or time do not
+/// suffice.
+fn solve_with_both_edges(
+    scene: &CheckedScene,
+    points: u64,
+    runs: &mut Runs<'_>,
+    refused: &mut Option<RunError>,
+) -> Result<Option<[Solution; 2]>, RunError> {
+    let mut solutions = Vec::new();
+    for edges in EDGES {
+        match runs.solve_around(&refined(scene, points, edges)?) {
+            Ok(solution) => solutions.push(solution),
+            Err(error) if is_too_coarse(&error) => *refused = Some(error),
+            Err(error) if is_spent(&error) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(solutions.try_into().ok())
 }
 
 /// Returns the choice among solutions, given the error of the finest one, if its error is within

@@ -298,19 +298,23 @@ impl TryFrom<AdhesionText> for Adhesion {
             }
             (None, None, None) => return Err("give work, kappa or elastic_energy_ratio".to_owned()),
             _ => {
-                let given = [
+                let mut names = Vec::new();
+                let mut choices = Vec::new();
+                for (name, value) in [
                     ("work", work),
                     ("kappa", kappa),
                     ("elastic_energy_ratio", ratio),
-                ];
-                let given = given
-                    .into_iter()
-                    .filter_map(|(name, value)| Some((name, value?)));
-                let (names, choices): (Vec<_>, Vec<_>) = given
-                    .map(|(name, value)| (name, format!("({name}: {})", ron_float(value))))
-                    .unzip();
-                let (names, choices) = (names.join(" and "), choices.join(" or "));
-                return Err(format!("{names} determine each other: give {choices}"));
+                ] {
+                    if let Some(value) = value {
+                        names.push(name);
+                        choices.push(format!("({name}: {})", ron_float(value)));
+                    }
+                }
+                return Err(format!(
+                    "{} determine each other: give {}",
+                    names.join(" and "),
+                    choices.join(" or ")
+                ));
             }
         };
         Ok(Adhesion { strength, range })

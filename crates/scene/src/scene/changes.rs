@@ -38,14 +38,16 @@ fn symbol_or_name(field: &Field) -> &'static str {
 /// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`,
 /// `sub-cell`, `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
-    let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
+    if ["None", "[]"].contains(&value) {
+        return "none".to_owned();
+    }
     match field.range {
-        _ if ["None", "[]"].contains(&value) => "none".to_owned(),
         Range::Choice(_) => choice_in_words(value),
         Range::Band(..) => value.trim_matches(['(', ')']).replace(", ", " to "),
-        _ => field
-            .quantities(value, format_quantity)
-            .unwrap_or_else(words),
+        _ => match field.quantities(value, format_quantity) {
+            Some(quantities) => quantities,
+            None => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        },
     }
 }
 
@@ -67,14 +69,14 @@ fn in_words(scene: &Scene, field: &Field) -> String {
             ));
         }
     }
-    let (choice, given) = (
-        value.split('(').next().unwrap_or_default(),
-        given.join(", "),
-    );
-    match (choice_in_words(choice), given) {
-        (choice, given) if choice.is_empty() => given,
-        (choice, given) if given.is_empty() => choice,
-        (choice, given) => format!("{choice} ({given})"),
+    let given = given.join(", ");
+    let choice = choice_in_words(value.split('(').next().unwrap_or_default());
+    if choice.is_empty() {
+        given
+    } else if given.is_empty() {
+        choice
+    } else {
+        format!("{choice} ({given})")
     }
 }
 

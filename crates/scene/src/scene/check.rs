@@ -405,7 +405,6 @@ impl Found<'_> {
         roll_off: Option<f64>,
     ) {
         let length = self.scene.length;
-        let points = self.scene.numerics.points;
         if modes.is_some() && wavelengths.is_some() {
             let reason = "modes and wavelengths determine each other: give one of them and set the other to None";
             return self.refuse("roughness", String::new(), "", reason);
@@ -415,32 +414,12 @@ impl Found<'_> {
                 "give modes, in waves per length, or wavelengths (longest, shortest), in m";
             return self.refuse("roughness", String::new(), "", reason);
         };
-        let most = points / 2;
-        let reason = format!("{points} springs carry no shorter wave");
-        let is_resolved = spectrum.last <= most;
         let path = if modes.is_some() {
-            let allowed = format!("last mode at most points/2 = {most}");
-            let path = "roughness.modes";
-            self.require(
-                is_resolved,
-                &[path, "numerics.points"],
-                path,
-                &allowed,
-                &reason,
-            );
-            path
+            self.check_last_mode(spectrum.last);
+            "roughness.modes"
         } else {
-            let shortest = smallest(length / most as f64);
-            let allowed = format!("shortest at least two springs = {shortest} m");
-            let path = "roughness.wavelengths";
-            self.require(
-                is_resolved,
-                &[path, "numerics.points", "length"],
-                path,
-                &allowed,
-                &reason,
-            );
-            path
+            self.check_shortest_wave(spectrum.last);
+            "roughness.wavelengths"
         };
         let (longest, shortest) = wavelengths.unwrap_or((
             length / spectrum.first as f64,
@@ -461,6 +440,38 @@ impl Found<'_> {
             "roughness.roll_off",
             &allowed,
             "a roll-off lies within the waves of the profile",
+        );
+    }
+
+    /// Checks that the springs resolve the last of the given modes.
+    fn check_last_mode(&mut self, last: u64) {
+        let points = self.scene.numerics.points;
+        let most = points / 2;
+        let allowed = format!("last mode at most points/2 = {most}");
+        let reason = format!("{points} springs carry no shorter wave");
+        self.require(
+            last <= most,
+            &["roughness.modes", "numerics.points"],
+            "roughness.modes",
+            &allowed,
+            &reason,
+        );
+    }
+
+    /// Checks that the springs resolve the shorter one of the given wavelengths, whose mode is
+    /// `last`.
+    fn check_shortest_wave(&mut self, last: u64) {
+        let points = self.scene.numerics.points;
+        let most = points / 2;
+        let shortest = smallest(self.scene.length / most as f64);
+        let allowed = format!("shortest at least two springs = {shortest} m");
+        let reason = format!("{points} springs carry no shorter wave");
+        self.require(
+            last <= most,
+            &["roughness.wavelengths", "numerics.points", "length"],
+            "roughness.wavelengths",
+            &allowed,
+            &reason,
         );
     }
 

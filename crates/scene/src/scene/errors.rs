@@ -147,9 +147,9 @@ impl SceneErrors {
     ) -> Result<(), SceneErrors> {
         let more = errors.len().saturating_sub(MOST_LISTED);
         errors.truncate(MOST_LISTED);
-        errors
-            .iter_mut()
-            .for_each(|error| error.origin = origin(error));
+        for error in &mut errors {
+            error.origin = origin(error);
+        }
         if more > 0 {
             errors.push(SceneError::whole(
                 Origin::Scene,

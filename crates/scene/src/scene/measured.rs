@@ -137,13 +137,11 @@ impl Measured {
     /// Returns the names of the files of each face: the rough face, then the opposite one, if it is
     /// given.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
-        let face = iter::once(&self.file)
-            .chain(&self.further_files)
-            .map(String::as_str)
-            .collect();
-        iter::once(face)
-            .chain(self.opposite.iter().map(|file| vec![file.as_str()]))
-            .collect()
+        let mut face = vec![self.file.as_str()];
+        face.extend(self.further_files.iter().map(String::as_str));
+        let mut faces = vec![face];
+        faces.extend(self.opposite.iter().map(|file| vec![file.as_str()]));
+        faces
     }
 
     /// Returns the options for reading and analysing the files of this surface. The values of this

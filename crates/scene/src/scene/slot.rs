@@ -2,10 +2,11 @@
 
 use super::adhesion::Adhesion;
 use super::model::{Material, Numerics, Observer, Roughness, Scene, Solver};
+use super::stages::StageKind;
 use asperity_contact::{Edges, Move};
 use asperity_surface::{Detrend, Form};
 
-/// Value of a field in a scene.
+/// Value of a field in a scene, in the kind of its range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'s> {
     Real(f64),
@@ -44,12 +45,10 @@ impl Value<'_> {
             (Value::Modes(_, last), "1") => Some(last as f64),
             (Value::Wavelengths(longest, _), "0") => Some(longest),
             (Value::Wavelengths(_, shortest), "1") => Some(shortest),
-            (Value::Stages(stages), inside) => match stages.get(stage_index(inside)?)? {
-                Move::ToForce(number)
-                | Move::ToIndentation(number)
-                | Move::ToDisplacement(number) => Some(*number),
-                Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
-            },
+            (Value::Stages(stages), inside) => {
+                let (_, number) = StageKind::of(stages.get(stage_index(inside)?)?);
+                number
+            }
             _ => None,
         }
     }
@@ -182,14 +181,14 @@ impl Slot for Vec<Move> {
     }
 
     fn set_number(&mut self, inside: &str, number: f64) -> bool {
-        let stage = stage_index(inside).and_then(|index| self.get_mut(index));
-        let Some(
-            Move::ToForce(target) | Move::ToIndentation(target) | Move::ToDisplacement(target),
-        ) = stage
-        else {
+        let Some(stage) = stage_index(inside).and_then(|index| self.get_mut(index)) else {
             return false;
         };
-        *target = number;
+        let (kind, present) = StageKind::of(stage);
+        if present.is_none() {
+            return false;
+        }
+        *stage = (StageKind::ALL[kind].stage)(number);
         true
     }
 }
@@ -294,8 +293,8 @@ impl Place {
     }
 }
 
-/// Makes the [`Place`] of a member of the scene, `place!(numerics.points)`, or of a member that only
-/// some scenes have, `place!(form, Some(Form::Cone { angle }) => angle)`.
+/// Makes the [`Place`] of a member of every scene, such as `place!(numerics.points)`, or of a member
+/// that some scenes have, such as `place!(form, Some(Form::Cone { angle }) => angle)`.
 macro_rules! place {
     ($($member:ident).+) => {
         $crate::scene::slot::Place {
