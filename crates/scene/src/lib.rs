@@ -61,17 +61,17 @@ pub mod discretisation {
 }
 
 /// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed
-/// range. [`Tree`](fields::Tree) has the values of one scene.
+/// range. [`Scene::number`] and [`Scene::set_number`] read and set the numbers of one scene.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
+    pub use crate::scene::errors::NumberError;
     pub use crate::scene::field::{
         Field, LEG_FIELDS, LEG_FORCE, LEG_INDENTATION, STAGE, Step, choice_in_words, target_field,
     };
     pub use crate::scene::fields::{FIELDS, field};
     pub use crate::scene::range::Range;
     pub use crate::scene::statements::{Statement, statements};
-    pub use crate::scene::tree::Tree;
 }
 
 /// Reads, writes and edits the text of scenes in RON; edits keep the comments. Other functions
@@ -83,8 +83,8 @@ pub mod text {
     pub use crate::scene::read::explain;
     pub use crate::scene::text::index::{Text, TextSpan, line_column};
     pub use crate::scene::text::{read_ron, ron_float, ron_string};
-    pub use crate::scene::tree::to_ron;
     pub use crate::scene::typed::LONGEST_TEXT;
+    pub use crate::scene::written::to_ron;
 }
 
 /// Reads and writes loading stages as text, such as `100 µN, separation`.

@@ -241,31 +241,23 @@ impl ProfileBuilder {
             ..self.clone()
         };
         let scene = smooth.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
-        let value = |name: String, value: f64, allowed| {
-            Err(ContactError::Value {
-                name,
-                value,
-                allowed,
-            }
-            .into())
-        };
         if heights.len() != self.points {
-            let name = "number of heights".to_owned();
-            return value(
-                name,
-                heights.len() as f64,
-                "the number of points of the profile",
-            );
+            let error = ContactError::Value {
+                name: "number of heights".to_owned(),
+                value: heights.len() as f64,
+                allowed: "the number of points of the profile",
+            };
+            return Err(error.into());
         }
-        if let Some(index) = heights
-            .iter()
-            .position(|height| height.abs() > 1e50 || height.is_nan())
-        {
-            return value(
-                format!("height with index {index}"),
-                heights[index],
-                "from -1e50 to 1e50 m",
-            );
+        for (index, height) in heights.iter().enumerate() {
+            if height.abs() > 1e50 || height.is_nan() {
+                let error = ContactError::Value {
+                    name: format!("height with index {index}"),
+                    value: *height,
+                    allowed: "from -1e50 to 1e50 m",
+                };
+                return Err(error.into());
+            }
         }
         let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
         // Without a form the heights may be those of the form.

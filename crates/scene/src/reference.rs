@@ -40,9 +40,10 @@ pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,
     effective_modulus: f64,
-    [closing, work]: [f64; 2],
+    works_of_adhesion: [f64; 2],
     preload: f64,
 ) -> Option<f64> {
+    let [closing, work] = works_of_adhesion;
     let flat = ClosedForm::ideal_adhesion_force(work, effective_modulus, length);
     let Some(form) = form else { return Some(flat) };
     if let Some(radius) = form.flat_end() {
@@ -50,10 +51,10 @@ pub fn smooth_adhesion_force(
     }
     let body = closed_form(form, effective_modulus, work)?;
     let (radius, force) = body.force_controlled_pull_off();
-    let pressed = ClosedForm {
+    let closing_body = ClosedForm {
         work_of_adhesion: closing,
         ..body
-    }
-    .force(radius);
-    Some(-force).filter(|_| radius <= 0.5 * length && pressed <= preload)
+    };
+    let is_inside = radius <= 0.5 * length;
+    (is_inside && closing_body.force(radius) <= preload).then_some(-force)
 }

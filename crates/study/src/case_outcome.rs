@@ -216,7 +216,7 @@ mod tests {
                     Ok(())
                 };
                 simulation
-                    .reverse(&scene, (&presses, &[]), &|| false, see)
+                    .reverse(&scene, &presses, &[], &|| false, see)
                     .unwrap();
                 for (press, reversed) in presses.into_iter().zip(reversed) {
                     let loading = vec![press, Move::ToSeparation];

@@ -3,7 +3,7 @@
 use super::axis::{Axis, Target};
 use asperity_data::AxisScale;
 use asperity_scene::Scene;
-use asperity_scene::fields::{Field, Range, Tree};
+use asperity_scene::fields::{Field, Range};
 
 /// Largest relative deviation of a quotient from a whole number that counts as rounding.
 const ROUNDING: f64 = 1e-9;
@@ -32,7 +32,7 @@ impl Allowed {
                 ..
             }) => Allowed::Fractions(scene.length),
             Target::Number(Field { path: "length", .. }) => {
-                let longest = Tree::of(scene).get("roughness.wavelengths.0");
+                let longest = scene.number("roughness.wavelengths.0");
                 longest.map_or(Allowed::Any, Allowed::Multiples)
             }
             Target::SpringsPerWave => Allowed::Fractions(scene.numerics.points as f64),

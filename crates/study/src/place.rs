@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
-use asperity_scene::fields::{FIELDS, Field, Range, Tree};
+use asperity_scene::fields::{FIELDS, Field, NumberError, Range};
 use asperity_scene::{
     Adhesion, Document, Governing, RoughnessParameter, Scene, SceneError, SceneErrors,
 };
@@ -22,7 +22,6 @@ impl Axis {
                 .and_then(|known| known.parameter(parameter))
                 .or(stated.map(|(_, value)| value));
         }
-        let number = |path: &str| Tree::of(scene).get(path);
         match (self.target, scene.loading.first()) {
             (Target::Preload { in_newtons: true }, Some(Move::ToForce(force))) => Some(*force),
             (Target::Preload { .. }, Some(Move::ToForce(force))) => {
@@ -32,7 +31,7 @@ impl Axis {
             (Target::SpringsPerWave, _) => {
                 Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64)
             }
-            _ => number(&self.path),
+            _ => scene.number(&self.path),
         }
     }
 }
@@ -51,10 +50,10 @@ pub(super) fn scene_with<'a>(
         message,
         ..SceneError::default()
     };
-    let (mut tree, mut by_parameter) = (Tree::of(base), None);
+    let mut scene = base.clone();
+    let mut by_parameter = None;
     let mut values: Vec<_> = values.collect();
-    // The last mode follows from the number of springs.
-    values.sort_by_key(|(axis, _)| axis.target == Target::SpringsPerWave);
+    values.sort_by_key(|(axis, _)| turn(axis));
     for (axis, value) in values {
         if let Some(parameter) = axis.target.parameter() {
             by_parameter = Some((parameter, value));
@@ -62,25 +61,24 @@ pub(super) fn scene_with<'a>(
         }
         let (path, value) = match axis.target {
             Target::Preload { .. } => continue,
-            Target::SpringsPerWave => shortest_wave(&tree, value),
+            Target::SpringsPerWave => shortest_wave(&scene, value),
             Target::Number(_) | Target::Stage(_) => (axis.path.as_str(), value),
         };
-        if !tree.set(path, value) {
-            let stages = base.loading.len();
-            let counted = format!("; its {stages} loading stages are counted from 0");
-            let counted = if axis.path.starts_with("loading.") {
-                counted
-            } else {
-                String::new()
-            };
-            return Err(refused(format!(
-                "axis {}: the scene has no {path}{counted}",
-                axis.path
-            ))
-            .into());
+        match scene.set_number(path, value) {
+            Ok(()) => {}
+            Err(NumberError::Contradiction(reason)) => return Err(refused(reason).into()),
+            Err(NumberError::Missing) => {
+                let counted = if axis.path.starts_with("loading.") {
+                    let stages = base.loading.len();
+                    format!("; its {stages} loading stages are counted from 0")
+                } else {
+                    String::new()
+                };
+                let reason = format!("axis {}: the scene has no {path}{counted}", axis.path);
+                return Err(refused(reason).into());
+            }
         }
     }
-    let mut scene = tree.scene().map_err(refused)?;
     if let Some((parameter, value)) = by_parameter {
         if scene
             .adhesion
@@ -98,6 +96,20 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
+/// Returns the turn in which the quantity of an axis is set; quantities with the same turn are set
+/// in their order.
+fn turn(axis: &Axis) -> usize {
+    match (axis.target, axis.path.as_str()) {
+        // The last mode follows from the number of springs.
+        (Target::SpringsPerWave, _) => 1,
+        // An adhesion begins with its work: the other numbers need it.
+        (_, "adhesion.work") => 2,
+        (_, "adhesion.closing_work") => 3,
+        (_, "adhesion.range") => 4,
+        _ => 0,
+    }
+}
+
 /// Returns the adhesion of a scene by a parameter. The range of attraction stays.
 fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
     let by_parameter = Adhesion::by_parameter(parameter, value);
@@ -108,11 +120,10 @@ fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> A
 
 /// Returns path and value of the shortest wave that has this number of springs. The value is a
 /// mode, or a wavelength if the scene has wavelengths.
-fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
-    let [points, length] =
-        ["numerics.points", "length"].map(|path| tree.get(path).unwrap_or_default());
-    match tree.get("roughness.wavelengths.1") {
-        Some(_) => ("roughness.wavelengths.1", springs * length / points),
+fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
+    let points = scene.numerics.points as f64;
+    match scene.number("roughness.wavelengths.1") {
+        Some(_) => ("roughness.wavelengths.1", springs * scene.length / points),
         None => ("roughness.modes.1", (points / springs).round()),
     }
 }
@@ -120,7 +131,6 @@ fn shortest_wave(tree: &Tree, springs: f64) -> (&'static str, f64) {
 /// Returns the physical numbers of a scene except counts and zeros, each with an axis over it that
 /// has no values.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
-    let tree = Tree::of(scene);
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
     let fields = FIELDS.iter().filter(is_physical);
@@ -129,7 +139,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let mut numbers: Vec<(Axis, f64)> = Vec::new();
     for path in paths.chain(stages) {
         let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).ok();
-        let number = axis.zip(tree.get(&path).filter(|value| *value != 0.0));
+        let number = axis.zip(scene.number(&path).filter(|value| *value != 0.0));
         // Variants of a choice share paths.
         numbers.extend(number.filter(|_| numbers.iter().all(|(axis, _)| axis.path != path)));
     }

@@ -121,11 +121,10 @@ impl PreloadCurve {
             StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
         })?;
         let mut touch = 0.0;
-        let touched =
-            simulation.reverse(scene, (&[Move::ToTouch], &[]), stop, &mut |_, reversal| {
-                touch = reversal.turn.force;
-                Ok(())
-            });
+        let touched = simulation.reverse(scene, &[Move::ToTouch], &[], stop, &mut |_, reversal| {
+            touch = reversal.turn.force;
+            Ok(())
+        });
         touched.map_err(failed)?;
         let last = (PRELOADS - 1) as f64;
         let (low, high) = match scale {

@@ -187,18 +187,13 @@ impl Staircase {
     ) -> Result<Staircase, RunError> {
         let mut solve = |ends: &[Move]| -> Result<Vec<(f64, f64)>, RunError> {
             let mut solved = vec![(0.0, 0.0); ends.len()];
-            simulation.reverse(
-                scene,
-                (ends, &[]),
-                stop,
-                &mut |index, reversal: Reversal| {
-                    solved[index] = (
-                        reversal.turn.force,
-                        reversal.adhesion_force().unwrap_or(0.0),
-                    );
-                    Ok(())
-                },
-            )?;
+            simulation.reverse(scene, ends, &[], stop, &mut |index, reversal: Reversal| {
+                solved[index] = (
+                    reversal.turn.force,
+                    reversal.adhesion_force().unwrap_or(0.0),
+                );
+                Ok(())
+            })?;
             Ok(solved)
         };
         let scale = preloads.scale();

@@ -181,7 +181,7 @@ impl<'p> Recorder<'p> {
             let mut each = vec![LoadingOutcome::default(); ends.len()];
             let own_profile = self.simulation.profile(scene)?;
             self.simulation
-                .reverse(scene, (&ends, &[]), self.stop, &mut |index, reversal| {
+                .reverse(scene, &ends, &[], self.stop, &mut |index, reversal| {
                     each[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
                     Ok(())
                 })?;

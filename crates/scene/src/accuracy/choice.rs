@@ -29,13 +29,9 @@ const MOST_TRIED: u64 = 1 << 21;
 /// assert!(parse_tolerance("2").is_err());
 /// ```
 pub fn parse_tolerance(text: &str) -> Result<f64, String> {
-    let allowed =
-        || "allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned();
-    let tolerance = parse_quantity(text, "1").map_err(|_| allowed())?;
-    if tolerance > 0.0 && tolerance < 1.0 {
-        Ok(tolerance)
-    } else {
-        Err(allowed())
+    match parse_quantity(text, "1") {
+        Ok(tolerance) if tolerance > 0.0 && tolerance < 1.0 => Ok(tolerance),
+        _ => Err("allowed: a relative error above 0 and below 1, such as 1e-3 or 0.1%".to_owned()),
     }
 }
 
@@ -98,15 +94,14 @@ impl Choice {
             closed_form,
             finest,
         } = *self;
-        let (points, target, edges) = (grouped(points), target.name(), edges.name());
-        let estimated = format!(
-            "estimated from solutions with up to {} springs",
-            grouped(finest)
-        );
+        let points = grouped(points);
+        let target = target.name();
+        let edges = edges.name();
         let from = if closed_form {
-            "by the closed form"
+            "by the closed form".to_owned()
         } else {
-            &estimated
+            let finest = grouped(finest);
+            format!("estimated from solutions with up to {finest} springs")
         };
         format!(
             "{points} springs with edges {edges}: the fewest found to keep the {target} within {tolerance:e}; its \
@@ -144,25 +139,16 @@ pub enum ChoiceError {
 }
 
 fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
-    let Some(Choice {
-        finest,
-        error,
-        target,
-        points,
-        edges,
-        ..
-    }) = best.as_deref()
-    else {
+    let Some(best) = best else {
         return format!(
             "a tolerance of {tolerance:e} cannot be checked: too few numbers of springs are allowed"
         );
     };
-    let (finest, target, points, edges) = (
-        grouped(*finest),
-        target.name(),
-        grouped(*points),
-        edges.name(),
-    );
+    let finest = grouped(best.finest);
+    let error = best.error;
+    let target = best.target.name();
+    let points = grouped(best.points);
+    let edges = best.edges.name();
     format!(
         "a tolerance of {tolerance:e} is not reached with at most {finest} springs; what is reached is {error:.1e} of \
          the {target}, with {points} springs and edges {edges}"
@@ -210,48 +196,73 @@ pub fn choose(
         .map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
     let mut tried: Vec<[Solution; 2]> = Vec::new();
     let mut runs = Runs::new(folder, stop);
-    let (mut refused, mut of_finest) = (None, None);
+    let mut refused = None;
+    let mut error_of_finest = None;
     for points in allowed_points(scene).take_while(|&points| points <= most) {
         trying(points);
-        let mut solved = Vec::new();
-        for edges in EDGES {
-            match runs.solve_around(&refined(scene, points, edges).map_err(RunError::from)?) {
-                Err(error) if is_too_coarse(&error) => refused = Some(error),
-                Err(error) if is_spent(&error) => {}
-                solution => solved.push(solution?),
-            }
-        }
+        let solved = solve_with_both_edges(scene, points, &mut runs, &mut refused)?;
         if stop() {
             return Err(ChoiceError::Stopped);
         }
-        let Ok(solved) = solved.try_into() else {
+        let Some(solved) = solved else {
             continue;
         };
         tried.push(solved);
-        of_finest = None;
-        let is_enough =
-            |error| judge(&tried, error, tolerance).filter(|choice| choice.error <= tolerance);
-        if is_enough(0.0).is_some() {
-            of_finest = error_of_finest(scene, &mut runs, &tried);
-            if let Some(choice) = of_finest.and_then(is_enough) {
-                return Ok(choice);
-            }
+        error_of_finest = None;
+        // The error of the finest solution takes two more solutions, so it is estimated last.
+        if choice_within(&tried, 0.0, tolerance).is_none() {
+            continue;
+        }
+        error_of_finest = estimated_error(scene, &mut runs, &tried);
+        if let Some(error) = error_of_finest
+            && let Some(choice) = choice_within(&tried, error, tolerance)
+        {
+            return Ok(choice);
         }
     }
-    match refused {
-        Some(error) if tried.is_empty() => return Err(error.into()),
-        _ => of_finest = of_finest.or_else(|| error_of_finest(scene, &mut runs, &tried)),
+    if let Some(error) = refused
+        && tried.is_empty()
+    {
+        return Err(error.into());
     }
-    let best = of_finest
+    let error_of_finest = error_of_finest.or_else(|| estimated_error(scene, &mut runs, &tried));
+    let best = error_of_finest
         .and_then(|error| judge(&tried, error, tolerance))
         .map(Box::new);
     Err(ChoiceError::Unreached { tolerance, best })
 }
 
+/// Solves a scene with this number of springs and each edge model. Returns `None`, and the error in
+/// `refused`, if an edge model has no solution with so few springs, or if memory or time do not
+/// suffice.
+fn solve_with_both_edges(
+    scene: &CheckedScene,
+    points: u64,
+    runs: &mut Runs<'_>,
+    refused: &mut Option<RunError>,
+) -> Result<Option<[Solution; 2]>, RunError> {
+    let mut solutions = Vec::new();
+    for edges in EDGES {
+        match runs.solve_around(&refined(scene, points, edges)?) {
+            Ok(solution) => solutions.push(solution),
+            Err(error) if is_too_coarse(&error) => *refused = Some(error),
+            Err(error) if is_spent(&error) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(solutions.try_into().ok())
+}
+
+/// Returns the choice among solutions, given the error of the finest one, if its error is within
+/// the tolerance.
+fn choice_within(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Option<Choice> {
+    judge(tried, error_of_finest, tolerance).filter(|choice| choice.error <= tolerance)
+}
+
 /// Estimates the relative error of the finest solution with edges between springs, under the loads
 /// of the scene and around them. The error is 0 if the scene has a closed form, and `None` if it is
 /// unknown.
-fn error_of_finest(
+fn estimated_error(
     scene: &CheckedScene,
     runs: &mut Runs<'_>,
     tried: &[[Solution; 2]],
@@ -266,40 +277,52 @@ fn error_of_finest(
 /// Returns the choice among solutions with both edge models, given the error of the finest one. If
 /// none reaches the tolerance, it is the best whose error is confirmed. Returns `None` for too few
 /// solutions.
-fn judge(tried: &[[Solution; 2]], of_finest: f64, tolerance: f64) -> Option<Choice> {
-    let [finest, _] = tried.last()?;
-    let (target, reference, closed_form) = (
-        Target::of(finest),
-        finest.reference(),
-        finest.closed_form.is_some(),
-    );
-    let candidates = [0, 1].into_iter().filter_map(|index| {
-        let error =
-            |pair: &[Solution; 2]| Some(target.difference(&pair[index], &reference)? + of_finest);
-        let errors = tried.iter().map(error).collect::<Option<Vec<_>>>()?;
-        let confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
-        let within = first_within(errors.iter().copied().map(Some), tolerance);
-        let largest = || errors[confirmed..].iter().copied().fold(0.0, f64::max);
-        let (place, error) =
-            within.map_or_else(|| (confirmed, largest()), |place| (place, errors[place]));
-        let (points, edges, finest) = (tried[place][index].points, EDGES[index], finest.points);
-        Some(Choice {
-            tolerance,
-            target,
-            points,
-            edges,
-            error,
-            closed_form,
-            finest,
-        })
-    });
-    let (good, others): (Vec<_>, Vec<_>) = candidates.partition(|choice| choice.error <= tolerance);
+fn judge(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Option<Choice> {
+    let mut candidates = Vec::new();
+    for index in 0..EDGES.len() {
+        candidates.extend(candidate(tried, index, error_of_finest, tolerance));
+    }
     // The first of equal choices: edges between springs.
-    let fewest = good.into_iter().min_by_key(|choice| choice.points);
-    fewest.or_else(|| {
-        others
-            .into_iter()
-            .min_by(|one, other| one.error.total_cmp(&other.error))
+    let fewest = candidates
+        .iter()
+        .filter(|choice| choice.error <= tolerance)
+        .min_by_key(|choice| choice.points);
+    let best = candidates
+        .iter()
+        .min_by(|one, other| one.error.total_cmp(&other.error));
+    fewest.or(best).cloned()
+}
+
+/// Returns the choice among the solutions with the edge model at an index of [`EDGES`].
+fn candidate(
+    tried: &[[Solution; 2]],
+    index: usize,
+    error_of_finest: f64,
+    tolerance: f64,
+) -> Option<Choice> {
+    let [finest, _] = tried.last()?;
+    let target = Target::of(finest);
+    let reference = finest.reference();
+    let mut errors = Vec::new();
+    for solutions in tried {
+        errors.push(target.difference(&solutions[index], &reference)? + error_of_finest);
+    }
+    let last_confirmed = errors.len().checked_sub(1 + REFINEMENTS)?;
+    let within = first_within(errors.iter().copied().map(Some), tolerance);
+    let place = within.unwrap_or(last_confirmed);
+    let error = if within.is_some() {
+        errors[place]
+    } else {
+        errors[place..].iter().copied().fold(0.0, f64::max)
+    };
+    Some(Choice {
+        tolerance,
+        target,
+        points: tried[place][index].points,
+        edges: EDGES[index],
+        error,
+        closed_form: finest.closed_form.is_some(),
+        finest: finest.points,
     })
 }
 

@@ -15,7 +15,7 @@ const MOST_SPRINGS: u64 = 1 << 23;
 const MANY_SPRINGS: u64 = 1 << 16;
 /// Numbers of springs of the two further solutions, as fractions of the number of springs of the
 /// scene. The second pair is for scenes whose waves need more springs than the first pair gives.
-const OTHERS: [[(u64, u64); 2]; 2] = [[(7, 8), (2, 3)], [(3, 2), (2, 1)]];
+const OTHERS: [[Ratio; 2]; 2] = [[ratio(7, 8), ratio(2, 3)], [ratio(3, 2), ratio(2, 1)]];
 /// Ratio of the estimated error to the larger of the two differences from the further solutions.
 ///
 /// The further solutions have edges between springs. A solution with whole springs differs from
@@ -29,6 +29,20 @@ const FACTOR: f64 = 4.0;
 const STEP: f64 = 0.05;
 /// Factors between the loads of a scene and loads near them.
 const NEAR: [f64; 2] = [0.95, 1.05];
+
+/// Ratio of two numbers of springs.
+#[derive(Clone, Copy)]
+struct Ratio {
+    numerator: u64,
+    denominator: u64,
+}
+
+const fn ratio(numerator: u64, denominator: u64) -> Ratio {
+    Ratio {
+        numerator,
+        denominator,
+    }
+}
 
 /// Estimated relative error that the finite number of springs causes in the adhesion force or the
 /// force curve of an [`Outcome`].
@@ -51,17 +65,18 @@ impl Estimate {
     /// Returns the estimated absolute error of the adhesion force of `outcome` in N; `None` if the
     /// estimate is for the force curve ([`Target::Curve`]).
     pub fn of_adhesion_force(&self, outcome: &Outcome) -> Option<f64> {
-        let force = outcome
-            .figures
-            .adhesion_force
-            .filter(|_| self.target == Target::AdhesionForce)?;
-        Some(self.error * force.abs()).filter(|error| error.is_finite())
+        if self.target != Target::AdhesionForce {
+            return None;
+        }
+        let error = self.error * outcome.figures.adhesion_force?.abs();
+        error.is_finite().then_some(error)
     }
 
     /// Returns the estimated relative error of the force curve, as [`Target::Curve`] defines it;
     /// `None` if the estimate is for the adhesion force.
     pub fn of_curve(&self) -> Option<f64> {
-        Some(self.error).filter(|error| self.target == Target::Curve && error.is_finite())
+        let is_known = self.target == Target::Curve && self.error.is_finite();
+        is_known.then_some(self.error)
     }
 
     /// Returns the text that summaries print after the adhesion force: `grid ± 0.1 %`, or
@@ -134,34 +149,65 @@ pub fn estimate(
     // If one of the first two numbers of springs is too small for the shortest wave, the scene is
     // solved with about 3/2 and about 2 times as many springs as it has.
     let mut runs = Runs::new(folder, stop);
-    let mut solved = |scene: &CheckedScene| runs.solve(scene).ok();
-    let others = others(&target.only(scene).ok()?, &mut solved)?;
-    let difference = |solution: &Solution| {
-        Some(
-            target
-                .difference(solution, &own)?
-                .max(target.difference(&own, solution)?),
-        )
-    };
-    let differences = others
+    let further = further_solutions(&target.only(scene).ok()?, &mut |scene| {
+        runs.solve(scene).ok()
+    })?;
+    let differences = further
         .each_ref()
-        .map(|(scene, solution)| (scene, difference(solution)));
-    let near_step = target == Target::AdhesionForce
-        && differences.iter().any(|&(scene, step)| {
-            let step = step.filter(|&step| step > STEP);
-            let mut near = NEAR
-                .iter()
-                .filter_map(|&factor| difference(&solved(&loaded(scene, factor)?)?));
-            step.is_some_and(|step| near.any(|rest| rest < step / 3.0))
-        });
-    let error = FACTOR * differences[0].1?.max(differences[1].1?);
-    let springs = others.iter().map(|(_, solution)| solution.points).collect();
+        .map(|further| difference(target, &further.solution, &own));
+    let mut near_step = false;
+    if target == Target::AdhesionForce {
+        for (further, difference) in further.iter().zip(differences) {
+            near_step = near_step || is_near_step(&further.scene, difference, &own, &mut runs);
+        }
+    }
+    let [first, second] = differences;
     Some(Estimate {
         target,
-        error,
+        error: FACTOR * first?.max(second?),
         near_step,
-        evidence: Evidence::Solutions(springs),
+        evidence: Evidence::Solutions(
+            further
+                .iter()
+                .map(|further| further.solution.points)
+                .collect(),
+        ),
     })
+}
+
+/// Returns the larger one of the relative differences of two solutions from each other.
+fn difference(target: Target, solution: &Solution, own: &Solution) -> Option<f64> {
+    let from_own = target.difference(solution, own)?;
+    Some(from_own.max(target.difference(own, solution)?))
+}
+
+/// Returns true if the adhesion force of a further solution differs by a step, which is absent
+/// under loads near those of the scene.
+fn is_near_step(
+    scene: &CheckedScene,
+    step: Option<f64>,
+    own: &Solution,
+    runs: &mut Runs<'_>,
+) -> bool {
+    let Some(step) = step.filter(|step| *step > STEP) else {
+        return false;
+    };
+    NEAR.into_iter().any(|factor| {
+        difference_under_load(scene, factor, own, runs)
+            .is_some_and(|difference| difference < step / 3.0)
+    })
+}
+
+/// Returns the difference of the adhesion force of a scene with its loads multiplied by a factor.
+/// Returns `None` if this scene has no solution.
+fn difference_under_load(
+    scene: &CheckedScene,
+    factor: f64,
+    own: &Solution,
+    runs: &mut Runs<'_>,
+) -> Option<f64> {
+    let solution = runs.solve(&loaded(scene, factor)?).ok()?;
+    difference(Target::AdhesionForce, &solution, own)
 }
 
 /// Estimates the errors of a solution with edges between springs, under the loads of the scene and
@@ -172,33 +218,54 @@ pub(super) fn own_errors(
     runs: &mut Runs<'_>,
 ) -> Option<Errors> {
     let scene = refined(scene, finest.points, Edges::SubCell).ok()?;
-    let others = others(&scene, &mut |scene| runs.solve_around(scene).ok())?;
-    let [one, other] = others.map(|(_, solution)| solution.errors(finest));
+    let [first, second] = further_solutions(&scene, &mut |scene| runs.solve_around(scene).ok())?;
+    let first = first.solution.errors(finest);
+    let second = second.solution.errors(finest);
     Some(array::from_fn(|index| {
-        Some(FACTOR * one[index]?.max(other[index]?))
+        Some(FACTOR * first[index]?.max(second[index]?))
     }))
+}
+
+/// A scene with another number of springs, and its solution.
+struct Further {
+    scene: CheckedScene,
+    solution: Solution,
 }
 
 /// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if
 /// they are not allowed or have no solution.
-fn others(
+fn further_solutions(
     scene: &CheckedScene,
-    solved: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
-) -> Option<[(CheckedScene, Solution); 2]> {
+    solve: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
+) -> Option<[Further; 2]> {
+    for [first, second] in OTHERS {
+        if let Some(first) = with_springs(scene, first)
+            && let Some(second) = with_springs(scene, second)
+        {
+            let first = Further {
+                solution: solve(&first)?,
+                scene: first,
+            };
+            let second = Further {
+                solution: solve(&second)?,
+                scene: second,
+            };
+            return Some([first, second]);
+        }
+    }
+    None
+}
+
+/// Returns the scene with about this ratio of its number of springs, and edges between springs.
+/// Returns `None` if the number is not allowed.
+fn with_springs(scene: &CheckedScene, ratio: Ratio) -> Option<CheckedScene> {
     let own = scene.numerics.points;
-    let on = |(times, over): (u64, u64)| {
-        let points = apart_from(own.saturating_mul(times) / over);
-        let is_other = points != own && (points < own) == (times < over);
-        let is_allowed = is_other && (FEWEST..=MOST_SPRINGS).contains(&points);
-        refined(scene, points, Edges::SubCell)
-            .ok()
-            .filter(|_| is_allowed)
-    };
-    let (one, other) = OTHERS
-        .into_iter()
-        .find_map(|[one, other]| Some((on(one)?, on(other)?)))?;
-    let (of_one, of_other) = (solved(&one)?, solved(&other)?);
-    Some([(one, of_one), (other, of_other)])
+    let points = apart_from(own.saturating_mul(ratio.numerator) / ratio.denominator);
+    let is_other = points != own && (points < own) == (ratio.numerator < ratio.denominator);
+    if !is_other || !(FEWEST..=MOST_SPRINGS).contains(&points) {
+        return None;
+    }
+    refined(scene, points, Edges::SubCell).ok()
 }
 
 /// Returns the smallest number of springs, at least `least`, that suits a Fourier transform: it has
@@ -209,18 +276,23 @@ fn others(
 /// a form is. A power of two and twice an odd number have two positions in common. So equal heights
 /// never result from the positions alone.
 fn apart_from(least: u64) -> u64 {
-    let without = |mut number: u64, prime: &u64| {
-        while number.is_multiple_of(*prime) {
-            number /= prime;
-        }
-        number
-    };
-    let suits = |number: &u64| [3, 5, 7, 11, 13].iter().fold(*number, without) == 1;
     let factor = if least < MANY_SPRINGS { 1 } else { 2 };
-    (least.div_ceil(factor) | 1..)
+    let first_odd = least.div_ceil(factor) | 1;
+    (first_odd..)
         .step_by(2)
-        .find(suits)
+        .find(|odd| has_small_factors(*odd))
         .map_or(least, |odd| factor * odd)
+}
+
+/// Returns true if an odd number has no prime factor above 13.
+fn has_small_factors(odd: u64) -> bool {
+    let mut quotient = odd;
+    for prime in [3, 5, 7, 11, 13] {
+        while quotient.is_multiple_of(prime) {
+            quotient /= prime;
+        }
+    }
+    quotient == 1
 }
 
 #[cfg(test)]

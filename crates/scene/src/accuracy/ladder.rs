@@ -54,9 +54,40 @@ struct Ladder<'a> {
     scene: &'a CheckedScene,
     folder: &'a Path,
     is_over: &'a dyn Fn() -> bool,
-    /// Rows without errors yet, which have setting and times, each with its solution.
-    rungs: Vec<(Row, Solution)>,
+    rungs: Vec<Rung>,
     table: CostTable,
+}
+
+/// Value of a setting, and the scene with it.
+struct Setting {
+    knob: Knob,
+    value: f64,
+    scene: CheckedScene,
+}
+
+/// Row without errors yet, which has setting and times, and its solution.
+struct Rung {
+    row: Row,
+    solution: Solution,
+}
+
+/// Time of a measurement.
+struct Clock<'a> {
+    begun: Instant,
+    /// Time in s that the measurement may take.
+    budget: f64,
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Clock<'_> {
+    /// Returns the time in s that is left; 0 if the measurement was stopped.
+    fn left(&self) -> f64 {
+        if (self.stop)() {
+            0.0
+        } else {
+            self.budget - self.begun.elapsed().as_secs_f64()
+        }
+    }
 }
 
 /// Measures the errors of a scene and the times of its computation, with more and more springs and,
@@ -74,50 +105,49 @@ pub fn measure(
     stop: &dyn Fn() -> bool,
     watch: &mut dyn FnMut(Progress<'_>),
 ) -> Result<CostTable, String> {
-    let (begun, budget) = (Instant::now(), budget.as_secs_f64());
-    let left = || {
-        if stop() {
-            0.0
-        } else {
-            budget - begun.elapsed().as_secs_f64()
-        }
+    let clock = Clock {
+        begun: Instant::now(),
+        budget: budget.as_secs_f64(),
+        stop,
     };
-    let is_over = || left() <= 0.0;
-    let transform_seconds = time_of_transform().unwrap_or(f64::NAN);
-    let table = CostTable {
-        budget,
-        transform_seconds,
-        ..CostTable::default()
-    };
+    let is_over = || clock.left() <= 0.0;
     let mut ladder = Ladder {
         scene,
         folder,
         is_over: &is_over,
         rungs: Vec::new(),
-        table,
+        table: CostTable {
+            budget: clock.budget,
+            transform_seconds: time_of_transform().unwrap_or(f64::NAN),
+            ..CostTable::default()
+        },
     };
     let refused = ladder
-        .climb(&left, watch)
+        .climb(&clock, watch)
         .map_err(|error| error.to_string())?;
-    let own = ladder.finest().and_then(|[finest, _]| {
-        let mut runs = Runs::new(folder, &is_over);
-        own_errors(&compared(scene).ok()?, finest, &mut runs)
-    });
+    let own = ladder.own_errors();
+    if stop() {
+        return Err("the measurement was stopped".to_owned());
+    }
+    if ladder.count(own) {
+        return Ok(CostTable {
+            spent: clock.begun.elapsed().as_secs_f64(),
+            ..ladder.table
+        });
+    }
+    if let Some(error) = refused
+        && ladder.rungs.is_empty()
+    {
+        return Err(error.to_string());
+    }
     let springs = allowed_points(scene)
         .next()
         .unwrap_or(scene.numerics.points);
-    match refused {
-        _ if stop() => Err("the measurement was stopped".to_owned()),
-        _ if ladder.count(own) => Ok(CostTable {
-            spent: begun.elapsed().as_secs_f64(),
-            ..ladder.table
-        }),
-        Some(error) if ladder.rungs.is_empty() => Err(error.to_string()),
-        _ => Err(format!(
-            "the budget of {budget} s is spent before two solutions could be compared, of which the coarsest has \
-             {springs} springs"
-        )),
-    }
+    Err(format!(
+        "the budget of {} s is spent before two solutions could be compared, of which the coarsest has \
+         {springs} springs",
+        clock.budget
+    ))
 }
 
 /// Returns the scene with as many curve points as a comparison of curves needs.
@@ -135,42 +165,44 @@ impl Ladder<'_> {
     /// if there was one.
     fn climb(
         &mut self,
-        left: &dyn Fn() -> f64,
+        clock: &Clock<'_>,
         watch: &mut dyn FnMut(Progress<'_>),
     ) -> Result<Option<RunError>, RunError> {
-        let (mut refused, mut took) = (None, 0.0);
+        let mut refused = None;
+        let mut last_seconds = 0.0;
         for points in allowed_points(self.scene) {
-            let began = left();
+            let before = clock.left();
             // The first two may take all of the time, so that a comparison is possible.
-            let mut goes_on = began
-                > if self.finest().is_some() {
-                    LATER * took
-                } else {
-                    0.0
-                };
-            for (knob, setting, scene) in self.settings(points) {
-                let (named, rest) = match knob {
-                    Knob::Step => (format_quantity(setting, "m"), "less"),
-                    _ => (format!("{} springs", grouped(points)), "more"),
+            let needed = if self.finest().is_some() {
+                LATER * last_seconds
+            } else {
+                0.0
+            };
+            let mut goes_on = before > needed;
+            for setting in self.settings(points) {
+                let springs = format!("{} springs", grouped(points));
+                let (name, beyond) = match setting.knob {
+                    Knob::Step => (format_quantity(setting.value, "m"), "less"),
+                    Knob::SubCellSprings | Knob::GridSprings => (springs, "more"),
                 };
                 if goes_on {
-                    watch(Progress::Trying(knob, &named));
-                    match self.rung(knob, setting, &scene) {
+                    watch(Progress::Trying(setting.knob, &name));
+                    match self.rung(&setting) {
+                        Ok(rung) => self.rungs.push(rung),
                         Err(error) if is_too_coarse(&error) => refused = Some(error),
                         Err(error) if is_spent(&error) => goes_on = false,
-                        rung => self.rungs.push(rung?),
+                        Err(error) => return Err(error),
                     }
                 }
                 if !goes_on {
-                    self.table
-                        .left_out
-                        .push(format!("{}: {named} and {rest}", knob.name()));
+                    let left_out = format!("{}: {name} and {beyond}", setting.knob.name());
+                    self.table.left_out.push(left_out);
                 }
             }
             if !goes_on {
                 break;
             }
-            took = began - left();
+            last_seconds = before - clock.left();
             if self.count(None) {
                 watch(Progress::Rows(&self.table));
             }
@@ -178,103 +210,107 @@ impl Ladder<'_> {
         Ok(refused)
     }
 
-    /// Returns the settings with this number of springs. The step of the stepwise solver is halved
-    /// from rung to rung, once the exact reference solution is known.
-    fn settings(&self, points: u64) -> Vec<(Knob, f64, CheckedScene)> {
-        let of = |(knob, edges)| {
-            Some((
-                knob,
-                points as f64,
-                refined(self.scene, points, edges).ok()?,
-            ))
-        };
-        let springs = [
-            (Knob::SubCellSprings, Edges::SubCell),
-            (Knob::GridSprings, Edges::Grid),
-        ]
-        .map(of);
-        let step = || {
-            let exact = self.exact()?;
-            let at = exact.curve.iter().flatten().map(|point| point[0]);
-            let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-                (at.min(low), at.max(high))
-            });
-            let halvings = self.rungs_of(Knob::Step).count() as i32;
-            let step = (high - low) / FEWEST_STEPS * 0.5_f64.powi(halvings);
-            let scene = refined(self.scene, exact.points, Edges::Grid).ok()?;
-            let scene = scene
-                .with(|scene| scene.numerics.solver = Solver::Stepwise { step })
-                .ok()?;
-            (low < high).then_some((Knob::Step, step, scene))
-        };
-        springs.into_iter().flatten().chain(step()).collect()
+    /// Estimates the errors of the finest solution, if there are two solutions.
+    fn own_errors(&self) -> Option<Errors> {
+        let [finest, _] = self.finest()?;
+        let mut runs = Runs::new(self.folder, self.is_over);
+        own_errors(&compared(self.scene).ok()?, finest, &mut runs)
     }
 
-    fn rung(
-        &self,
-        knob: Knob,
-        setting: f64,
-        scene: &CheckedScene,
-    ) -> Result<(Row, Solution), RunError> {
-        let (mut runs, compared) = (Runs::new(self.folder, self.is_over), compared(scene)?);
-        let is_step = knob == Knob::Step;
-        let solution = if is_step {
+    /// Returns the settings with this number of springs. The step of the stepwise solver is halved
+    /// from rung to rung, once the exact reference solution is known.
+    fn settings(&self, points: u64) -> Vec<Setting> {
+        let mut settings = Vec::new();
+        for (knob, edges) in [
+            (Knob::SubCellSprings, Edges::SubCell),
+            (Knob::GridSprings, Edges::Grid),
+        ] {
+            if let Ok(scene) = refined(self.scene, points, edges) {
+                settings.push(Setting {
+                    knob,
+                    value: points as f64,
+                    scene,
+                });
+            }
+        }
+        settings.extend(self.next_step());
+        settings
+    }
+
+    /// Returns the next step of the stepwise solver; `None` without an exact solution.
+    fn next_step(&self) -> Option<Setting> {
+        let exact = self.exact()?;
+        let mut lowest = f64::INFINITY;
+        let mut highest = f64::NEG_INFINITY;
+        for [indentation, _] in exact.curve.iter().flatten() {
+            lowest = indentation.min(lowest);
+            highest = indentation.max(highest);
+        }
+        let halvings = self.rungs_of(Knob::Step).count() as i32;
+        let step = (highest - lowest) / FEWEST_STEPS * 0.5_f64.powi(halvings);
+        let scene = refined(self.scene, exact.points, Edges::Grid)
+            .and_then(|scene| scene.with(|scene| scene.numerics.solver = Solver::Stepwise { step }))
+            .ok()?;
+        (lowest < highest).then_some(Setting {
+            knob: Knob::Step,
+            value: step,
+            scene,
+        })
+    }
+
+    fn rung(&self, setting: &Setting) -> Result<Rung, RunError> {
+        let mut runs = Runs::new(self.folder, self.is_over);
+        let compared = compared(&setting.scene)?;
+        let solution = if setting.knob == Knob::Step {
             runs.solve(&compared)?
         } else {
             runs.solve_around(&compared)?
         };
-        let seconds = self.time(scene).ok_or(ContactError::Interrupted)?;
-        let transforms = Some(seconds.minimum / self.table.transform_seconds);
-        let (springs, seconds, errors) = (solution.points, Some(seconds), [None; 4]);
-        Ok((
-            Row {
-                knob,
-                setting,
-                springs,
-                seconds,
-                transforms,
-                errors,
-            },
-            solution,
-        ))
+        let seconds = self.time(&setting.scene).ok_or(ContactError::Interrupted)?;
+        let row = Row {
+            knob: setting.knob,
+            setting: setting.value,
+            springs: solution.points,
+            seconds: Some(seconds),
+            transforms: Some(seconds.minimum / self.table.transform_seconds),
+            errors: [None; 4],
+        };
+        Ok(Rung { row, solution })
     }
 
     /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused.
     /// Returns `None` if no time is left.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
-        let (began, mut seconds) = (Instant::now(), Vec::new());
+        let begun = Instant::now();
+        let mut seconds = Vec::new();
         while seconds.is_empty()
-            || (seconds.len() < MOST_RUNS && began.elapsed().as_secs_f64() < ENOUGH_RUNS)
+            || (seconds.len() < MOST_RUNS && begun.elapsed().as_secs_f64() < ENOUGH_RUNS)
         {
-            let clock = Instant::now();
+            let run_begun = Instant::now();
             let Ok(_) = Runs::new(self.folder, self.is_over).solve(scene) else {
                 break;
             };
-            seconds.push(clock.elapsed().as_secs_f64());
+            seconds.push(run_begun.elapsed().as_secs_f64());
         }
         Timing::of(seconds)
     }
 
-    fn rungs_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &(Row, Solution)> {
-        self.rungs.iter().filter(move |(row, _)| row.knob == knob)
+    fn rungs_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Rung> {
+        self.rungs.iter().filter(move |rung| rung.row.knob == knob)
     }
 
     /// Returns the reference for steps: the exact solution with as many springs as the stepwise
     /// solver has.
     fn exact(&self) -> Option<&Solution> {
-        let mut exact = self
-            .rungs_of(Knob::GridSprings)
-            .map(|(_, solution)| solution);
-        exact.find(|solution| solution.points >= STEPWISE_SPRINGS)
+        self.rungs_of(Knob::GridSprings)
+            .map(|rung| &rung.solution)
+            .find(|solution| solution.points >= STEPWISE_SPRINGS)
     }
 
     /// Returns the two finest solutions with edges between springs, the finest first.
     fn finest(&self) -> Option<[&Solution; 2]> {
-        let mut finer = self
-            .rungs_of(Knob::SubCellSprings)
-            .rev()
-            .map(|(_, solution)| solution);
-        Some([finer.next()?, finer.next()?])
+        let mut rungs = self.rungs_of(Knob::SubCellSprings).rev();
+        Some([&rungs.next()?.solution, &rungs.next()?.solution])
     }
 
     /// Computes the errors of all rows, relative to the finest solution or the closed form. Errors
@@ -284,39 +320,37 @@ impl Ladder<'_> {
         let Some([finest, last]) = self.finest() else {
             return false;
         };
-        let twice = || last.errors(finest).map(|last| last.map(|last| 2.0 * last));
-        let (mut errors, target) = (own.unwrap_or_else(twice), finest.reference());
-        let closed_form = target.closed_form.is_some();
+        let mut errors = own.unwrap_or_else(|| {
+            let differences = last.errors(finest);
+            differences.map(|difference| difference.map(|difference| 2.0 * difference))
+        });
+        let reference = finest.reference();
+        let closed_form = reference.closed_form.is_some();
         if closed_form {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
         // With few springs each of them is a jump, which is late by up to one distance of samples.
-        let late = [
-            None,
-            Some(1.0 / compared_samples(self.scene) as f64),
-            None,
-            None,
-        ];
+        let mut errors_of_exact: Errors = [None; 4];
+        errors_of_exact[Target::Curve as usize] = Some(1.0 / compared_samples(self.scene) as f64);
         let mut rows: Vec<Row> = Vec::new();
         for knob in Knob::ALL {
             // The difference of the finest solution from itself is zero, which is not its error.
-            let (target, floors) = match (knob, self.exact()) {
-                (Knob::Step, Some(exact)) => (exact, late),
-                _ => (&target, errors),
+            let (reference, floors) = match (knob, self.exact()) {
+                (Knob::Step, Some(exact)) => (exact, errors_of_exact),
+                _ => (&reference, errors),
             };
-            for (row, solution) in self.rungs_of(knob) {
-                let before = rows.last().filter(|row| row.knob == knob);
-                let errors = resolved(solution.errors(target), floors, row.setting, before);
+            for Rung { row, solution } in self.rungs_of(knob) {
+                let coarser = rows.last().filter(|coarser| coarser.knob == knob);
+                let errors = resolved(solution.errors(reference), floors, row.setting, coarser);
                 rows.push(Row {
                     errors,
                     ..row.clone()
                 });
             }
         }
-        let (springs, adhesion_force) = (target.points, target.adhesion_force);
         self.table.reference = CostReference {
-            springs,
-            adhesion_force,
+            springs: reference.points,
+            adhesion_force: reference.adhesion_force,
             closed_form,
             errors,
         };
@@ -331,23 +365,31 @@ fn resolved(
     errors: Errors,
     floors: Errors,
     setting: f64,
-    before: Option<&Row>,
+    coarser: Option<&Row>,
 ) -> [Option<ErrorFigure>; 4] {
-    let ratio = before.map_or(1.0, |row| {
-        (setting / row.setting).max(row.setting / setting)
-    });
-    let coarse = before.map_or([None; 4], |row| row.errors);
-    std::array::from_fn(|index| {
-        let (error, floor) = (errors[index]?, floors[index].unwrap_or(0.0).max(ROUNDING));
+    let mut figures = [None; 4];
+    for (index, figure) in figures.iter_mut().enumerate() {
+        let Some(error) = errors[index] else {
+            continue;
+        };
+        let floor = floors[index].unwrap_or(0.0).max(ROUNDING);
         let resolved = error > floor;
-        let coarse = coarse[index].filter(|coarse| coarse.resolved && resolved);
-        let order = coarse.and_then(|coarse| observed_order(coarse.error, error, ratio));
-        Some(ErrorFigure {
+        let mut order = None;
+        if let Some(row) = coarser
+            && let Some(coarse) = row.errors[index]
+            && coarse.resolved
+            && resolved
+        {
+            let ratio = (setting / row.setting).max(row.setting / setting);
+            order = observed_order(coarse.error, error, ratio);
+        }
+        *figure = Some(ErrorFigure {
             error: error.max(floor),
             resolved,
             order,
-        })
-    })
+        });
+    }
+    figures
 }
 
 /// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) between two errors; the
@@ -362,19 +404,22 @@ fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
 fn time_of_transform() -> Option<f64> {
     let transform = plan_real_forward(TRANSFORM_POINTS);
     let mut points = transform.make_input_vec();
-    let (mut modes, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
-    let run = |_| {
-        points
-            .iter_mut()
-            .enumerate()
-            .for_each(|(index, point)| *point = (index % 17) as f64);
-        let clock = Instant::now();
+    let mut modes = transform.make_output_vec();
+    let mut scratch = transform.make_scratch_vec();
+    let mut shortest = None;
+    // The first run is not measured.
+    for run in 0..=MOST_RUNS {
+        for (index, point) in points.iter_mut().enumerate() {
+            *point = (index % 17) as f64;
+        }
+        let begun = Instant::now();
         transform
             .process_with_scratch(&mut points, &mut modes, &mut scratch)
             .ok()?;
-        Some(clock.elapsed().as_secs_f64())
-    };
-    // The first run is not measured.
-    let times: Option<Vec<f64>> = (0..=MOST_RUNS).map(run).collect();
-    times?.into_iter().skip(1).reduce(f64::min)
+        let seconds = begun.elapsed().as_secs_f64();
+        if run > 0 {
+            shortest = Some(shortest.map_or(seconds, |shortest: f64| shortest.min(seconds)));
+        }
+    }
+    shortest
 }

@@ -8,7 +8,7 @@ use crate::scene::model::{Scene, Solver};
 use crate::simulation::outcome::{Outcome, RunError};
 use crate::simulation::stages::Simulation;
 use asperity_contact::{Branch, ContactError, Direction, Edges, History, LegRecord, Move};
-use asperity_surface::{Form, SurfaceError};
+use asperity_surface::SurfaceError;
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -38,15 +38,14 @@ pub(super) struct Solution {
 
 impl Solution {
     pub(super) fn of(scene: &Scene, outcome: &Outcome) -> Self {
-        let some = |value: f64| (value != 0.0 && value.is_finite()).then_some(value);
         let figures = &outcome.figures;
         Solution {
             points: outcome.line.points as u64,
-            adhesion_force: figures.adhesion_force.and_then(some),
+            adhesion_force: figures.adhesion_force.and_then(unless_zero),
             closed_form: closed_form_adhesion(scene, outcome),
             around: Vec::new(),
-            dissipated_energy: figures.dissipated_energy.and_then(some),
-            contact_length: some(longest_contact(outcome)),
+            dissipated_energy: figures.dissipated_energy.and_then(unless_zero),
+            contact_length: unless_zero(longest_contact(outcome)),
             curve: force_curve(&outcome.history),
         }
     }
@@ -54,39 +53,49 @@ impl Solution {
     /// Returns this solution as a reference. An adhesion force in closed form replaces the computed
     /// one.
     pub(super) fn reference(&self) -> Solution {
-        match self.closed_form {
-            Some(_) => Solution {
-                adhesion_force: self.closed_form,
-                around: Vec::new(),
-                ..self.clone()
-            },
-            None => self.clone(),
+        let mut reference = self.clone();
+        if self.closed_form.is_some() {
+            reference.adhesion_force = self.closed_form;
+            reference.around.clear();
         }
+        reference
     }
 
     /// Returns the relative differences from a reference. The difference of the adhesion force is
     /// the largest over all loads that both have. An error that changes sign from load to load is
     /// then not small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
-        let relative = |value: Option<f64>, reference: Option<f64>| {
-            reference.map(|reference| relative_error(value.unwrap_or(0.0), reference))
-        };
-        let around = self
-            .around
-            .iter()
-            .zip(&reference.around)
-            .map(|(&one, &other)| match (one, other) {
-                (Some(_), None) => f64::INFINITY,
-                _ => relative(one, other).unwrap_or(0.0),
-            });
-        let own = relative(self.adhesion_force, reference.adhesion_force);
         [
-            own.map(|own| around.fold(own, f64::max)),
+            self.error_of_adhesion_force(reference),
             difference(&self.curve, &reference.curve),
-            relative(self.dissipated_energy, reference.dissipated_energy),
-            relative(self.contact_length, reference.contact_length),
+            error_of(self.dissipated_energy, reference.dissipated_energy),
+            error_of(self.contact_length, reference.contact_length),
         ]
     }
+
+    fn error_of_adhesion_force(&self, reference: &Solution) -> Option<f64> {
+        let mut largest = error_of(self.adhesion_force, reference.adhesion_force)?;
+        for (&force, &reference) in self.around.iter().zip(&reference.around) {
+            let error = if force.is_some() && reference.is_none() {
+                f64::INFINITY
+            } else {
+                error_of(force, reference).unwrap_or(0.0)
+            };
+            largest = largest.max(error);
+        }
+        Some(largest)
+    }
+}
+
+/// Returns a value of which a relative error exists.
+fn unless_zero(value: f64) -> Option<f64> {
+    (value != 0.0 && value.is_finite()).then_some(value)
+}
+
+/// Returns the relative error of a value, which is zero if it is missing; `None` without a
+/// reference.
+fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
+    Some(relative_error(value.unwrap_or(0.0), reference?))
 }
 
 /// Quantity whose error [`estimate`](crate::estimate()) estimates and
@@ -148,56 +157,66 @@ pub(super) fn refined(
     edges: Edges,
 ) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| {
-        let numerics = &mut scene.numerics;
-        (numerics.points, numerics.edges, numerics.solver) = (points, edges, Solver::Exact);
+        scene.numerics.points = points;
+        scene.numerics.edges = edges;
+        scene.numerics.solver = Solver::Exact;
     })
 }
 
 /// Returns the scene with all positive target forces and indentations multiplied by a factor.
 /// Returns `None` if there are none, or if a product is out of range.
 pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
-    let loaded = |other: &mut Scene| {
-        for leg in &mut other.loading {
-            if let Move::ToForce(target) | Move::ToIndentation(target) = leg
-                && *target > 0.0
-            {
-                *target *= factor;
-            }
+    let mut loaded = Scene::clone(scene);
+    for stage in &mut loaded.loading {
+        if let Move::ToForce(target) | Move::ToIndentation(target) = stage
+            && *target > 0.0
+        {
+            *target *= factor;
         }
-    };
-    scene
-        .with(loaded)
-        .ok()
-        .filter(|other| other.loading != scene.loading)
+    }
+    if loaded.loading == scene.loading {
+        return None;
+    }
+    loaded.checked().ok()
 }
 
 /// Returns true if a scene has target forces or indentations that [`loaded`] multiplies.
 pub(super) fn has_loads(scene: &Scene) -> bool {
-    let is_load = |leg: &Move| matches!(leg, Move::ToForce(target) | Move::ToIndentation(target) if *target > 0.0);
-    scene.loading.iter().any(is_load)
+    scene.loading.iter().any(|stage| match *stage {
+        Move::ToForce(target) | Move::ToIndentation(target) => target > 0.0,
+        _ => false,
+    })
 }
 
 /// Returns the powers of two that the scene allows as its number of springs, ascending.
 pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
-    let allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
+    let is_allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
     // Skips numbers too small for the modes, then stops at those too large for the field.
     powers
         .take(40)
-        .skip_while(move |&points| !allowed(points))
-        .take_while(move |&points| allowed(points))
+        .skip_while(move |&points| !is_allowed(points))
+        .take_while(move |&points| is_allowed(points))
 }
 
 /// Runs of scenes that reuse an unchanged profile.
-pub(super) struct Runs<'a>(Simulation, &'a dyn Fn() -> bool);
+pub(super) struct Runs<'a> {
+    simulation: Simulation,
+    stop: &'a dyn Fn() -> bool,
+}
 
 impl<'a> Runs<'a> {
     pub(super) fn new(folder: &Path, stop: &'a dyn Fn() -> bool) -> Self {
-        Runs(Simulation::new(folder.to_path_buf()), stop)
+        Runs {
+            simulation: Simulation::new(folder.to_path_buf()),
+            stop,
+        }
     }
 
     pub(super) fn solve(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
-        let outcome = self.0.run(scene, self.1, &mut |_, _, _| Ok(()))?;
+        let outcome = self
+            .simulation
+            .run(scene, self.stop, &mut |_, _, _| Ok(()))?;
         Ok(Solution::of(scene, &outcome))
     }
 
@@ -205,17 +224,19 @@ impl<'a> Runs<'a> {
     pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene)?;
-        let others = AROUND
-            .into_iter()
-            .filter_map(|factor| loaded(&scene, factor));
-        for scene in others
-            .take_while(|_| solution.adhesion_force.is_some())
-            .collect::<Vec<_>>()
-        {
-            solution.around.push(match self.solve(&scene) {
+        if solution.adhesion_force.is_none() {
+            return Ok(solution);
+        }
+        for factor in AROUND {
+            let Some(loaded) = loaded(&scene, factor) else {
+                continue;
+            };
+            let adhesion_force = match self.solve(&loaded) {
+                Ok(solution) => solution.adhesion_force,
                 Err(error) if is_too_coarse(&error) => None,
-                other => other?.adhesion_force,
-            });
+                Err(error) => return Err(error),
+            };
+            solution.around.push(adhesion_force);
         }
         Ok(solution)
     }
@@ -224,15 +245,12 @@ impl<'a> Runs<'a> {
 /// Returns true if memory or time did not suffice.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
-    let is_short = matches!(
+    matches!(
         error,
-        OutOfMemory { .. } | Surface(SurfaceError::OutOfMemory { .. })
-    );
-    is_short
-        || matches!(
-            error,
-            Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted)
-        )
+        OutOfMemory { .. }
+            | Surface(SurfaceError::OutOfMemory { .. })
+            | Contact(ContactError::OutOfMemory(_) | ContactError::Interrupted)
+    )
 }
 
 /// Returns true if there are too few springs: none is under the body, or their contact does not
@@ -246,8 +264,13 @@ pub(super) fn is_too_coarse(error: &RunError) -> bool {
 }
 
 fn longest_contact(outcome: &Outcome) -> f64 {
-    let points = outcome.history.legs.iter().flat_map(|leg| &leg.curve);
-    points.map(|point| point.contact_length).fold(0.0, f64::max)
+    let mut longest = 0.0;
+    for leg in &outcome.history.legs {
+        for point in &leg.curve {
+            longest = f64::max(longest, point.contact_length);
+        }
+    }
+    longest
 }
 
 /// Returns the adhesion force of a scene in closed form in N. `outcome` is the solution of the
@@ -258,30 +281,59 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     if scene.roughness.is_some() {
         return None;
     }
-    let (length, modulus) = (scene.length, outcome.governing.effective_modulus);
-    let flat_pull_off = |width: f64| -(PI * width * work / modulus).sqrt();
-    let form = scene.form.as_ref();
-    let (pull_off, widest) = match (form, form.and_then(Form::flat_end)) {
-        (None, _) => (flat_pull_off(length), length),
-        (_, Some(radius)) if 2.0 * radius <= length => (flat_pull_off(2.0 * radius), length),
-        (Some(form), _) => {
-            let body = closed_form(form, modulus, work)?;
-            let (radius, _) = body.force_controlled_pull_off();
-            // An edge of the contact at the end of the profile is no longer the body's own.
-            (
-                body.indentation(radius),
-                length - 2.0 * outcome.line.spacing,
-            )
-        }
-    };
+    let limits = Limits::of(scene, outcome, work)?;
     let legs = &outcome.history.legs;
     Branch::pull_off(legs)?;
     let pulled = &legs[Branch::last_unloading(legs)?.stages];
-    let passes = pulled.first()?.start() >= pull_off && pulled.last()?.end_in_contact().is_none();
+    let passes =
+        pulled.first()?.start() >= limits.pull_off && pulled.last()?.end_in_contact().is_none();
     // Lengths are sums with rounding errors.
-    let is_inside = longest_contact(outcome) <= widest * (1.0 + 1e-9);
-    smooth_adhesion_force(form, length, modulus, [work; 2], f64::INFINITY)
-        .filter(|_| passes && is_inside)
+    let is_inside = longest_contact(outcome) <= limits.widest * (1.0 + 1e-9);
+    if !passes || !is_inside {
+        return None;
+    }
+    smooth_adhesion_force(
+        scene.form.as_ref(),
+        scene.length,
+        outcome.governing.effective_modulus,
+        [work; 2],
+        f64::INFINITY,
+    )
+}
+
+/// Limits within which a closed form of a smooth body holds.
+struct Limits {
+    /// Indentation of the smallest force in m.
+    pull_off: f64,
+    /// Largest contact length in m.
+    widest: f64,
+}
+
+impl Limits {
+    fn of(scene: &Scene, outcome: &Outcome, work: f64) -> Option<Limits> {
+        let length = scene.length;
+        let modulus = outcome.governing.effective_modulus;
+        let flat_width = match &scene.form {
+            None => Some(length),
+            Some(form) => form
+                .flat_end()
+                .map(|radius| 2.0 * radius)
+                .filter(|width| *width <= length),
+        };
+        if let Some(width) = flat_width {
+            return Some(Limits {
+                pull_off: -(PI * width * work / modulus).sqrt(),
+                widest: length,
+            });
+        }
+        let body = closed_form(scene.form.as_ref()?, modulus, work)?;
+        let (radius, _) = body.force_controlled_pull_off();
+        Some(Limits {
+            pull_off: body.indentation(radius),
+            // An edge of the contact at the end of the profile is no longer the body's own.
+            widest: length - 2.0 * outcome.line.spacing,
+        })
+    }
 }
 
 /// Number of indentations at which the forces of a loading stage are compared.
@@ -292,18 +344,19 @@ const COMPARED: usize = 2048;
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
-    let points = |leg: &LegRecord| {
-        let mut points: Vec<_> = leg
-            .curve
-            .iter()
-            .map(|point| [point.indentation, point.force])
-            .collect();
-        if leg.direction == Direction::Unloading {
-            points.reverse();
-        }
-        points
-    };
-    history.legs.iter().map(points).collect()
+    history.legs.iter().map(ascending_points).collect()
+}
+
+fn ascending_points(leg: &LegRecord) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = leg
+        .curve
+        .iter()
+        .map(|point| [point.indentation, point.force])
+        .collect();
+    if leg.direction == Direction::Unloading {
+        points.reverse();
+    }
+    points
 }
 
 /// Returns the mean difference of the forces of a loading stage from a reference at equal
@@ -319,29 +372,36 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
     if curve.len() != reference.len() || largest == 0.0 || largest.is_nan() {
         return None;
     }
-    let mean = |(one, other): (&Vec<[f64; 2]>, &Vec<[f64; 2]>)| {
-        let (first, last) = (other.first()?[0], other.last()?[0]);
-        let at = |index: usize| first + (last - first) * (index as f64 + 0.5) / COMPARED as f64;
-        let apart = |at: f64| Some((force(one, at)? - force(other, at)?).abs());
-        let sum: Option<f64> = (0..COMPARED).map(|index| apart(at(index))).sum();
-        Some(sum? / COMPARED as f64 / largest)
-    };
-    curve
-        .iter()
-        .zip(reference)
-        .map(mean)
-        .try_fold(0.0, |most, mean| Some(f64::max(most, mean?)))
+    let mut most = 0.0;
+    for (stage, reference) in curve.iter().zip(reference) {
+        most = f64::max(most, mean_difference(stage, reference)? / largest);
+    }
+    Some(most)
+}
+
+/// Returns the mean absolute difference in N of the forces of two curves at the indentations of the
+/// second one. Returns `None` if a curve has no points.
+fn mean_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> Option<f64> {
+    let first = reference.first()?[0];
+    let last = reference.last()?[0];
+    let mut sum = 0.0;
+    for index in 0..COMPARED {
+        let indentation = first + (last - first) * (index as f64 + 0.5) / COMPARED as f64;
+        sum += (force(curve, indentation)? - force(reference, indentation)?).abs();
+    }
+    Some(sum / COMPARED as f64)
 }
 
 /// Returns the force of a curve at an indentation, and beyond the ends the force at the end.
 /// Returns `None` without points.
-fn force(curve: &[[f64; 2]], at: f64) -> Option<f64> {
+fn force(curve: &[[f64; 2]], indentation: f64) -> Option<f64> {
     let above = curve
-        .partition_point(|point| point[0] < at)
+        .partition_point(|point| point[0] < indentation)
         .min(curve.len().checked_sub(1)?);
-    let ([low, before], [high, after]) = (curve[above.saturating_sub(1)], curve[above]);
+    let [low, before] = curve[above.saturating_sub(1)];
+    let [high, after] = curve[above];
     let share = if high > low {
-        ((at - low) / (high - low)).clamp(0.0, 1.0)
+        ((indentation - low) / (high - low)).clamp(0.0, 1.0)
     } else {
         1.0
     };

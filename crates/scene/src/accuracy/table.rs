@@ -186,18 +186,19 @@ impl CostTable {
     /// Returns the shortest time of a row in s and its [`main_error`](Self::main_error). Returns
     /// `None` unless both are known, positive and finite.
     pub fn point(&self, row: &Row) -> Option<(f64, ErrorFigure)> {
-        let (seconds, figure) = (row.seconds?.minimum, self.main_error(row)?);
-        (seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite())
-            .then_some((seconds, figure))
+        let seconds = row.seconds?.minimum;
+        let figure = self.main_error(row)?;
+        let is_shown = seconds > 0.0 && figure.error > 0.0 && figure.error.is_finite();
+        is_shown.then_some((seconds, figure))
     }
 
     /// Returns the coarsest row of a setting such that the [main error](Self::main_error) of this
     /// row and of all finer rows is at most `bound`. Returns `None` if there is no such row with at
     /// least two finer rows.
     pub fn first_row_within(&self, knob: Knob, bound: f64) -> Option<&Row> {
-        let rows: Vec<_> = self.rows_of(knob).collect();
+        let rows: Vec<&Row> = self.rows_of(knob).collect();
         let errors = rows.iter().map(|row| Some(self.main_error(row)?.error));
-        first_within(errors, bound).map(|index| rows[index])
+        Some(rows[first_within(errors, bound)?])
     }
 
     /// Returns the computing time in s and the main error of the scene with `numerics`,
@@ -210,75 +211,98 @@ impl CostTable {
             (Solver::Exact, Edges::Grid) => (Knob::GridSprings, numerics.points as f64),
             (Solver::Exact, Edges::SubCell) => (Knob::SubCellSprings, numerics.points as f64),
         };
-        let rows = self
-            .rows_of(knob)
-            .filter(|row| knob != Knob::Step || row.springs == numerics.points);
-        let point = |row: &Row| {
-            self.point(row)
-                .map(|(seconds, figure)| (row.setting.ln(), (seconds, figure.error)))
-        };
-        let mut rows: Vec<_> = rows.filter_map(point).collect();
-        rows.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let at = setting.ln();
-        let above = rows.iter().position(|(setting, _)| *setting >= at)?;
-        let (right, there) = rows[above];
-        if right == at {
-            return Some(there);
+        let mut points = Vec::new();
+        for row in self.rows_of(knob) {
+            if knob == Knob::Step && row.springs != numerics.points {
+                continue;
+            }
+            if let Some((seconds, figure)) = self.point(row) {
+                points.push(CostPoint {
+                    logarithm: row.setting.ln(),
+                    seconds,
+                    error: figure.error,
+                });
+            }
         }
-        let (left, before) = *rows.get(above.checked_sub(1)?)?;
-        let share = (at - left) / (right - left);
-        let between = |one: f64, other: f64| one * (other / one).powf(share);
-        Some((between(before.0, there.0), between(before.1, there.1)))
+        points.sort_by(|one, other| one.logarithm.total_cmp(&other.logarithm));
+        let logarithm = setting.ln();
+        let above = points
+            .iter()
+            .position(|point| point.logarithm >= logarithm)?;
+        let right = &points[above];
+        if right.logarithm == logarithm {
+            return Some((right.seconds, right.error));
+        }
+        let left = points.get(above.checked_sub(1)?)?;
+        let share = (logarithm - left.logarithm) / (right.logarithm - left.logarithm);
+        let between = |left: f64, right: f64| left * (right / left).powf(share);
+        Some((
+            between(left.seconds, right.seconds),
+            between(left.error, right.error),
+        ))
     }
 
     /// Returns the order of convergence of the main error with a setting: the absolute value of the
     /// slope of ln(error) as a function of ln(setting), fitted by least squares to all rows with
     /// resolved errors. Returns `None` for fewer than three such rows.
     pub fn order(&self, knob: Knob) -> Option<f64> {
-        let point = |row: &Row| {
-            let figure = self.main_error(row).filter(|figure| figure.resolved)?;
-            Some((row.setting.ln(), figure.error.ln()))
-        };
-        let points: Vec<_> = self.rows_of(knob).filter_map(point).collect();
+        let mut points = Vec::new();
+        for row in self.rows_of(knob) {
+            if let Some(figure) = self.main_error(row)
+                && figure.resolved
+            {
+                points.push((row.setting.ln(), figure.error.ln()));
+            }
+        }
+        if points.len() < 3 {
+            return None;
+        }
         // A smaller step or more springs reduce the error.
-        slope(&points).filter(|_| points.len() >= 3).map(f64::abs)
+        slope(&points).map(f64::abs)
     }
 
     /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each states how many springs
     /// this error needs with either edge model, and how long the computation takes.
     pub fn answer(&self) -> Vec<String> {
-        let of_force = self.reference.adhesion_force.is_some();
-        let what = if of_force {
+        let quantity = if self.reference.adhesion_force.is_some() {
             "the adhesion force"
         } else {
             "the force curve"
         };
-        let found = |knob: Knob, edges: &str, bound: f64| {
-            if let Some(Row {
-                springs, seconds, ..
-            }) = self.first_row_within(knob, bound)
-            {
-                let time =
-                    seconds.map(|time| format!(", {}", format_rounded(time.minimum, 3, "s")));
-                let (springs, time) = (grouped(*springs), time.unwrap_or_default());
-                return format!("{springs} springs{time} with edges {edges}");
-            }
-            let finest = self
-                .rows_of(knob)
-                .next_back()
-                .map(|row| grouped(row.springs));
-            let missed = |finest| format!("not found up to {finest} springs with edges {edges}");
-            finest.map_or_else(|| format!("edges {edges} were not affordable"), missed)
-        };
-        let sentence = |(bound, percent): (f64, &str)| {
-            let sub_cell = found(Knob::SubCellSprings, "SubCell", bound);
-            format!(
-                "{percent} of {what}: {sub_cell}; {}.",
-                found(Knob::GridSprings, "Grid", bound)
-            )
-        };
-        TARGETS.map(sentence).into()
+        let mut sentences = Vec::new();
+        for (bound, percent) in TARGETS {
+            let sub_cell = self.springs_within(Knob::SubCellSprings, "SubCell", bound);
+            let grid = self.springs_within(Knob::GridSprings, "Grid", bound);
+            sentences.push(format!("{percent} of {quantity}: {sub_cell}; {grid}."));
+        }
+        sentences
     }
+
+    /// States how many springs keep the main error within a bound, and the time that they take.
+    fn springs_within(&self, knob: Knob, edges: &str, bound: f64) -> String {
+        if let Some(row) = self.first_row_within(knob, bound) {
+            let springs = grouped(row.springs);
+            let time = match row.seconds {
+                Some(time) => format!(", {}", format_rounded(time.minimum, 3, "s")),
+                None => String::new(),
+            };
+            return format!("{springs} springs{time} with edges {edges}");
+        }
+        match self.rows_of(knob).next_back() {
+            Some(finest) => {
+                let finest = grouped(finest.springs);
+                format!("not found up to {finest} springs with edges {edges}")
+            }
+            None => format!("edges {edges} were not affordable"),
+        }
+    }
+}
+
+/// Time and main error of a row, over the logarithm of its setting.
+struct CostPoint {
+    logarithm: f64,
+    seconds: f64,
+    error: f64,
 }
 
 /// Returns the index of the first error, from coarse to fine, from which on all are within a bound.

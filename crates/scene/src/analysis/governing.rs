@@ -57,31 +57,12 @@ impl Governing {
     /// of its profile when scaled to an rms height of 1 m. A measured roughness needs `measured`,
     /// the amplitude of the surface.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
-        let effective_modulus = scene.material.effective_modulus();
-        let amplitude = measured.or_else(|| {
-            let unit = unit?;
-            let Some(Roughness::SelfAffine {
-                rms_height,
-                rms_gradient,
-                ..
-            }) = scene.roughness
-            else {
-                return None;
-            };
-            let rms_height =
-                rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
-            let amplitude = unit.scaled(rms_height);
-            Some(Amplitude {
-                rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient),
-                ..amplitude
-            })
-        });
         // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄
         // is the mean wave number of the roughness in rad/m, weighted by the squared amplitudes of
         // the waves.
         Governing {
-            effective_modulus,
-            amplitude,
+            effective_modulus: scene.material.effective_modulus(),
+            amplitude: measured.or_else(|| self_affine_amplitude(scene, unit?)),
             ..Governing::default()
         }
         .with_adhesion(scene.adhesion)
@@ -89,19 +70,34 @@ impl Governing {
 
     /// Returns the parameters for the same profile and modulus with another adhesion.
     pub fn with_adhesion(self, adhesion: Option<Adhesion>) -> Self {
-        let given = adhesion.and_then(|adhesion| adhesion.parameter());
-        let work_of_adhesion = adhesion.and_then(|adhesion| self.work_of(adhesion));
-        let value = |parameter: RoughnessParameter| match given {
-            Some((same, value)) if same == parameter => Some(value),
-            _ => value_of(parameter, self.energy(parameter)?, work_of_adhesion?),
+        let Some(adhesion) = adhesion else {
+            return Governing {
+                work_of_adhesion: None,
+                closing_work: None,
+                kappa: None,
+                elastic_energy_ratio: None,
+                ..self
+            };
         };
         Governing {
-            work_of_adhesion,
-            closing_work: adhesion.and_then(|adhesion| adhesion.closing_work()),
-            kappa: value(RoughnessParameter::Kappa),
-            elastic_energy_ratio: value(RoughnessParameter::ElasticEnergyRatio),
+            work_of_adhesion: self.work_of(adhesion),
+            closing_work: adhesion.closing_work(),
+            kappa: self.parameter_of(adhesion, RoughnessParameter::Kappa),
+            elastic_energy_ratio: self
+                .parameter_of(adhesion, RoughnessParameter::ElasticEnergyRatio),
             ..self
         }
+    }
+
+    /// Returns the value of κ or e_el/γ with an adhesion: the given value, or else the value that
+    /// follows from the work of adhesion.
+    fn parameter_of(&self, adhesion: Adhesion, parameter: RoughnessParameter) -> Option<f64> {
+        if let Some((given, value)) = adhesion.parameter()
+            && given == parameter
+        {
+            return Some(value);
+        }
+        value_of(parameter, self.energy(parameter)?, self.work_of(adhesion)?)
     }
 
     /// Returns the work of adhesion of `adhesion` on this profile in J/m²; `None` if a parameter
@@ -174,14 +170,31 @@ impl Governing {
     /// of the attraction. Returns `None` without adhesion, and for bodies such as cones, which have
     /// no ρ.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
-        let (radius, work) = (
-            curvature_radius(scene.form.as_ref(), self)?,
-            self.adhesive_work()?,
-        );
+        let radius = curvature_radius(scene.form.as_ref(), self)?;
+        let work = self.adhesive_work()?;
         let range = scene.adhesion?.attraction_range();
-        Some(tabor_number(radius, work, self.effective_modulus, range))
-            .filter(|number| number.is_finite())
+        let number = tabor_number(radius, work, self.effective_modulus, range);
+        number.is_finite().then_some(number)
     }
+}
+
+/// Returns the amplitude of a self-affine roughness; `None` for any other roughness. `unit` is its
+/// amplitude when scaled to an rms height of 1 m.
+fn self_affine_amplitude(scene: &Scene, unit: Amplitude) -> Option<Amplitude> {
+    let Some(Roughness::SelfAffine {
+        rms_height,
+        rms_gradient,
+        ..
+    }) = scene.roughness
+    else {
+        return None;
+    };
+    let rms_height = rms_height.or(rms_gradient.map(|gradient| gradient / unit.rms_gradient))?;
+    let amplitude = unit.scaled(rms_height);
+    Some(Amplitude {
+        rms_gradient: rms_gradient.unwrap_or(amplitude.rms_gradient),
+        ..amplitude
+    })
 }
 
 fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modulus: f64) -> f64 {
@@ -196,8 +209,8 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
 /// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns
 /// `None` if adhesion is so small that the value overflows.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
-    Some(parameter.of_energy_over_work(energy / work))
-        .filter(|value| work > 0.0 && value.is_finite())
+    let value = parameter.of_energy_over_work(energy / work);
+    (work > 0.0 && value.is_finite()).then_some(value)
 }
 
 /// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and
@@ -213,7 +226,8 @@ fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
     let of_roughness = governing
         .amplitude
         .map_or(0.0, |amplitude| 0.5 * amplitude.rms_curvature);
-    Some(of_form.hypot(of_roughness).recip()).filter(|radius| radius.is_finite())
+    let radius = of_form.hypot(of_roughness).recip();
+    radius.is_finite().then_some(radius)
 }
 
 /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) (Tabor 1977) of a summit with the curvature

@@ -63,24 +63,23 @@ impl DisplacementCurve {
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
         let mut last: Option<DisplacementPoint> = None;
         for point in curve {
-            let CurvePoint {
-                indentation, force, ..
-            } = *point;
             let next = DisplacementPoint {
                 displacement: point.displacement(stiffness),
-                indentation,
-                force,
+                indentation: point.indentation,
+                force: point.force,
             };
             let (Some(from), Some(&reached)) = (last.replace(next), points.last()) else {
                 points.push(next);
                 continue;
             };
-            let behind = [from, next].map(|one| sign * (reached.displacement - one.displacement));
-            if behind[1] > 0.0 {
+            // Distances in the direction of the stage by which the displacement has turned back.
+            let from_behind = sign * (reached.displacement - from.displacement);
+            let next_behind = sign * (reached.displacement - next.displacement);
+            if next_behind > 0.0 {
                 continue;
             }
-            if behind[0] > 0.0 {
-                let share = behind[0] / (behind[0] - behind[1]);
+            if from_behind > 0.0 {
+                let share = from_behind / (from_behind - next_behind);
                 let landing = from.towards(&next, share);
                 points.push(DisplacementPoint {
                     displacement: reached.displacement,
@@ -89,9 +88,12 @@ impl DisplacementCurve {
             }
             points.push(next);
         }
-        let free =
-            [curve.first(), curve.last()].map(|end| end.is_some_and(|point| point.springs == 0));
-        DisplacementCurve { points, sign, free }
+        let is_free = |end: Option<&CurvePoint>| end.is_some_and(|point| point.springs == 0);
+        DisplacementCurve {
+            points,
+            sign,
+            free: [is_free(curve.first()), is_free(curve.last())],
+        }
     }
 
     /// Returns the points in the order in which the stage passes them.
@@ -125,23 +127,32 @@ impl DisplacementCurve {
             .points
             .partition_point(|point| self.sign * point.displacement < wanted);
         let before = place.checked_sub(1).map(|before| self.points[before]);
-        let free = DisplacementPoint {
+        let after = self.points.get(place);
+        if let Some(point) = after
+            && point.displacement == displacement
+        {
+            return Some(*point);
+        }
+        if let Some(from) = before
+            && let Some(to) = after
+        {
+            let share = (displacement - from.displacement) / (to.displacement - from.displacement);
+            return Some(DisplacementPoint {
+                displacement,
+                ..from.towards(to, share)
+            });
+        }
+        let [is_free_before, is_free_after] = self.free;
+        let is_free = if before.is_some() {
+            is_free_after
+        } else {
+            is_free_before
+        };
+        is_free.then_some(DisplacementPoint {
             displacement,
             indentation: displacement,
             force: 0.0,
-        };
-        match (before, self.points.get(place)) {
-            (_, Some(point)) if point.displacement == displacement => Some(*point),
-            (Some(from), Some(to)) => {
-                let share =
-                    (displacement - from.displacement) / (to.displacement - from.displacement);
-                Some(DisplacementPoint {
-                    displacement,
-                    ..from.towards(to, share)
-                })
-            }
-            (before, _) => Some(free).filter(|_| self.free[usize::from(before.is_some())]),
-        }
+        })
     }
 }
 
@@ -197,21 +208,24 @@ impl InstrumentFigures {
     /// Computes these results from the force curves of a loading, its forces and energies, and the
     /// stiffness in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
-        let legs = &history.legs;
-        let smallest = |unloading: Branch| {
-            let points = legs[unloading.stages].iter().flat_map(|leg| &leg.curve);
-            let touching = points.filter(|point| point.springs > 0);
-            touching
-                .map(|point| point.displacement(stiffness))
-                .min_by(f64::total_cmp)
-        };
+        let jump_energy: f64 = history.legs.iter().map(|leg| leg.jump_energy).sum();
         InstrumentFigures {
             stiffness,
-            pull_off_displacement: Branch::pull_off(legs)
-                .and_then(|_| smallest(Branch::last_unloading(legs)?)),
-            loop_area: figures
-                .dissipated_energy
-                .map(|energy| energy + legs.iter().map(|leg| leg.jump_energy).sum::<f64>()),
+            pull_off_displacement: pull_off_displacement(&history.legs, stiffness),
+            loop_area: figures.dissipated_energy.map(|energy| energy + jump_energy),
         }
     }
+}
+
+/// Returns the smallest displacement in m of the last unloading at which springs touch; `None`
+/// without a pull-off.
+fn pull_off_displacement(legs: &[LegRecord], stiffness: f64) -> Option<f64> {
+    Branch::pull_off(legs)?;
+    let unloading = Branch::last_unloading(legs)?;
+    legs[unloading.stages]
+        .iter()
+        .flat_map(|leg| &leg.curve)
+        .filter(|point| point.springs > 0)
+        .map(|point| point.displacement(stiffness))
+        .min_by(f64::total_cmp)
 }

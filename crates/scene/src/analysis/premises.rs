@@ -53,27 +53,32 @@ impl Scene {
         measured: Option<MeasuredFacts>,
     ) -> Vec<Warning> {
         let adheres = governing.adhesive_work().is_some();
-        let gradient = governing.amplitude.map(|amplitude| amplitude.rms_gradient);
-        let scan =
-            measured.and_then(|facts| Warning::of_scan(facts.scan, self.length, facts.rms_heights));
-        let found = [
-            self.heights_as_profile(),
-            governing
-                .tabor_number(self)
-                .and_then(Warning::of_tabor_number),
-            gradient.and_then(|gradient| Warning::of_gradient(gradient, self.measured().is_some())),
-            SteepWaves::of(self, governing)
-                .and_then(|waves| Warning::of_wave_ratio(waves.ratio, waves.jkr_factor)),
-            self.falling_profile().filter(|_| adheres),
-            scan,
-            self.rounded_waves(),
-            self.long_waves(measured)
-                .and_then(Warning::of_long_waves)
-                .filter(|_| adheres),
-            self.springs_per_wave()
-                .and_then(Warning::of_springs_per_wave),
-        ];
-        found.into_iter().flatten().collect()
+        let mut warnings = Vec::new();
+        warnings.extend(self.heights_as_profile());
+        if let Some(number) = governing.tabor_number(self) {
+            warnings.extend(Warning::of_tabor_number(number));
+        }
+        if let Some(amplitude) = governing.amplitude {
+            let is_measured = self.measured().is_some();
+            warnings.extend(Warning::of_gradient(amplitude.rms_gradient, is_measured));
+        }
+        if let Some(waves) = SteepWaves::of(self, governing) {
+            warnings.extend(Warning::of_wave_ratio(waves.ratio, waves.jkr_factor));
+        }
+        if adheres {
+            warnings.extend(self.falling_profile());
+        }
+        if let Some(facts) = measured {
+            warnings.extend(Warning::of_scan(facts.scan, self.length, facts.rms_heights));
+        }
+        warnings.extend(self.rounded_waves());
+        if adheres && let Some(waves) = self.long_waves(measured) {
+            warnings.extend(Warning::of_long_waves(waves));
+        }
+        if let Some(springs) = self.springs_per_wave() {
+            warnings.extend(Warning::of_springs_per_wave(springs));
+        }
+        warnings
     }
 
     /// Returns the doubt about measured heights that are used as the profile itself. A doubt that

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fields::field;
+use super::errors::NumberError;
 use super::text::ron_float;
 
 /// Dimensionless parameter that compares roughness and adhesion. A scene may state such a parameter
@@ -53,8 +53,11 @@ impl RoughnessParameter {
     }
 
     /// Returns the symbol of the parameter in the equations, such as `κ`.
-    pub fn symbol(self) -> &'static str {
-        field(self.path(), None).map_or("", |field| field.symbol)
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            RoughnessParameter::Kappa => "κ",
+            RoughnessParameter::ElasticEnergyRatio => "e_el/γ",
+        }
     }
 
     /// Returns the parameter with this [`name`](Self::name) or [`path`](Self::path); `None` if
@@ -209,6 +212,28 @@ impl Adhesion {
     }
 }
 
+impl Adhesion {
+    /// Returns an adhesion with another number, which has the name of a field such as `work`.
+    /// `None` is a contact without adhesion, which gets an adhesion of this number alone.
+    pub(super) fn with_number(
+        adhesion: Option<Adhesion>,
+        name: &str,
+        number: f64,
+    ) -> Result<Adhesion, NumberError> {
+        let mut text = adhesion.map_or_else(AdhesionText::default, AdhesionText::from);
+        let slot = match name {
+            "work" => &mut text.work,
+            "closing_work" => &mut text.closing_work,
+            "kappa" => &mut text.kappa,
+            "elastic_energy_ratio" => &mut text.elastic_energy_ratio,
+            "range" => &mut text.range,
+            _ => return Err(NumberError::Missing),
+        };
+        *slot = Some(number);
+        Adhesion::try_from(text).map_err(NumberError::Contradiction)
+    }
+}
+
 /// Adhesion as written in a file, whose fields may contradict each other.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Adhesion")]
@@ -273,19 +298,23 @@ impl TryFrom<AdhesionText> for Adhesion {
             }
             (None, None, None) => return Err("give work, kappa or elastic_energy_ratio".to_owned()),
             _ => {
-                let given = [
+                let mut names = Vec::new();
+                let mut choices = Vec::new();
+                for (name, value) in [
                     ("work", work),
                     ("kappa", kappa),
                     ("elastic_energy_ratio", ratio),
-                ];
-                let given = given
-                    .into_iter()
-                    .filter_map(|(name, value)| Some((name, value?)));
-                let (names, choices): (Vec<_>, Vec<_>) = given
-                    .map(|(name, value)| (name, format!("({name}: {})", ron_float(value))))
-                    .unzip();
-                let (names, choices) = (names.join(" and "), choices.join(" or "));
-                return Err(format!("{names} determine each other: give {choices}"));
+                ] {
+                    if let Some(value) = value {
+                        names.push(name);
+                        choices.push(format!("({name}: {})", ron_float(value)));
+                    }
+                }
+                return Err(format!(
+                    "{} determine each other: give {}",
+                    names.join(" and "),
+                    choices.join(" or ")
+                ));
             }
         };
         Ok(Adhesion { strength, range })

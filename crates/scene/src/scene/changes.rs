@@ -5,7 +5,7 @@ use super::field::{Field, choice_in_words, target_field};
 use super::model::Scene;
 use super::range::Range;
 use super::stages::loading_text;
-use super::tree::{Tree, differing};
+use super::written::differing;
 use asperity_contact::Move;
 use asperity_data::format_quantity;
 use std::fmt;
@@ -38,39 +38,45 @@ fn symbol_or_name(field: &Field) -> &'static str {
 /// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`,
 /// `sub-cell`, `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
-    let words = || value.split_whitespace().collect::<Vec<_>>().join(" ");
+    if ["None", "[]"].contains(&value) {
+        return "none".to_owned();
+    }
     match field.range {
-        _ if ["None", "[]"].contains(&value) => "none".to_owned(),
         Range::Choice(_) => choice_in_words(value),
         Range::Band(..) => value.trim_matches(['(', ')']).replace(", ", " to "),
-        _ => field
-            .quantities(value, format_quantity)
-            .unwrap_or_else(words),
+        _ => match field.quantities(value, format_quantity) {
+            Some(quantities) => quantities,
+            None => value.split_whitespace().collect::<Vec<_>>().join(" "),
+        },
     }
 }
 
 /// Returns a field as its value, and a group as its choice and its given values:
 /// `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
-fn in_words(tree: &Tree, field: &Field) -> String {
-    let value = tree.written(field).unwrap_or_default();
-    let inside = tree.inside(field);
+fn in_words(scene: &Scene, field: &Field) -> String {
+    let value = field.written(scene).unwrap_or_default();
+    let inside = field.inside(scene);
     if inside.is_empty() {
         return value_in_words(field, &value);
     }
-    let given = inside
-        .into_iter()
-        .filter(|field| tree.value(field).is_some());
-    let given: Vec<String> = given
-        .map(|field| format!("{} {}", symbol_or_name(field), in_words(tree, field)))
-        .collect();
-    let (choice, given) = (
-        value.split('(').next().unwrap_or_default(),
-        given.join(", "),
-    );
-    match (choice_in_words(choice), given) {
-        (choice, given) if choice.is_empty() => given,
-        (choice, given) if given.is_empty() => choice,
-        (choice, given) => format!("{choice} ({given})"),
+    let mut given = Vec::new();
+    for field in inside {
+        if field.value(scene).is_some() {
+            given.push(format!(
+                "{} {}",
+                symbol_or_name(field),
+                in_words(scene, field)
+            ));
+        }
+    }
+    let given = given.join(", ");
+    let choice = choice_in_words(value.split('(').next().unwrap_or_default());
+    if choice.is_empty() {
+        given
+    } else if given.is_empty() {
+        choice
+    } else {
+        format!("{choice} ({given})")
     }
 }
 
@@ -86,21 +92,17 @@ impl Document {
     /// # Ok::<(), asperity_scene::Error>(())
     /// ```
     pub fn changes_to(&self, other: &Document) -> Vec<Change> {
-        let scenes = [self, other].map(|document| &**document.scene());
-        let [here, there] = scenes.map(Tree::of);
+        let (here, there): (&Scene, &Scene) = (self.scene(), other.scene());
         let mut changes = Vec::new();
-        for field in differing([&here, &there], |one, other| one == other) {
+        for field in differing(here, there, |is_here, is_there| is_here == is_there) {
             match field.path {
                 "title" | "notice" | "version" => {}
-                "loading" => changes.extend(changed_stages(scenes)),
-                _ => {
-                    let [from, to] = [&here, &there].map(|tree| in_words(tree, field));
-                    changes.push(Change {
-                        name: symbol_or_name(field).to_owned(),
-                        from,
-                        to,
-                    });
-                }
+                "loading" => changes.extend(changed_stages(&here.loading, &there.loading)),
+                _ => changes.push(Change {
+                    name: symbol_or_name(field).to_owned(),
+                    from: in_words(here, field),
+                    to: in_words(there, field),
+                }),
             }
         }
         changes
@@ -108,18 +110,18 @@ impl Document {
 }
 
 /// Returns the changed stages of two loadings, or both loadings where they are shorter.
-fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
-    let [one, other] = scenes.map(|scene| &scene.loading);
-    let pairs = one
-        .iter()
-        .zip(other)
-        .enumerate()
-        .filter(|(_, (one, other))| one != other);
-    let changes: Vec<Change> = pairs.map(change_of_stage).collect();
-    let [from, to] = [one, other].map(|loading| loading_text(loading, format_quantity));
+fn changed_stages(before: &[Move], after: &[Move]) -> Vec<Change> {
+    let mut changes = Vec::new();
+    for (index, (from, to)) in before.iter().zip(after).enumerate() {
+        if from != to {
+            changes.push(change_of_stage(index, *from, *to));
+        }
+    }
+    let from = loading_text(before, format_quantity);
+    let to = loading_text(after, format_quantity);
     // A change takes the room of its value and of some fourteen characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
-    if one.len() == other.len() && length < 14 + from.len() {
+    if before.len() == after.len() && length < 14 + from.len() {
         return changes;
     }
     vec![Change {
@@ -129,16 +131,15 @@ fn changed_stages(scenes: [&Scene; 2]) -> Vec<Change> {
     }]
 }
 
-fn change_of_stage((index, (one, other)): (usize, (&Move, &Move))) -> Change {
-    let [from, to] = [one, other].map(|stage| loading_text(&[*stage], format_quantity));
-    let symbol = match (target_field(*one), target_field(*other)) {
+fn change_of_stage(index: usize, from: Move, to: Move) -> Change {
+    let symbol = match (target_field(from), target_field(to)) {
         (Some((field, _)), Some((same, _))) if field == same => format!(" {}", field.symbol),
         _ => String::new(),
     };
     Change {
         name: format!("stage {}{symbol}", index + 1),
-        from,
-        to,
+        from: loading_text(&[from], format_quantity),
+        to: loading_text(&[to], format_quantity),
     }
 }
 

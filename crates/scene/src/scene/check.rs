@@ -4,8 +4,6 @@
 //! No check allocates memory in proportion to a value of the scene. A scene of excessive size is
 //! therefore refused before anything is built.
 
-use serde_json::Value;
-
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
 use super::field::{FILE_NAME, Field, LEG_INDENTATION, target_field};
@@ -13,9 +11,10 @@ use super::fields::{FIELDS, field};
 use super::measured::Measured;
 use super::model::{Material, Roughness, SPRINGS_PER_WAVE, Scene, Solver};
 use super::range::Range;
+use super::slot::Value;
+use super::stages::stage_in_ron;
 use super::text::index::is_within;
 use super::text::{ron_float, ron_string};
-use super::tree::{Tree, in_ron, written};
 use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
 use asperity_surface::{Form, Unit};
@@ -28,7 +27,6 @@ const MOST_SAMPLES: u64 = 1 << 24;
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found {
         scene,
-        tree: Tree::of(scene),
         errors: Vec::new(),
     };
     for field in FIELDS {
@@ -56,18 +54,21 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
         return None;
     };
     // Control characters would reach the terminal of any reader of the scene.
-    let forbidden = |c: &char| is_control(*c) && !(lines && *c == '\n');
-    match (text.chars().find(forbidden), text.chars().count()) {
-        (Some(c), _) => {
-            let but = if lines { " but line breaks" } else { "" };
-            Some((
-                format!("text with {c:?}"),
-                format!("no control characters{but}"),
-            ))
-        }
-        (None, count) if count > most => Some((format!("{count} characters"), field.allowed())),
-        (None, count) if count < least => Some((ron_string(text), field.allowed())),
-        _ => None,
+    let forbidden = text
+        .chars()
+        .find(|sign| is_control(*sign) && !(lines && *sign == '\n'));
+    if let Some(sign) = forbidden {
+        let but = if lines { " but line breaks" } else { "" };
+        let found = format!("text with {sign:?}");
+        return Some((found, format!("no control characters{but}")));
+    }
+    let count = text.chars().count();
+    if count > most {
+        Some((format!("{count} characters"), field.allowed()))
+    } else if count < least {
+        Some((ron_string(text), field.allowed()))
+    } else {
+        None
     }
 }
 
@@ -94,10 +95,13 @@ fn smallest(value: f64) -> String {
     })
 }
 
+fn is_empty_or_unit(text: &str) -> bool {
+    text.is_empty() || text.parse::<Unit>().is_ok()
+}
+
 /// Errors that were found so far in a scene.
 struct Found<'s> {
     scene: &'s Scene,
-    tree: Tree,
     errors: Vec<SceneError>,
 }
 
@@ -109,86 +113,92 @@ impl Found<'_> {
             .any(|error| is_within(&error.field, path))
     }
 
-    /// Adds an error of the field `path` unless the condition is met or one of the fields `of` has
-    /// an error already. `allowed` is empty if `message` contains the allowed values; the value of
-    /// a group is not repeated.
-    fn require(&mut self, is_met: bool, of: &[&str], path: &str, allowed: &str, message: &str) {
-        if is_met || of.iter().any(|path| self.has(path)) {
+    /// Adds an error of the field `path` unless the condition is met or one of the fields that it
+    /// compares, `compared`, has an error already. `allowed` is empty if `message` contains the
+    /// allowed values; the value of a group is not repeated.
+    fn require(
+        &mut self,
+        is_met: bool,
+        compared: &[&str],
+        path: &str,
+        allowed: &str,
+        message: &str,
+    ) {
+        if is_met || compared.iter().any(|path| self.has(path)) {
             return;
         }
-        let here = FIELDS
+        let field = FIELDS
             .iter()
-            .find(|field| field.path == path && self.tree.has(field));
-        let here = here.filter(|field| self.tree.inside(field).is_empty());
-        let value = here
-            .and_then(|field| self.tree.written(field))
+            .find(|field| field.path == path && field.is_in(self.scene));
+        let value = field
+            .filter(|field| field.inside(self.scene).is_empty())
+            .and_then(|field| field.written(self.scene))
             .unwrap_or_default();
         self.refuse(path, value, allowed, message);
     }
 
     fn refuse(&mut self, path: &str, value: String, allowed: &str, message: &str) {
-        let [field, allowed, message] = [path, allowed, message].map(str::to_owned);
         self.errors.push(SceneError {
-            field,
+            field: path.to_owned(),
             value,
-            allowed,
-            message,
+            allowed: allowed.to_owned(),
+            message: message.to_owned(),
             ..SceneError::default()
         });
     }
 
     fn check_range(&mut self, field: &Field) {
-        let Some(value) = self.tree.value(field) else {
+        let scene = self.scene;
+        let Some(value) = field.value(scene) else {
             return;
         };
         let range = &field.range;
-        let wrong = match (range, value) {
-            (Range::Real(..), value) => {
-                (!value.as_f64().is_some_and(|value| range.contains(value))).then(|| written(value))
+        let is_allowed = match value {
+            Value::Real(number) => range.contains(number),
+            Value::Whole(number) => range.contains_whole(number),
+            Value::Modes(first, last) => {
+                first <= last && range.contains_whole(first) && range.contains_whole(last)
             }
-            (Range::Whole(..), value) => (!value
-                .as_u64()
-                .is_some_and(|value| range.contains_whole(value)))
-            .then(|| written(value)),
-            (Range::Band(..), Value::Array(ends)) => {
-                let ends: Vec<u64> = ends.iter().filter_map(Value::as_u64).collect();
-                let is_allowed =
-                    ends.is_sorted() && ends.iter().all(|end| range.contains_whole(*end));
-                (!is_allowed).then(|| format!("({}, {})", ends[0], ends[1]))
+            Value::Wavelengths(longest, shortest) => {
+                longest >= shortest && range.contains(longest) && range.contains(shortest)
             }
-            (Range::Wavelengths(..), Value::Array(ends)) => {
-                let ends = ends.iter().map(|end| end.as_f64().unwrap_or(f64::NAN));
-                let is_allowed =
-                    ends.clone().all(|end| range.contains(end)) && ends.is_sorted_by(|a, b| a >= b);
-                (!is_allowed).then(|| self.tree.written(field).unwrap_or_default())
+            Value::Text(text) => return self.check_text(field, text),
+            Value::Texts(texts) => {
+                self.check_count(field, texts.len());
+                for text in texts {
+                    self.check_text(field, text);
+                }
+                return;
             }
-            (Range::List { least, most, .. }, Value::Array(list))
-                if !(*least..=*most).contains(&list.len()) =>
-            {
-                Some(if list.is_empty() {
-                    "[]".to_owned()
-                } else {
-                    format!("a list of {}", list.len())
-                })
-            }
-            _ => None,
+            Value::Stages(stages) => return self.check_count(field, stages.len()),
+            Value::Observers(observers) => return self.check_count(field, observers.len()),
+            Value::Flag(_) | Value::Choice(_) | Value::Group => return,
         };
-        let texts = match (range, value) {
-            (Range::Text { .. }, text) => std::slice::from_ref(text),
-            (Range::List { .. }, Value::Array(list)) if field.variant.is_some() => list,
-            _ => &[],
-        };
-        let wrong_texts: Vec<_> = texts
-            .iter()
-            .filter_map(|text| wrong_text(field, text.as_str()?))
-            .collect();
-        for (value, allowed) in wrong
-            .map(|value| (value, field.allowed()))
-            .into_iter()
-            .chain(wrong_texts)
-        {
+        if !is_allowed {
+            let written = field.written(scene).unwrap_or_default();
+            self.refuse(field.path, written, &field.allowed(), field.name);
+        }
+    }
+
+    fn check_text(&mut self, field: &Field, text: &str) {
+        if let Some((value, allowed)) = wrong_text(field, text) {
             self.refuse(field.path, value, &allowed, field.name);
         }
+    }
+
+    fn check_count(&mut self, field: &Field, count: usize) {
+        let Range::List { least, most, .. } = field.range else {
+            return;
+        };
+        if (least..=most).contains(&count) {
+            return;
+        }
+        let value = if count == 0 {
+            "[]".to_owned()
+        } else {
+            format!("a list of {count}")
+        };
+        self.refuse(field.path, value, &field.allowed(), field.name);
     }
 
     fn check_targets(&mut self) {
@@ -235,28 +245,16 @@ impl Found<'_> {
     }
 
     fn check_form(&mut self) {
-        let (scene, spacing) = (self.scene, self.scene.spacing());
-        let (Some(form), half) = (&scene.form, scene.length / 2.0) else {
+        let scene = self.scene;
+        let Some(form) = &scene.form else {
             return;
         };
-        let (body, grid) = (["form", "length"], ["form", "length", "numerics.points"]);
         if let Some(radius) = form.flat_end() {
-            let reason = format!(
-                "a punch is not wider than the line: at most length/2 = {}",
-                largest(half)
-            );
-            self.require(radius <= half, &body, "form.radius", "", &reason);
-            let reason = format!(
-                "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
-                ron_float(round_to(spacing, LIMIT_DIGITS))
-            );
-            let has_springs = !scene.springs_under_body().is_empty();
-            return self.require(has_springs, &grid, "form.radius", "", &reason);
+            return self.check_flat_end(radius);
         }
         if let Form::Table { unit, .. } = form {
-            let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
             self.require(
-                is_unit,
+                is_empty_or_unit(unit),
                 &["form"],
                 "form.unit",
                 Unit::ALLOWED,
@@ -264,27 +262,63 @@ impl Found<'_> {
             );
         }
         if let &Form::WavySphere { wavelength, .. } = form {
-            let shortest = SPRINGS_PER_WAVE as f64 * spacing;
+            let shortest = SPRINGS_PER_WAVE as f64 * scene.spacing();
             let allowed = format!("at least {} m", smallest(shortest));
             let reason = format!(
                 "a wave has at least {SPRINGS_PER_WAVE} springs: more points or longer waves"
             );
             self.require(
                 wavelength >= shortest,
-                &grid,
+                &["form", "length", "numerics.points"],
                 "form.wavelength",
                 &allowed,
                 &reason,
             );
         }
-        let (depth, waves) = (
-            form.without_waves().mdr_profile(half),
-            form.wave_depth(half),
+        self.check_depth(form);
+    }
+
+    /// Checks that a flat end is not wider than the profile, and that springs lie under it.
+    fn check_flat_end(&mut self, radius: f64) {
+        let scene = self.scene;
+        let half = scene.length / 2.0;
+        let reason = format!(
+            "a punch is not wider than the line: at most length/2 = {}",
+            largest(half)
         );
+        self.require(
+            radius <= half,
+            &["form", "length"],
+            "form.radius",
+            "",
+            &reason,
+        );
+        let reason = format!(
+            "no spring lies under the punch: the springs are {} m apart; more points or a larger radius",
+            ron_float(round_to(scene.spacing(), LIMIT_DIGITS))
+        );
+        self.require(
+            !scene.springs_under_body().is_empty(),
+            &["form", "length", "numerics.points"],
+            "form.radius",
+            "",
+            &reason,
+        );
+    }
+
+    /// Checks that the body is not deeper at the ends of the profile than any indentation.
+    fn check_depth(&mut self, form: &Form) {
+        let scene = self.scene;
+        let half = scene.length / 2.0;
+        let depth = form.without_waves().mdr_profile(half);
+        let wave_depth = form.wave_depth(half);
         // The first number of a form is its size; waves may be higher than their sphere.
-        let is_size = |field: &&Field| match waves > depth {
-            true => field.path == "form.amplitude",
-            false => field.parent() == "form" && self.tree.has(field),
+        let is_size = |field: &&Field| {
+            if wave_depth > depth {
+                field.path == "form.amplitude"
+            } else {
+                field.parent() == "form" && field.is_in(scene)
+            }
         };
         let size = FIELDS
             .iter()
@@ -295,8 +329,8 @@ impl Found<'_> {
             "the form is too steep: it exceeds the largest indentation ({most} m) within the length of the profile"
         );
         self.require(
-            LEG_INDENTATION.range.contains(depth + waves),
-            &body,
+            LEG_INDENTATION.range.contains(depth + wave_depth),
+            &["form", "length"],
             size,
             "",
             &reason,
@@ -304,8 +338,7 @@ impl Found<'_> {
     }
 
     fn check_roughness(&mut self) {
-        let scene = self.scene;
-        match &scene.roughness {
+        match &self.scene.roughness {
             None => {}
             &Some(Roughness::SelfAffine {
                 rms_height,
@@ -325,46 +358,42 @@ impl Found<'_> {
                 };
                 self.require(wrong.is_empty(), &[], "roughness", "", wrong);
             }
-            // A profile is one row or one column; several files have a common spectrum and no
-            // profile.
-            Some(Roughness::Measured(measured)) => {
-                let Measured {
-                    unit,
-                    height_unit,
-                    further_files,
-                    opposite,
-                    row,
-                    column,
-                    ..
-                } = measured;
-                for (path, unit) in [
-                    ("roughness.unit", unit),
-                    ("roughness.height_unit", height_unit),
-                ] {
-                    let is_unit = unit.is_empty() || unit.parse::<Unit>().is_ok();
-                    self.require(is_unit, &[path], path, Unit::ALLOWED, "unit of the file");
-                }
-                let (has_both, as_line) = (row.is_some() && column.is_some(), measured.as_line);
-                let reason = "a profile is a row or a column: give one of them";
-                self.require(!has_both, &[], "roughness.column", "", reason);
-                let reason = "spectra of two faces add, their profiles do not: give as_line: false";
-                self.require(
-                    !as_line || opposite.is_none(),
-                    &[],
-                    "roughness.opposite",
-                    "",
-                    reason,
-                );
-                let reason = "several files have one spectrum, and no profile: give as_line: false";
-                self.require(
-                    !as_line || further_files.is_empty(),
-                    &[],
-                    "roughness.further_files",
-                    "",
-                    reason,
-                );
-            }
+            Some(Roughness::Measured(measured)) => self.check_measured(measured),
         }
+    }
+
+    /// Checks the units of a measured surface, and that a profile is one row or one column of one
+    /// file: several files have a common spectrum and no profile.
+    fn check_measured(&mut self, measured: &Measured) {
+        let units = [
+            ("roughness.unit", &measured.unit),
+            ("roughness.height_unit", &measured.height_unit),
+        ];
+        for (path, unit) in units {
+            let is_unit = is_empty_or_unit(unit);
+            self.require(is_unit, &[path], path, Unit::ALLOWED, "unit of the file");
+        }
+        self.require(
+            measured.row.is_none() || measured.column.is_none(),
+            &[],
+            "roughness.column",
+            "",
+            "a profile is a row or a column: give one of them",
+        );
+        self.require(
+            !measured.as_line || measured.opposite.is_none(),
+            &[],
+            "roughness.opposite",
+            "",
+            "spectra of two faces add, their profiles do not: give as_line: false",
+        );
+        self.require(
+            !measured.as_line || measured.further_files.is_empty(),
+            &[],
+            "roughness.further_files",
+            "",
+            "several files have one spectrum, and no profile: give as_line: false",
+        );
     }
 
     /// Checks that the waves fit the length, that the springs resolve them, and that the roll-off
@@ -375,53 +404,74 @@ impl Found<'_> {
         wavelengths: Option<(f64, f64)>,
         roll_off: Option<f64>,
     ) {
-        let (length, points) = (self.scene.length, self.scene.numerics.points);
-        let most = points / 2;
-        let Some(spectrum) = self
-            .scene
-            .spectrum()
-            .filter(|_| modes.is_none() || wavelengths.is_none())
-        else {
-            let both = "modes and wavelengths determine each other: give one of them and set the other to None";
-            let none = "give modes, in waves per length, or wavelengths (longest, shortest), in m";
-            let reason = if modes.is_some() { both } else { none };
+        let length = self.scene.length;
+        if modes.is_some() && wavelengths.is_some() {
+            let reason = "modes and wavelengths determine each other: give one of them and set the other to None";
+            return self.refuse("roughness", String::new(), "", reason);
+        }
+        let Some(spectrum) = self.scene.spectrum() else {
+            let reason =
+                "give modes, in waves per length, or wavelengths (longest, shortest), in m";
             return self.refuse("roughness", String::new(), "", reason);
         };
-        let reason = format!("{points} springs carry no shorter wave");
-        let (path, allowed) = match modes {
-            Some(_) => (
-                "roughness.modes",
-                format!("last mode at most points/2 = {most}"),
-            ),
-            None => {
-                let shortest = smallest(length / most as f64);
-                (
-                    "roughness.wavelengths",
-                    format!("shortest at least two springs = {shortest} m"),
-                )
-            }
+        let path = if modes.is_some() {
+            self.check_last_mode(spectrum.last);
+            "roughness.modes"
+        } else {
+            self.check_shortest_wave(spectrum.last);
+            "roughness.wavelengths"
         };
-        let of = [
-            path,
-            "numerics.points",
-            if modes.is_some() { path } else { "length" },
-        ];
-        self.require(spectrum.last <= most, &of, path, &allowed, &reason);
-        let mode = |mode: u64| length / mode as f64;
-        let (longest, shortest) =
-            wavelengths.unwrap_or((mode(spectrum.first), mode(spectrum.last)));
+        let (longest, shortest) = wavelengths.unwrap_or((
+            length / spectrum.first as f64,
+            length / spectrum.last as f64,
+        ));
         let allowed = format!("longest at most length = {} m", largest(length));
-        let reason = "a longer wave does not fit the profile";
-        self.require(longest <= length, &[path, "length"], path, &allowed, reason);
-        let allowed = format!("from {} to {} m", smallest(shortest), largest(longest));
-        let is_met = roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength));
-        let (of, roll_off) = ([path, "roughness.roll_off", "length"], "roughness.roll_off");
         self.require(
-            is_met,
-            &of,
-            roll_off,
+            longest <= length,
+            &[path, "length"],
+            path,
+            &allowed,
+            "a longer wave does not fit the profile",
+        );
+        let allowed = format!("from {} to {} m", smallest(shortest), largest(longest));
+        self.require(
+            roll_off.is_none_or(|wavelength| (shortest..=longest).contains(&wavelength)),
+            &[path, "roughness.roll_off", "length"],
+            "roughness.roll_off",
             &allowed,
             "a roll-off lies within the waves of the profile",
+        );
+    }
+
+    /// Checks that the springs resolve the last of the given modes.
+    fn check_last_mode(&mut self, last: u64) {
+        let points = self.scene.numerics.points;
+        let most = points / 2;
+        let allowed = format!("last mode at most points/2 = {most}");
+        let reason = format!("{points} springs carry no shorter wave");
+        self.require(
+            last <= most,
+            &["roughness.modes", "numerics.points"],
+            "roughness.modes",
+            &allowed,
+            &reason,
+        );
+    }
+
+    /// Checks that the springs resolve the shorter one of the given wavelengths, whose mode is
+    /// `last`.
+    fn check_shortest_wave(&mut self, last: u64) {
+        let points = self.scene.numerics.points;
+        let most = points / 2;
+        let shortest = smallest(self.scene.length / most as f64);
+        let allowed = format!("shortest at least two springs = {shortest} m");
+        let reason = format!("{points} springs carry no shorter wave");
+        self.require(
+            last <= most,
+            &["roughness.wavelengths", "numerics.points", "length"],
+            "roughness.wavelengths",
+            &allowed,
+            &reason,
         );
     }
 
@@ -434,15 +484,11 @@ impl Found<'_> {
         match strength {
             // A spring that attaches with more energy than it detaches with would detach at once.
             Strength::Work { opening, closing } => {
-                let (path, allowed) = (
-                    "adhesion.closing_work",
-                    format!("0 to {} J/m²", largest(opening)),
-                );
-                let is_met = closing.is_none_or(|closing| closing <= opening);
+                let allowed = format!("0 to {} J/m²", largest(opening));
                 self.require(
-                    is_met,
+                    closing.is_none_or(|closing| closing <= opening),
                     &["adhesion"],
-                    path,
+                    "adhesion.closing_work",
                     &allowed,
                     "at most adhesion.work",
                 );
@@ -460,33 +506,47 @@ impl Found<'_> {
     }
 
     fn check_loading(&mut self) {
-        let (scene, mut is_separated) = (self.scene, true);
+        let scene = self.scene;
+        let mut is_separated = true;
         for (index, stage) in scene.loading.iter().enumerate() {
             let pulls = *stage == Move::ToSeparation
                 || matches!(stage, Move::ToForce(force) if *force < 0.0);
             if is_separated && pulls {
                 let reason =
                     "cannot pull before contact: start with ToTouch, ToForce or ToIndentation";
-                self.refuse(&format!("loading.{index}"), in_ron(stage), "", reason);
+                let path = format!("loading.{index}");
+                self.refuse(&path, stage_in_ron(stage), "", reason);
             }
             is_separated = *stage == Move::ToSeparation;
         }
-        let (stages, numerics) = (scene.loading.len() as u64, scene.numerics);
+        let stages = scene.loading.len() as u64;
+        let samples = scene.numerics.samples;
         let allowed = format!("at most {}", MOST_SAMPLES / stages.max(1));
         let reason = format!(
             "too many points: samples × loading stages ({stages}) must not exceed {MOST_SAMPLES}"
         );
-        let (is_met, path) = (
-            stages.saturating_mul(numerics.samples) <= MOST_SAMPLES,
+        self.require(
+            stages.saturating_mul(samples) <= MOST_SAMPLES,
+            &["numerics.samples", "loading"],
             "numerics.samples",
+            &allowed,
+            &reason,
         );
-        self.require(is_met, &[path, "loading"], path, &allowed, &reason);
-        let is_met = numerics.solver == Solver::Exact || scene.loading_stiffness.is_none();
-        let reason = "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness";
-        self.require(is_met, &[], "loading_stiffness", "", reason);
-        let is_met = numerics.solver == Solver::Exact || numerics.edges == Edges::Grid;
-        let reason = "the stepwise solver moves whole springs: edges: Grid";
-        self.require(is_met, &[], "numerics.edges", "", reason);
+        let is_exact = scene.numerics.solver == Solver::Exact;
+        self.require(
+            is_exact || scene.loading_stiffness.is_none(),
+            &[],
+            "loading_stiffness",
+            "",
+            "the stepwise solver moves the body itself: numerics.solver: Exact, or no loading_stiffness",
+        );
+        self.require(
+            is_exact || scene.numerics.edges == Edges::Grid,
+            &[],
+            "numerics.edges",
+            "",
+            "the stepwise solver moves whole springs: edges: Grid",
+        );
     }
 }
 

@@ -11,9 +11,11 @@ use std::ffi::OsStr;
 /// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
 /// ```
 pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {
-    let set =
-        |(path, value): &(String, String)| format!(" --set {}", quoted(format!("{path}={value}")));
-    let sets: String = overrides.iter().map(set).collect();
+    let mut sets = String::new();
+    for (path, value) in overrides {
+        let set = format!("{path}={value}");
+        sets += &format!(" --set {}", quoted(set));
+    }
     // A name that looks like an option comes after all options.
     if name.starts_with('-') {
         format!("{program}{sets} -- {}", quoted(name))
@@ -26,9 +28,11 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
 /// needs them.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
-    let plain = |c: char| c.is_alphanumeric() || "_-./:,+@%=".contains(c);
+    let is_plain = word
+        .chars()
+        .all(|sign| sign.is_alphanumeric() || "_-./:,+@%=".contains(sign));
     // zsh takes a word that starts with = for the path of a command.
-    if !word.is_empty() && !word.starts_with('=') && word.chars().all(plain) {
+    if !word.is_empty() && !word.starts_with('=') && is_plain {
         word.into_owned()
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))

@@ -9,24 +9,26 @@ use std::sync::OnceLock;
 
 use super::document::Document;
 use super::errors::Origin;
+use super::fields::FIELDS;
 use super::library::presets;
 use super::model::Scene;
 use super::read::read;
 use super::statements::describes;
-use super::text::index::Text;
+use super::text::index::{Text, is_within};
 use super::typed::with_typed;
 
 /// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that
 /// of a table of results.
 fn is_built_in(opened: &Scene) -> bool {
     static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
-    let built_in = BUILT_IN.get_or_init(|| {
-        presets()
-            .iter()
-            .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
-            .collect()
-    });
-    built_in.contains(opened)
+    BUILT_IN.get_or_init(built_in_scenes).contains(opened)
+}
+
+fn built_in_scenes() -> Vec<Scene> {
+    presets()
+        .iter()
+        .filter_map(|preset| read(preset.text, |_| Origin::Scene).ok())
+        .collect()
 }
 
 /// Returns true if two scenes have the same solution.
@@ -40,9 +42,10 @@ fn have_same_solution(first: &Scene, second: &Scene) -> bool {
 
 /// Returns true if a field of the root, such as `material`, differs between two scenes.
 fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
-    let first = serde_json::to_value(first).unwrap_or_default();
-    let second = serde_json::to_value(second).unwrap_or_default();
-    first.get(group) != second.get(group)
+    FIELDS
+        .iter()
+        .filter(|field| is_within(field.path, group))
+        .any(|field| field.value(first) != field.value(second))
 }
 
 /// Title of a scene that was a built-in one before it was changed. `name` is the name of its file
@@ -81,7 +84,6 @@ impl Document {
     /// The text without the words that are false of its values. `opened` is the scene as it was
     /// opened.
     fn without_false_words(&self, opened: &Scene) -> Text {
-        let is_own = |path: &str| self.overrides().iter().any(|(own, _)| own == path);
         let mut text = self.indexed_text().clone();
         for (path, _) in self.overrides() {
             let group = path.split('.').next().unwrap_or_default();
@@ -89,14 +91,18 @@ impl Document {
                 text = text.without_comments_beside(group);
             }
         }
-        if !is_own("notice") {
+        if !self.has_override("notice") {
             text = text.without_entry("notice");
         }
-        if !is_own("title") {
+        if !self.has_override("title") {
             let title = format!("{:?}", title_of_changed(self.file_name()));
             text = with_typed(&text, "title", &title).unwrap_or(text);
         }
         text
+    }
+
+    fn has_override(&self, path: &str) -> bool {
+        self.overrides().iter().any(|(own, _)| own == path)
     }
 
     /// Returns true if the title says that this is a changed built-in scene.
@@ -121,7 +127,7 @@ impl Document {
 mod tests {
     use super::*;
     use crate::scene::open::open;
-    use crate::scene::tree::to_ron;
+    use crate::scene::written::to_ron;
 
     fn pressure_sensitive() -> Document {
         open("pressure-sensitive").unwrap()

@@ -1,4 +1,9 @@
 //! A scene with its text. Fields can be changed, and the comments of the text stay.
+//!
+//! The text is what its author sees and saves, so a change is made in the text, and the scene is
+//! read from it again. The scene alone would not do: it does not have the notation of numbers, it
+//! does not know which fields the text leaves out (their defaults may follow other fields), and
+//! between two changes that belong together it would have to contradict itself.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -10,9 +15,10 @@ use super::field::Field;
 use super::fields::FIELDS;
 use super::model::Scene;
 use super::read::read;
+use super::stages::{stage_in_ron, stages_in_ron};
 use super::text::index::{Text, is_within, line_column};
-use super::tree::{Tree, in_ron, to_ron};
 use super::typed::{check_length, with_typed};
+use super::written::to_ron;
 use asperity_contact::Move;
 
 /// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A
@@ -36,11 +42,32 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects that are switched off. Each has the path, the former text and the present text of
-    /// every value that changed with it.
-    pub(super) removed: Vec<(Effect, Vec<[String; 3]>)>,
-    /// Choices that a key has replaced, each with the path of its field and its last text.
-    pub(super) left: Vec<(&'static str, String)>,
+    /// Effects that are switched off, with the values that changed with them.
+    pub(super) removed: Vec<RemovedEffect>,
+    /// Choices that a key has replaced.
+    pub(super) left: Vec<LeftChoice>,
+}
+
+/// An effect that is switched off, with the values that changed when it was.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RemovedEffect {
+    pub(super) effect: Effect,
+    pub(super) values: Vec<RemovedValue>,
+}
+
+/// A value that changed when an effect was switched off, as text before and after.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RemovedValue {
+    pub(super) path: String,
+    pub(super) former: String,
+    pub(super) present: String,
+}
+
+/// A choice that a key has replaced, with the path of its field and its last text.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LeftChoice {
+    pub(super) path: &'static str,
+    pub(super) text: String,
 }
 
 impl Document {
@@ -72,17 +99,17 @@ impl Document {
                 message,
             )
         })?;
-        let place = |offset| origin_at(source, name, offset);
-        let scene = read(source, place)?;
-        let text = Text::new(source)
-            .map_err(|unreadable| SceneError::whole(place(unreadable.offset), unreadable.reason))?;
-        let scene = CheckedScene::of(scene, Some(&text), |error| {
-            place(text.nearest_value(&error.field))
+        let origin = |offset| origin_at(source, name, offset);
+        let scene = read(source, origin)?;
+        let text = Text::new(source).map_err(|unreadable| {
+            SceneError::whole(origin(unreadable.offset), unreadable.reason)
         })?;
-        let (name, opened) = (name.to_string(), source.to_string());
+        let scene = CheckedScene::of(scene, Some(&text), |error| {
+            origin(text.nearest_value(&error.field))
+        })?;
         Ok(Document {
-            name,
-            opened,
+            name: name.to_owned(),
+            opened: source.to_owned(),
             text,
             scene,
             overrides: Vec::new(),
@@ -125,7 +152,8 @@ impl Document {
 
     /// This document with fields changed, with all its words.
     fn overridden(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
-        let (mut new, mut errors) = (self.clone(), Vec::new());
+        let mut new = self.clone();
+        let mut errors = Vec::new();
         for (path, value) in overrides {
             match with_typed(&new.text, path, value) {
                 Ok(text) => {
@@ -135,18 +163,19 @@ impl Document {
                 Err(refused) => errors.extend(refused.0),
             }
         }
-        let origin = |error: &SceneError| overrides_behind(error, overrides);
-        let read = read(new.text.as_str(), |_| Origin::Scene).map_err(|unread| {
-            errors.extend(
-                unread
-                    .0
-                    .into_iter()
-                    .map(|error| error.clone().at(origin(&error))),
-            );
-        });
+        let scene = read(new.text.as_str(), |_| Origin::Scene);
+        if let Err(unread) = &scene {
+            for error in unread.iter() {
+                errors.push(error.clone().at(overrides_behind(error, overrides)));
+            }
+        }
         SceneErrors::result(errors, |error| error.origin.clone())?;
-        if let (Ok(scene), false) = (read, overrides.is_empty()) {
-            new.scene = CheckedScene::of(scene, Some(&new.text), origin)?;
+        if let Ok(scene) = scene
+            && !overrides.is_empty()
+        {
+            new.scene = CheckedScene::of(scene, Some(&new.text), |error| {
+                overrides_behind(error, overrides)
+            })?;
         }
         Ok(new)
     }
@@ -189,16 +218,14 @@ impl Document {
     pub fn with_stages(&self, stages: &[(Option<usize>, Move)]) -> Result<Document, SceneErrors> {
         let elements: Vec<_> = stages
             .iter()
-            .map(|(place, stage)| (*place, in_ron(stage)))
+            .map(|(place, stage)| (*place, stage_in_ron(stage)))
             .collect();
-        let loading = in_ron(&stages.iter().map(|(_, stage)| stage).collect::<Vec<_>>());
-        let mut new = self.overridden(&[pair("loading", loading)])?;
-        let is_same = |text: &Text| {
-            check_length(text.as_str()).is_ok()
-                && read(text.as_str(), |_| Origin::Scene).is_ok_and(|scene| scene == *new.scene)
-        };
-        if let Some(text) = self.text.arrange("loading", &elements).filter(is_same) {
-            new.text = text;
+        let loading: Vec<Move> = stages.iter().map(|(_, stage)| *stage).collect();
+        let mut new = self.overridden(&[pair("loading", stages_in_ron(&loading))])?;
+        if let Some(arranged) = self.text.arrange("loading", &elements)
+            && is_text_of(&arranged, &new.scene)
+        {
+            new.text = arranged;
         }
         Ok(new.with_true_words())
     }
@@ -217,12 +244,14 @@ impl Document {
     /// Returns `None` if this scene cannot have the field, for example the angle of a cone in a
     /// scene with a sphere.
     pub fn value(&self, path: &str) -> Option<&str> {
-        self.text.value(path).or_else(|| {
-            let field = FIELDS
-                .iter()
-                .find(|field| field.path == path && self.has(field))?;
-            Some(Tree::of(&self.scene).default(field)).filter(|default| !default.is_empty())
-        })
+        if let Some(value) = self.text.value(path) {
+            return Some(value);
+        }
+        let field = FIELDS
+            .iter()
+            .find(|field| field.path == path && self.has(field))?;
+        let default = field.default_in(&self.scene);
+        (!default.is_empty()).then_some(default)
     }
 
     /// Returns the fields that this scene has or may have. Fields of another choice, such as the
@@ -232,7 +261,7 @@ impl Document {
     }
 
     fn has(&self, field: &Field) -> bool {
-        field.variant.is_none() || field.variant == self.text.variant(field.parent())
+        field.variant.is_none() || field.is_in(&self.scene)
     }
 
     /// Returns the name of the file or of the built-in scene from which the document was read.
@@ -331,6 +360,12 @@ impl Document {
             .unwrap_or(Path::new(""))
             .join(file)
     }
+}
+
+/// Returns true if a text reads as a scene.
+fn is_text_of(text: &Text, scene: &Scene) -> bool {
+    check_length(text.as_str()).is_ok()
+        && read(text.as_str(), |_| Origin::Scene).is_ok_and(|other| other == *scene)
 }
 
 pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {

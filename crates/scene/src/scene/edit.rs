@@ -29,61 +29,26 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 /// Returns the reason as a sentence: no such field, not a single value, or no place for the field.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
-    // A position in a list or pair refers to that list or pair.
-    let is_position =
-        |name: &str| !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
-    let mut base = path;
-    while let Some((before, last)) = base.rsplit_once('.')
-        && is_position(last)
-    {
-        base = before;
-    }
+    let base = without_positions(path);
     // Several if variants of a choice share the name.
     let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
     let Some(field) = fields.first() else {
-        let near = did_you_mean(path, FIELDS.iter().map(|field| field.path));
-        let group = path.split('.').next().unwrap_or_default();
-        let all = |group: &str| -> Vec<&str> {
-            let inside = FIELDS
-                .iter()
-                .filter(|field| field.parent() == group)
-                .map(|field| field.path);
-            inside.collect::<BTreeSet<_>>().into_iter().collect()
-        };
-        let fields = [all(group), all("")]
-            .into_iter()
-            .find(|fields| !fields.is_empty())
-            .unwrap_or_default();
-        let fields = if near.is_empty() {
-            format!(" (fields: {})", fields.join(", "))
-        } else {
-            near
-        };
-        return Err(format!("no such field{fields}"));
+        return Err(no_such_field(path));
     };
-    let (parent, name) = (field.parent(), field.last());
-    let variant = text.variant(parent);
     if text.span(path).is_some() {
         return text.replace(path, value);
     }
     if base != path {
         return Err("there is no such element".into());
-    } else if value == "None" && fields.iter().any(|field| field.default == "None") {
-        return Ok(text.clone());
-    } else if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
-        return Err(wrong_variant(parent, variant, &fields));
     }
-    let group = format!("({name}: {value})");
-    let edited = match text.span(parent) {
-        None if parent.is_empty() => Err("the scene is not a group of fields".into()),
-        None => set(text, parent, &group),
-        Some(_) if text.written(parent) == Some("None") => text.replace(parent, &group),
-        Some(_) => {
-            let siblings = FIELDS.iter().filter(|field| field.parent() == parent);
-            let order: Vec<&str> = siblings.map(Field::last).collect();
-            text.insert(parent, name, value, &order)
-        }
-    }?;
+    if value == "None" && fields.iter().any(|field| field.default == "None") {
+        return Ok(text.clone());
+    }
+    let variant = text.variant(field.parent());
+    if field.variant.is_some() && !fields.iter().any(|field| field.variant == variant) {
+        return Err(wrong_variant(field.parent(), variant, &fields));
+    }
+    let edited = insert(text, field, value)?;
     // The value may have ended its new group.
     if edited.written(path) == Some(value) {
         Ok(edited)
@@ -92,27 +57,88 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     }
 }
 
+/// Returns the path of the list or pair that has the element at a path; other paths stay as they
+/// are.
+fn without_positions(path: &str) -> &str {
+    let mut base = path;
+    while let Some((before, last)) = base.rsplit_once('.')
+        && is_position(last)
+    {
+        base = before;
+    }
+    base
+}
+
+fn is_position(name: &str) -> bool {
+    !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Inserts a field that the text does not have into its group, or with its group.
+fn insert(text: &Text, field: &Field, value: &str) -> Result<Text, String> {
+    let parent = field.parent();
+    let group = format!("({}: {value})", field.last());
+    if text.span(parent).is_none() {
+        if parent.is_empty() {
+            return Err("the scene is not a group of fields".into());
+        }
+        return set(text, parent, &group);
+    }
+    if text.written(parent) == Some("None") {
+        return text.replace(parent, &group);
+    }
+    let mut order = Vec::new();
+    for sibling in FIELDS {
+        if sibling.parent() == parent {
+            order.push(sibling.last());
+        }
+    }
+    text.insert(parent, field.last(), value, &order)
+}
+
+/// Returns a message with the field that a misspelt path probably means, or else with the fields
+/// that there are.
+fn no_such_field(path: &str) -> String {
+    let near = did_you_mean(path, FIELDS.iter().map(|field| field.path));
+    if !near.is_empty() {
+        return format!("no such field{near}");
+    }
+    let group = path.split('.').next().unwrap_or_default();
+    let mut paths = paths_inside(group);
+    if paths.is_empty() {
+        paths = paths_inside("");
+    }
+    let paths: Vec<&str> = paths.into_iter().collect();
+    format!("no such field (fields: {})", paths.join(", "))
+}
+
+/// Returns the paths of the fields directly inside a group, in alphabetical order.
+fn paths_inside(group: &str) -> BTreeSet<&'static str> {
+    FIELDS
+        .iter()
+        .filter(|field| field.parent() == group)
+        .map(|field| field.path)
+        .collect()
+}
+
 /// Returns a message that names the choices with this field.
 fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
     let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");
     };
-    let has_it = |choice: &&&str| {
-        fields
-            .iter()
-            .any(|field| field.variant == Some(choice_name(choice)))
-    };
-    let choices = choices
-        .iter()
-        .filter(has_it)
-        .map(|choice| format!("{parent}={choice}"));
-    let here = match variant {
-        Some(variant) if variant != "None" => {
-            format!("{parent} is {variant}, which has no such field")
+    let mut possible = Vec::new();
+    for choice in choices {
+        let name = Some(choice_name(choice));
+        if fields.iter().any(|field| field.variant == name) {
+            possible.push(format!("{parent}={choice}"));
         }
-        _ => format!("there is no {parent}"),
-    };
-    format!("{here}: set {}", choices.collect::<Vec<_>>().join(" or "))
+    }
+    let possible = possible.join(" or ");
+    match variant {
+        None | Some("None") => format!("there is no {parent}: set {possible}"),
+        Some(variant) => {
+            format!("{parent} is {variant}, which has no such field: set {possible}")
+        }
+    }
 }
 
 #[cfg(test)]

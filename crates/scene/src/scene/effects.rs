@@ -5,6 +5,7 @@ use super::model::{Roughness, Scene};
 use asperity_contact::Move;
 use asperity_data::round_to;
 use asperity_surface::Form;
+use std::cmp::Ordering;
 
 /// Optional part of a scene that can be switched on and off as a whole, with
 /// [`Document::with`](crate::scene::document::Document::with) and
@@ -98,9 +99,10 @@ impl Effect {
                 });
             }
             Effect::Adhesion => {
-                let usual = match scene.roughness {
-                    Some(_) => Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0),
-                    None => Adhesion::by_work(0.05),
+                let usual = if scene.roughness.is_some() {
+                    Adhesion::by_parameter(RoughnessParameter::Kappa, 2.0)
+                } else {
+                    Adhesion::by_work(0.05)
                 };
                 let range = scene.adhesion.and_then(|adhesion| adhesion.range);
                 scene.adhesion = Some(Adhesion { range, ..usual });
@@ -114,40 +116,51 @@ impl Effect {
 /// Returns true if a stage may pull the body back. The first stage cannot, because it begins at
 /// separation.
 fn may_pull(loading: &[Move]) -> bool {
-    let mut reached = f64::NEG_INFINITY;
-    loading.iter().enumerate().any(|(index, stage)| {
-        // The indentation of a force or a displacement is unknown: it may be shallower or deeper
-        // than any other.
-        let (to, pulls) = match *stage {
-            Move::ToIndentation(to) => (to, to < reached),
-            Move::ToTouch => (0.0, 0.0 < reached),
+    let mut deepest = f64::NEG_INFINITY;
+    for (index, stage) in loading.iter().enumerate() {
+        let (end, pulls) = match *stage {
+            Move::ToIndentation(end) => (end, end < deepest),
+            Move::ToTouch => (0.0, 0.0 < deepest),
+            // The indentation of a force or a displacement is unknown: it may be shallower or
+            // deeper than any other.
             Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
             Move::ToSeparation => (f64::NEG_INFINITY, true),
         };
-        reached = reached.max(to);
-        index > 0 && pulls
-    })
+        if index > 0 && pulls {
+            return true;
+        }
+        deepest = deepest.max(end);
+    }
+    false
 }
 
 /// Returns the stage that presses most: the largest force, else the deepest indentation, else the
 /// first stage.
 pub(super) fn pressing(loading: &[Move]) -> Move {
-    let pressure = |stage: &Move| match *stage {
-        Move::ToForce(force) if force > 0.0 => (2, force),
-        Move::ToIndentation(to) | Move::ToDisplacement(to) if to > 0.0 => (1, to),
-        _ => (0, 0.0),
-    };
-    let less = |one: &&Move, other: &&Move| {
-        let ((one, size), (other, other_size)) = (pressure(one), pressure(other));
-        one.cmp(&other).then(size.total_cmp(&other_size))
-    };
-    // The first of equal ones.
+    // The last maximum of the reversed stages is the first one of equal stages.
     loading
         .iter()
         .rev()
-        .max_by(less)
+        .max_by(|stage, other| compare_pressure(**stage, **other))
         .copied()
         .unwrap_or(Move::ToZeroForce)
+}
+
+/// Compares how much two stages press: any force presses more than any indentation.
+fn compare_pressure(stage: Move, other: Move) -> Ordering {
+    let (rank, size) = pressure(stage);
+    let (other_rank, other_size) = pressure(other);
+    rank.cmp(&other_rank).then(size.total_cmp(&other_size))
+}
+
+/// Returns the rank of a stage among stages that press, and its positive force in N or indentation
+/// in m.
+fn pressure(stage: Move) -> (u8, f64) {
+    match stage {
+        Move::ToForce(force) if force > 0.0 => (2, force),
+        Move::ToIndentation(end) | Move::ToDisplacement(end) if end > 0.0 => (1, end),
+        _ => (0, 0.0),
+    }
 }
 
 #[cfg(test)]

@@ -40,11 +40,11 @@ impl fmt::Display for Origin {
             Origin::File { name, place: None } if name.is_empty() => f.write_str("\"\": "),
             Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
             Origin::Overrides(overrides) => {
-                let all: Vec<_> = overrides
+                let options: Vec<String> = overrides
                     .iter()
-                    .map(|one| format!("--set {}", shown(one)))
+                    .map(|set| format!("--set {}", shown(set)))
                     .collect();
-                write!(f, "{}: ", all.join(" "))
+                write!(f, "{}: ", options.join(" "))
             }
             Origin::Scene => Ok(()),
         }
@@ -94,11 +94,10 @@ impl SceneError {
         allowed: impl Into<String>,
         message: &str,
     ) -> SceneError {
-        let (value, allowed) = (value.into(), allowed.into());
         SceneError {
             field: field.into(),
-            value,
-            allowed,
+            value: value.into(),
+            allowed: allowed.into(),
             ..SceneError::whole(Origin::Scene, message)
         }
     }
@@ -111,16 +110,18 @@ impl SceneError {
     /// Returns field, value, allowed values and reason as text, without the origin:
     /// `roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)`.
     pub fn what(&self) -> String {
-        let of = [&self.field, &self.value]
-            .map(|part| shown(part))
-            .into_iter()
-            .filter(|part| !part.is_empty());
-        let of = of.collect::<Vec<_>>().join(" = ");
-        let of = if of.is_empty() { of } else { of + ": " };
+        let field = shown(&self.field);
+        let value = shown(&self.value);
+        let subject = match (field.is_empty(), value.is_empty()) {
+            (true, true) => String::new(),
+            (true, false) => format!("{value}: "),
+            (false, true) => format!("{field}: "),
+            (false, false) => format!("{field} = {value}: "),
+        };
         match (self.allowed.as_str(), self.message.as_str()) {
-            ("", message) => format!("{of}{message}"),
-            (allowed, "") => format!("{of}allowed: {allowed}"),
-            (allowed, message) => format!("{of}allowed: {allowed} ({message})"),
+            ("", message) => format!("{subject}{message}"),
+            (allowed, "") => format!("{subject}allowed: {allowed}"),
+            (allowed, message) => format!("{subject}allowed: {allowed} ({message})"),
         }
     }
 }
@@ -146,9 +147,9 @@ impl SceneErrors {
     ) -> Result<(), SceneErrors> {
         let more = errors.len().saturating_sub(MOST_LISTED);
         errors.truncate(MOST_LISTED);
-        errors
-            .iter_mut()
-            .for_each(|error| error.origin = origin(error));
+        for error in &mut errors {
+            error.origin = origin(error);
+        }
         if more > 0 {
             errors.push(SceneError::whole(
                 Origin::Scene,
@@ -188,6 +189,17 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
+/// Reason why a number of a scene cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NumberError {
+    /// The scene can have no number at this path.
+    #[error("the scene has no such number")]
+    Missing,
+    /// The number contradicts another number of the scene. The text names both.
+    #[error("{0}")]
+    Contradiction(String),
+}
+
 /// Returns the origin of an error at a byte of a text: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File {
@@ -199,16 +211,16 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
 /// Returns the overrides that cause an error: those of its field, of a group around it, or of a
 /// field inside it. If there are none, all overrides count.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
-    let is_behind = |path: &str| is_within(&error.field, path) || is_within(path, &error.field);
-    let is_known = overrides.iter().any(|(path, _)| is_behind(path));
-    let behind = overrides
-        .iter()
-        .filter(|(path, _)| !is_known || is_behind(path));
-    Origin::Overrides(
-        behind
-            .map(|(path, value)| format!("{path}={value}"))
-            .collect(),
-    )
+    let mut all = Vec::new();
+    let mut behind = Vec::new();
+    for (path, value) in overrides {
+        let set = format!("{path}={value}");
+        if is_within(&error.field, path) || is_within(path, &error.field) {
+            behind.push(set.clone());
+        }
+        all.push(set);
+    }
+    Origin::Overrides(if behind.is_empty() { all } else { behind })
 }
 
 /// Largest length of a name that is compared with other names. A longer one is no misspelt name.
@@ -227,24 +239,45 @@ const LONGEST: usize = 64;
 /// assert_eq!(nearest("sphere", ["Cone", "Paraboloid"]), None);
 /// ```
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_lowercase();
-    // At most a third of the name is wrong.
-    let near_enough = |name: &str, candidate: &str| {
-        Some(osa_distance(name, candidate)).filter(|far| *far <= (name.chars().count() / 3).max(1))
-    };
-    let near = |candidate: &'n str| {
-        let whole = near_enough(&name.to_lowercase(), &candidate.to_lowercase()).map(|far| 2 * far);
-        // A match of the last component alone counts slightly less than one of the whole.
-        let end = near_enough(&last(name), &last(candidate)).map(|far| 2 * far + 1);
-        Some((whole.into_iter().chain(end).min()?, candidate))
-    };
-    let names = names
-        .into_iter()
-        .filter(|_| !name.is_empty() && name.len() <= LONGEST);
-    names
-        .filter_map(near)
-        .min_by_key(|(far, _)| *far)
-        .map(|(_, candidate)| candidate)
+    if name.is_empty() || name.len() > LONGEST {
+        return None;
+    }
+    let mut nearest = None;
+    let mut least = usize::MAX;
+    for candidate in names {
+        if let Some(distance) = distance_of_paths(name, candidate)
+            && distance < least
+        {
+            nearest = Some(candidate);
+            least = distance;
+        }
+    }
+    nearest
+}
+
+/// Returns twice the number of differences between two paths, or between their last parts, which
+/// count slightly more than a whole path. Returns `None` if too much is different.
+fn distance_of_paths(path: &str, other: &str) -> Option<usize> {
+    let whole = distance_of_names(&path.to_lowercase(), &other.to_lowercase());
+    let end = distance_of_names(&last_part(path), &last_part(other));
+    match (whole, end) {
+        (Some(whole), Some(end)) => Some((2 * whole).min(2 * end + 1)),
+        (Some(whole), None) => Some(2 * whole),
+        (None, Some(end)) => Some(2 * end + 1),
+        (None, None) => None,
+    }
+}
+
+fn last_part(path: &str) -> String {
+    path.rsplit('.').next().unwrap_or_default().to_lowercase()
+}
+
+/// Returns the number of differences between two names; `None` if more than a third of the name is
+/// wrong.
+fn distance_of_names(name: &str, other: &str) -> Option<usize> {
+    let distance = osa_distance(name, other);
+    let most = (name.chars().count() / 3).max(1);
+    (distance <= most).then_some(distance)
 }
 
 /// Returns a question to append to a message, such as `; did you mean length?`, with the name that

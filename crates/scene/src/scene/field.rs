@@ -1,7 +1,8 @@
 //! One field of a scene with its path, symbol, unit, range, step, default and meaning.
 
 use super::range::{Range, choice_name};
-use super::stages::{STAGES, read_loading, stage_in_ron};
+use super::slot::Place;
+use super::stages::{STAGES, read_loading, stages_in_ron};
 use super::text::{ron_float, ron_string};
 use asperity_contact::Move;
 use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
@@ -32,6 +33,8 @@ pub struct Field {
     pub meaning: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,
+    /// Where a scene has the value of the field.
+    pub(super) place: Place,
 }
 
 /// Function that converts typed text, without blanks around it, to the value of a field in RON.
@@ -61,18 +64,28 @@ pub enum Step {
 }
 
 /// Returns a required field with the usual unit and step for its range. Its name is its path.
-pub(super) const fn row(path: &'static str, range: Range) -> Field {
-    let (step, unit, read): (_, _, Read) = match range {
-        Range::Real(..) => (Step::Logarithmic, "1", read_number),
-        Range::Whole(..) => (Step::Typed, "1", read_whole),
-        Range::Band(..) | Range::Wavelengths(..) => (Step::Band, "1", read_pair),
-        Range::Choice(_) => (Step::Choice, "", read_choice),
-        Range::Text { .. } => (Step::Typed, "", read_text),
-        Range::List { .. } | Range::Group => (Step::Typed, "", |_, typed| Ok(typed.to_owned())),
+pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field {
+    let step = match range {
+        Range::Real(..) => Step::Logarithmic,
+        Range::Band(..) | Range::Wavelengths(..) => Step::Band,
+        Range::Choice(_) => Step::Choice,
+        Range::Whole(..) | Range::Text { .. } | Range::List { .. } | Range::Group => Step::Typed,
+    };
+    let unit = match range {
+        Range::Real(..) | Range::Whole(..) | Range::Band(..) | Range::Wavelengths(..) => "1",
+        Range::Choice(_) | Range::Text { .. } | Range::List { .. } | Range::Group => "",
+    };
+    let read: Read = match range {
+        Range::Real(..) => read_number,
+        Range::Whole(..) => read_whole,
+        Range::Band(..) | Range::Wavelengths(..) => read_pair,
+        Range::Choice(_) => read_choice,
+        Range::Text { .. } => read_text,
+        Range::List { .. } | Range::Group => read_unchanged,
     };
     Field {
         path,
-        variant: None,
+        variant: place.choice,
         name: path,
         symbol: "",
         unit,
@@ -81,18 +94,12 @@ pub(super) const fn row(path: &'static str, range: Range) -> Field {
         default: "",
         meaning: "",
         read,
+        place,
     }
 }
 
 /// Methods that change one column of a row in the table of fields.
 impl Field {
-    pub(super) const fn of(self, variant: &'static str) -> Field {
-        Field {
-            variant: Some(variant),
-            ..self
-        }
-    }
-
     pub(super) const fn name(self, name: &'static str) -> Field {
         Field { name, ..self }
     }
@@ -137,7 +144,7 @@ impl Field {
         range: Range,
         meaning: &'static str,
     ) -> Field {
-        row(path, range).name(name).meaning(meaning)
+        row(path, Place::NOWHERE, range).name(name).meaning(meaning)
     }
 
     /// Returns this description with this SI unit.
@@ -157,40 +164,49 @@ impl Field {
     /// or a pair of wavelengths in RON, and `format` is called for each number and its unit.
     /// Returns `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
-        let ends = match self.range {
-            Range::Real(..) => vec![written.parse().ok()?],
+        match self.range {
+            Range::Real(..) => Some(format(written.parse().ok()?, self.unit)),
             Range::Wavelengths(..) => {
-                <[f64; 2]>::from(ron::from_str::<(f64, f64)>(written).ok()?).to_vec()
+                let (longest, shortest) = ron::from_str::<(f64, f64)>(written).ok()?;
+                let longest = format(longest, self.unit);
+                let shortest = format(shortest, self.unit);
+                Some(format!("{longest}, {shortest}"))
             }
-            _ => return None,
-        };
-        Some(
-            ends.into_iter()
-                .map(|end| format(end, self.unit))
-                .collect::<Vec<_>>()
-                .join(", "),
-        )
+            _ => None,
+        }
     }
 
     /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²`
     /// if `4.356 mJ/m²` is shown.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
-        match (self.range, shown.split_once(", "), split_pair(typed)) {
-            (Range::Real(..), ..) => in_unit(typed, unit_of(shown)),
-            (Range::Wavelengths(..), Some((long, short)), Some((first, last))) => {
-                format!(
-                    "{}, {}",
-                    in_unit(first.trim(), unit_of(long)),
-                    in_unit(last.trim(), unit_of(short))
-                )
-            }
-            _ => typed.to_owned(),
+        if let Range::Real(..) = self.range {
+            return in_unit(typed, unit_of(shown));
         }
+        if let Range::Wavelengths(..) = self.range
+            && let Some((shown_longest, shown_shortest)) = shown.split_once(", ")
+            && let Some((longest, shortest)) = split_pair(typed)
+        {
+            let longest = in_unit(longest.trim(), unit_of(shown_longest));
+            let shortest = in_unit(shortest.trim(), unit_of(shown_shortest));
+            return format!("{longest}, {shortest}");
+        }
+        typed.to_owned()
     }
 
     /// Returns the path of the group that contains the field; empty at the top of the scene.
     pub fn parent(&self) -> &'static str {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
+    }
+
+    /// Returns the part of a path behind the path of this field: `1` for `roughness.modes.1`, empty
+    /// for the path of the field itself. Returns `None` for a path that is not inside this field.
+    pub(super) fn inside_path<'p>(&self, path: &'p str) -> Option<&'p str> {
+        let rest = path.strip_prefix(self.path)?;
+        if rest.is_empty() {
+            Some(rest)
+        } else {
+            rest.strip_prefix('.')
+        }
     }
 
     /// Returns the last part of the path: `hurst` for `roughness.hurst`.
@@ -214,30 +230,39 @@ pub(super) const FILE_NAME: Range = Range::Text {
 };
 
 /// Description of the force that ends a loading stage [`ToForce`](asperity_contact::Move::ToForce).
-pub const LEG_FORCE: Field = row("loading", Range::closed(-1e30, 1e30))
-    .of("ToForce")
-    .quantity("force of stage", "F", "N")
-    .meaning(
-        "target: the stage ends where the force first reaches this value; compression is positive",
-    );
+pub const LEG_FORCE: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToForce"),
+    Range::closed(-1e30, 1e30),
+)
+.quantity("force of stage", "F", "N")
+.meaning(
+    "target: the stage ends where the force first reaches this value; compression is positive",
+);
 
 /// Description of the indentation that ends a loading stage
 /// [`ToIndentation`](asperity_contact::Move::ToIndentation).
-pub const LEG_INDENTATION: Field = row("loading", Range::closed(-1e6, 1e6))
-    .of("ToIndentation")
-    .quantity("indentation of stage", "d", "m")
-    .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
+pub const LEG_INDENTATION: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToIndentation"),
+    Range::closed(-1e6, 1e6),
+)
+.quantity("indentation of stage", "d", "m")
+.meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
 /// Description of one loading stage, whose allowed choices are the kinds of stages.
-pub const STAGE: Field = row("loading", Range::Choice(&STAGES)).name("stage").meaning(
+pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
 /// Description of the displacement that ends a loading stage
 /// [`ToDisplacement`](asperity_contact::Move::ToDisplacement).
-pub const LEG_DISPLACEMENT: Field = row("loading", Range::closed(-1e6, 1e6))
-    .of("ToDisplacement")
-    .quantity("displacement of stage", "D", "m")
-    .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
+pub const LEG_DISPLACEMENT: Field = row(
+    "loading",
+    Place::NOWHERE.of("ToDisplacement"),
+    Range::closed(-1e6, 1e6),
+)
+.quantity("displacement of stage", "D", "m")
+.meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
 /// Descriptions of the numbers that end loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
@@ -260,6 +285,7 @@ impl Field {
     /// Converts a typed value of this field to RON. A number may have an SI prefix and the unit of
     /// the field: `50 mJ/m²`, `16k`. The text `none` omits an optional part. A loading may be a
     /// list of stages as [`loading_text`](crate::scene::stages::loading_text) writes it.
+    ///
     /// # Errors
     /// Returns an error for a number with another unit, a number too large for `f64`, or a choice
     /// without its numbers.
@@ -273,19 +299,32 @@ impl Field {
 }
 
 fn begins_as_number(typed: &str) -> bool {
-    typed.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'))
+    typed.starts_with(|sign: char| sign.is_ascii_digit() || matches!(sign, '+' | '-' | '.'))
+}
+
+/// Returns true for a number with a prefix or a unit, which is no number in RON.
+fn is_quantity(typed: &str) -> bool {
+    begins_as_number(typed) && ron::from_str::<f64>(typed).is_err()
+}
+
+fn read_unchanged(_: &Field, typed: &str) -> Result<String, QuantityError> {
+    Ok(typed.to_owned())
 }
 
 /// Reads a number in RON, or a number with a prefix or the unit.
 fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
-        true => parse_quantity(typed, field.unit).map(ron_float),
-        false => Ok(typed.to_owned()),
+    if is_quantity(typed) {
+        parse_quantity(typed, field.unit).map(ron_float)
+    } else {
+        Ok(typed.to_owned())
     }
 }
 
-fn whole(value: f64) -> Option<String> {
-    (value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value)).then(|| (value as u64).to_string())
+/// Returns a number in RON as a whole number; `None` if it is none, or if it is too large to be
+/// exact.
+fn whole_in_ron(value: f64) -> Option<String> {
+    let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
+    is_whole.then(|| (value as u64).to_string())
 }
 
 /// Reads a whole number, with blanks between its digits or with a prefix.
@@ -295,10 +334,11 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
         return Ok(digits);
     }
     // A seed has more digits than a floating-point number keeps.
-    match begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
-        true => Ok(whole(parse_quantity(typed, field.unit)?).unwrap_or_else(|| typed.to_owned())),
-        false => Ok(typed.to_owned()),
+    if begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
+        let whole = whole_in_ron(parse_quantity(typed, field.unit)?);
+        return Ok(whole.unwrap_or_else(|| typed.to_owned()));
     }
+    Ok(typed.to_owned())
 }
 
 /// Reads two numbers, or a single number as a field of one number does.
@@ -311,13 +351,15 @@ fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
             read_number(field, typed)
         };
     };
-    let [first, last] = [first, last].map(|end| parse_quantity(end.trim(), field.unit));
-    let written = |end: f64| {
-        whole(end)
-            .filter(|_| is_whole)
-            .unwrap_or_else(|| ron_float(end))
-    };
-    Ok(format!("({}, {})", written(first?), written(last?)))
+    let first = parse_quantity(first.trim(), field.unit)?;
+    let last = parse_quantity(last.trim(), field.unit)?;
+    if is_whole {
+        let first = whole_in_ron(first).unwrap_or_else(|| ron_float(first));
+        let last = whole_in_ron(last).unwrap_or_else(|| ron_float(last));
+        Ok(format!("({first}, {last})"))
+    } else {
+        Ok(format!("({}, {})", ron_float(first), ron_float(last)))
+    }
 }
 
 /// Reads a text with or without quotes.
@@ -336,37 +378,45 @@ fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let Range::Choice(choices) = field.range else {
         return Ok(typed.to_owned());
     };
-    let is_meant = |name: &str| name == typed || choice_in_words(name) == typed;
-    match choices.iter().find(|choice| is_meant(choice_name(choice))) {
-        Some(choice) if choice_name(choice).len() < choice.len() => Err(QuantityError(format!(
-            "its numbers are missing: give them as in {choice}"
-        ))),
-        Some(choice) => Ok((*choice).to_owned()),
-        None => Ok(typed.to_owned()),
+    for choice in choices {
+        let name = choice_name(choice);
+        if name != typed && choice_in_words(name) != typed {
+            continue;
+        }
+        if name.len() < choice.len() {
+            let reason = format!("its numbers are missing: give them as in {choice}");
+            return Err(QuantityError(reason));
+        }
+        return Ok((*choice).to_owned());
     }
+    Ok(typed.to_owned())
 }
 
 /// Reads a form, or the name of the file of a table.
 pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    match is_file_name(typed) {
-        true => Ok(format!("Table(file: {})", ron_string(typed))),
-        false => read_choice(field, typed),
+    if is_file_name(typed) {
+        Ok(format!("Table(file: {})", ron_string(typed)))
+    } else {
+        read_choice(field, typed)
     }
 }
 
 /// Reads a roughness, or the name of the file of a measured surface.
 pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    match is_file_name(typed) {
-        true => Ok(format!("Measured(file: {})", ron_string(typed))),
-        false => read_choice(field, typed),
+    if is_file_name(typed) {
+        Ok(format!("Measured(file: {})", ron_string(typed)))
+    } else {
+        read_choice(field, typed)
     }
 }
 
 /// Reads an adhesion, or a work of adhesion with its unit.
 pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
-    match begins_as_number(typed) && ron::from_str::<f64>(typed).is_err() {
-        true => parse_quantity(typed, "J/m²").map(|work| format!("(work: {})", ron_float(work))),
-        false => read_choice(field, typed),
+    if is_quantity(typed) {
+        let work = parse_quantity(typed, "J/m²")?;
+        Ok(format!("(work: {})", ron_float(work)))
+    } else {
+        read_choice(field, typed)
     }
 }
 
@@ -375,8 +425,7 @@ pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityErro
     if ron::from_str::<Vec<Move>>(typed).is_ok() {
         return Ok(typed.to_owned());
     }
-    let stages: Vec<_> = read_loading(typed)?.iter().map(stage_in_ron).collect();
-    Ok(format!("[{}]", stages.join(", ")))
+    Ok(stages_in_ron(&read_loading(typed)?))
 }
 
 /// Splits a typed pair into its two parts: `4, 512`, `4–512`, `4 to 512`, with or without brackets.

@@ -1,17 +1,18 @@
 //! The table of all fields of a scene: paths, symbols, units, ranges, steps, defaults, meanings.
 
-use serde::de::DeserializeOwned;
 use std::f64::consts::FRAC_PI_2;
 
+use super::adhesion::{Adhesion, RoughnessParameter, Strength};
+use super::defaults;
 use super::field::Step::{Doubling, Integer, Linear, Typed};
 use super::field::{FILE_NAME, Field, read_adhesion, read_form, read_roughness, read_stages, row};
+use super::measured::Measured;
+use super::model::{Roughness, SCENE_VERSION, Solver};
 use super::range::Range;
 use super::range::Range::{Band, Choice, List, Text, Wavelengths, Whole};
+use super::slot::{Place, place};
 use super::stages::{MOST_STAGES, STAGES};
-use super::text::read_ron;
-
-/// Version of the format of scene files.
-pub const SCENE_VERSION: u32 = 1;
+use asperity_surface::Form;
 
 /// Largest number of springs that a scene may have.
 pub const MOST_POINTS: u64 = 1 << 28;
@@ -25,20 +26,10 @@ pub const MOST_POINTS: u64 = 1 << 28;
 /// assert_eq!((radius.unit, radius.allowed().as_str()), ("m", "above 0, at most 1e9 m"));
 /// ```
 pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
-    let is_of =
-        |field: &Field| variant.is_none() || field.variant.is_none() || field.variant == variant;
     FIELDS
         .iter()
-        .find(|field| field.path == path && is_of(field))
-}
-
-/// Returns the default value of a field.
-pub(super) fn default_of<T: DeserializeOwned>(path: &str) -> T {
-    let row = FIELDS
-        .iter()
-        .find(|field| field.path == path && !field.default.is_empty());
-    row.and_then(|row| read_ron(row.default).ok())
-        .expect("a row of the table with a default of this type")
+        .filter(|field| field.path == path)
+        .find(|field| variant.is_none() || field.variant.is_none() || field.variant == variant)
 }
 
 /// Returns the fields directly inside the group or the variant at a path; an empty path is the
@@ -47,10 +38,10 @@ pub(super) fn fields_inside(
     path: &str,
     variant: Option<&str>,
 ) -> impl Iterator<Item = &'static Field> {
-    let is_of = move |field: &Field| field.variant.is_none() || field.variant == variant;
     FIELDS
         .iter()
-        .filter(move |field| field.parent() == path && is_of(field))
+        .filter(move |field| field.parent() == path)
+        .filter(move |field| field.variant.is_none() || field.variant == variant)
 }
 
 const MATERIALS: Range = Choice(&[
@@ -69,6 +60,21 @@ const ROUGHNESS: Range = Choice(&[
     "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (1, 512), seed: 1)",
     "Measured(file: \"line.csv\")",
 ]);
+const FURTHER_FILES: Range = List {
+    of: &["\"other.txt\""],
+    least: 0,
+    most: 10_000,
+};
+const ADHESIONS: Range = Choice(&[
+    "(work: 0.05)",
+    "(kappa: 2.0)",
+    "(elastic_energy_ratio: 0.5)",
+]);
+const OBSERVERS: Range = List {
+    of: &["Fragments", "HeightHistogram"],
+    least: 0,
+    most: 2,
+};
 const SWITCH: Range = Choice(&["false", "true"]);
 const UNIT: Range = Text {
     least: 0,
@@ -76,144 +82,247 @@ const UNIT: Range = Text {
     lines: false,
 };
 
+/// Makes the place of a number of a form, which is a member of the variant of that name.
+macro_rules! form {
+    ($form:ident, $member:ident) => {
+        place!(form, Some(Form::$form { $member, .. }) => $member).of(stringify!($form))
+    };
+}
+
+/// Makes the place of a member of a self-affine roughness.
+macro_rules! self_affine {
+    ($member:ident) => {
+        place!(roughness, Some(Roughness::SelfAffine { $member, .. }) => $member).of("SelfAffine")
+    };
+}
+
+/// Makes the place of a member of a measured surface.
+macro_rules! measured {
+    ($member:ident) => {
+        place!(roughness, Some(Roughness::Measured(Measured { $member, .. })) => $member)
+            .of("Measured")
+    };
+}
+
+const WORK: Place = place!(
+    adhesion,
+    Some(Adhesion { strength: Strength::Work { opening, .. }, .. }) => opening
+);
+const CLOSING_WORK: Place = place!(
+    adhesion,
+    Some(Adhesion { strength: Strength::Work { closing, .. }, .. }) => closing
+);
+const KAPPA: Place = place!(
+    adhesion,
+    Some(Adhesion { strength: Strength::Parameter(RoughnessParameter::Kappa, value), .. }) => value
+);
+const ELASTIC_ENERGY_RATIO: Place = place!(
+    adhesion,
+    Some(Adhesion {
+        strength: Strength::Parameter(RoughnessParameter::ElasticEnergyRatio, value),
+        ..
+    }) => value
+);
+const ATTRACTION_RANGE: Place = place!(adhesion, Some(Adhesion { range, .. }) => range);
+const SOLVER_STEP: Place =
+    place!(numerics.solver, Solver::Stepwise { step } => step).of("Stepwise");
+
 /// Descriptions of all fields of a scene, in the order of a scene file.
-// Two or three lines for a row: what it is, and what it means.
+// A row has its path, place and range on the first line, then name, step and default, then meaning.
 #[rustfmt::skip]
 pub const FIELDS: &[Field] = &[
-    row("version", Whole(SCENE_VERSION as u64, SCENE_VERSION as u64))
+    row("version", place!(version), Whole(SCENE_VERSION as u64, SCENE_VERSION as u64))
         .meaning("version of the scene file format"),
-    row("title", Text { least: 0, most: 200, lines: false }).default("\"\"")
+    row("title", place!(title), Text { least: 0, most: 200, lines: false })
+        .default("\"\"")
         .meaning("title of the scene"),
-    row("notice", Text { least: 0, most: 4000, lines: true }).default("\"\"")
+    row("notice", place!(notice), Text { least: 0, most: 4000, lines: true })
+        .default("\"\"")
         .meaning("notes on the scene"),
-    row("material", MATERIALS).step(Typed)
+    row("material", place!(material), MATERIALS)
+        .step(Typed)
         .meaning("elastic constants"),
-    row("material.youngs_modulus", Range::closed(1.0, 1e13)).quantity("Young's modulus", "E", "Pa").default("None")
+    row("material.youngs_modulus", place!(material.youngs_modulus), Range::closed(1.0, 1e13))
+        .quantity("Young's modulus", "E", "Pa").default("None")
         .meaning("Young's modulus, with Poisson's ratio"),
-    row("material.poisson_ratio", Range::above(-1.0, 0.5)).quantity("Poisson's ratio", "ν", "1")
-        .step(Linear(0.01, 0.1)).default("None")
+    row("material.poisson_ratio", place!(material.poisson_ratio), Range::above(-1.0, 0.5))
+        .quantity("Poisson's ratio", "ν", "1").step(Linear(0.01, 0.1)).default("None")
         .meaning("Poisson's ratio; 0.5 is incompressible, as rubber"),
-    row("material.effective_modulus", Range::closed(1.0, 1e13)).quantity("effective modulus", "E*", "Pa")
-        .default("None").meaning("effective modulus E/(1 − ν²), in place of E and ν"),
-    row("length", Range::closed(1e-9, 10.0)).quantity("apparent diameter", "L", "m")
-        .meaning("width of the real contact: above a tip's contact diameter; of a pad its width, which raises F_a/F_a,max"),
-    row("form", FORMS).default("None").read(read_form)
+    row("material.effective_modulus", place!(material.effective_modulus), Range::closed(1.0, 1e13))
+        .quantity("effective modulus", "E*", "Pa").default("None")
+        .meaning("effective modulus E/(1 − ν²), in place of E and ν"),
+    row("length", place!(length), Range::closed(1e-9, 10.0))
+        .quantity("apparent diameter", "L", "m")
+        .meaning("width of the real contact: above a tip's contact diameter; of a pad its \
+                  width, which raises F_a/F_a,max"),
+    row("form", place!(form), FORMS)
+        .default("None").read(read_form)
         .meaning("macroscopic shape of the rigid body; nominally flat if left out"),
-    row("form.radius", Range::above(0.0, 1e9)).of("Paraboloid").quantity("radius of curvature", "R", "m")
+    row("form.radius", form!(Paraboloid, radius), Range::above(0.0, 1e9))
+        .quantity("radius of curvature", "R", "m")
         .meaning("radius of curvature at the apex"),
-    row("form.angle", Range::between(0.0, FRAC_PI_2)).of("Cone").quantity("flank angle", "θ", "rad")
-        .step(Linear(0.01, 0.1))
+    row("form.angle", form!(Cone, angle), Range::between(0.0, FRAC_PI_2))
+        .quantity("flank angle", "θ", "rad").step(Linear(0.01, 0.1))
         .meaning("angle between flank and surface; a small angle is blunt"),
-    row("form.coefficient", Range::above(0.0, 1e300)).of("Power").quantity("coefficient", "b", "m^(1−n)")
+    row("form.coefficient", form!(Power, coefficient), Range::above(0.0, 1e300))
+        .quantity("coefficient", "b", "m^(1−n)")
         .meaning("coefficient b of the power law b rⁿ"),
-    row("form.exponent", Range::above(0.5, 100.0)).of("Power").quantity("exponent", "n", "1").step(Linear(0.1, 1.0))
+    row("form.exponent", form!(Power, exponent), Range::above(0.5, 100.0))
+        .quantity("exponent", "n", "1").step(Linear(0.1, 1.0))
         .meaning("exponent n of the power law b rⁿ"),
-    row("form.radius", Range::above(0.0, 1e9)).of("WavySphere").quantity("sphere radius", "R", "m")
+    row("form.radius", form!(WavySphere, radius), Range::above(0.0, 1e9))
+        .quantity("sphere radius", "R", "m")
         .meaning("radius of curvature of the sphere without its waves"),
-    row("form.amplitude", Range::above(0.0, 1e6)).of("WavySphere").quantity("wave amplitude", "A", "m")
+    row("form.amplitude", form!(WavySphere, amplitude), Range::above(0.0, 1e6))
+        .quantity("wave amplitude", "A", "m")
         .meaning("amplitude A of the concentric waves A (1 − cos 2πr/λ)"),
-    row("form.wavelength", Range::above(0.0, 1e9)).of("WavySphere").quantity("wavelength", "λ", "m")
+    row("form.wavelength", form!(WavySphere, wavelength), Range::above(0.0, 1e9))
+        .quantity("wavelength", "λ", "m")
         .meaning("distance λ between crests, at least four springs"),
-    row("form.radius", Range::above(0.0, 5.0)).of("Punch").quantity("punch radius", "a", "m")
+    row("form.radius", form!(Punch, radius), Range::above(0.0, 5.0))
+        .quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),
-    row("form.file", FILE_NAME).of("Table").name("table of the form")
-        .meaning("file with two columns: ascending radii r from 0, and depths f of a body of revolution"),
-    row("form.unit", UNIT).of("Table").name("unit of the table").default("\"\"")
+    row("form.file", form!(Table, file), FILE_NAME)
+        .name("table of the form")
+        .meaning("file with two columns: ascending radii r from 0, and depths f of a body of \
+                  revolution"),
+    row("form.unit", form!(Table, unit), UNIT)
+        .name("unit of the table").default("\"\"")
         .meaning("unit of the lengths if the table states none; m if empty"),
-    row("roughness", ROUGHNESS).default("None").read(read_roughness)
+    row("roughness", place!(roughness), ROUGHNESS)
+        .default("None").read(read_roughness)
         .meaning("roughness of the rigid body; smooth if left out"),
-    row("roughness.hurst", Range::between(0.0, 1.0)).of("SelfAffine").quantity("Hurst exponent", "H", "1")
-        .step(Linear(0.01, 0.1))
-        .meaning("decay of the roughness towards short waves: a low H is jagged, a high H is smooth"),
-    row("roughness.rms_height", Range::closed(1e-30, 100.0)).of("SelfAffine").quantity("rms height", "h", "m")
-        .default("None").meaning("root mean square height of the profile"),
-    row("roughness.rms_gradient", Range::closed(1e-30, 1e9)).of("SelfAffine").quantity("rms gradient", "⟨∇z⟩", "1")
-        .default("None").meaning("root mean square slope, in place of the rms height"),
-    row("roughness.modes", Band(1, 1 << 27)).of("SelfAffine").quantity("modes", "k", "1").default("None")
+    row("roughness.hurst", self_affine!(hurst), Range::between(0.0, 1.0))
+        .quantity("Hurst exponent", "H", "1").step(Linear(0.01, 0.1))
+        .meaning("decay of the roughness towards short waves: a low H is jagged, a high H is \
+                  smooth"),
+    row("roughness.rms_height", self_affine!(rms_height), Range::closed(1e-30, 100.0))
+        .quantity("rms height", "h", "m").default("None")
+        .meaning("root mean square height of the profile"),
+    row("roughness.rms_gradient", self_affine!(rms_gradient), Range::closed(1e-30, 1e9))
+        .quantity("rms gradient", "⟨∇z⟩", "1").default("None")
+        .meaning("root mean square slope, in place of the rms height"),
+    row("roughness.modes", self_affine!(modes), Band(1, 1 << 27))
+        .quantity("modes", "k", "1").default("None")
         .meaning("first and last mode, in waves per length; the last is at most points/2"),
-    row("roughness.wavelengths", Wavelengths(1e-15, 10.0)).of("SelfAffine").quantity("wavelengths", "λ", "m")
-        .default("None").meaning("longest and shortest wave, in place of the modes"),
-    row("roughness.roll_off", Range::closed(1e-15, 10.0)).of("SelfAffine").quantity("roll-off wavelength", "λ_r", "m")
-        .default("None").meaning("wavelength above which the spectrum of the surface is flat"),
-    row("roughness.seed", Whole(0, u64::MAX)).of("SelfAffine").name("seed").step(Integer(1, 100))
+    row("roughness.wavelengths", self_affine!(wavelengths), Wavelengths(1e-15, 10.0))
+        .quantity("wavelengths", "λ", "m").default("None")
+        .meaning("longest and shortest wave, in place of the modes"),
+    row("roughness.roll_off", self_affine!(roll_off), Range::closed(1e-15, 10.0))
+        .quantity("roll-off wavelength", "λ_r", "m").default("None")
+        .meaning("wavelength above which the spectrum of the surface is flat"),
+    row("roughness.seed", self_affine!(seed), Whole(0, u64::MAX))
+        .name("seed").step(Integer(1, 100))
         .meaning("seed of the random phases"),
-    row("roughness.file", FILE_NAME).of("Measured").name("measured surface")
+    row("roughness.file", measured!(file), FILE_NAME)
+        .name("measured surface")
         .meaning("file of a measured profile or map"),
-    row("roughness.further_files", List { of: &["\"other.txt\""], least: 0, most: 10_000 }).of("Measured")
+    row("roughness.further_files", measured!(further_files), FURTHER_FILES)
         .name("further files of the surface").default("[]")
         .meaning("further measurements of the same face"),
-    row("roughness.as_line", SWITCH).of("Measured").name("profile as line").default("false")
-        .meaning("true: use the heights unchanged, as an equivalent line, which a measured cut is not; false: generate random profiles with the measured spectrum"),
-    row("roughness.opposite", FILE_NAME).of("Measured").name("measured surface of the opposite face")
-        .default("None")
+    row("roughness.as_line", measured!(as_line), SWITCH)
+        .name("profile as line").default("false")
+        .meaning("true: use the heights unchanged, as an equivalent line, which a measured cut \
+                  is not; false: generate random profiles with the measured spectrum"),
+    row("roughness.opposite", measured!(opposite), FILE_NAME)
+        .name("measured surface of the opposite face").default("None")
         .meaning("file of the opposite face, whose spectrum is added"),
-    row("roughness.row", Whole(1, 1 << 28)).of("Measured").name("row of the map")
-        .step(Integer(1, 100)).default("None")
+    row("roughness.row", measured!(row), Whole(1, 1 << 28))
+        .name("row of the map").step(Integer(1, 100)).default("None")
         .meaning("number of the row of a map that is used alone; the whole map if left out"),
-    row("roughness.column", Whole(1, 1 << 28)).of("Measured").name("column of the map")
-        .step(Integer(1, 100)).default("None")
+    row("roughness.column", measured!(column), Whole(1, 1 << 28))
+        .name("column of the map").step(Integer(1, 100)).default("None")
         .meaning("number of the column of a map, in place of a row"),
-    row("roughness.detrend", Choice(&["Nothing", "Mean", "Tilt", "Curvature"])).of("Measured")
+    row("roughness.detrend", measured!(detrend), Choice(&["Nothing", "Mean", "Tilt", "Curvature"]))
         .name("detrending").default("None")
-        .meaning("what is subtracted from the heights; by default Tilt, for a periodic surface Mean, with as_line Nothing"),
-    row("roughness.periodic", SWITCH).of("Measured").name("periodic surface").default("false")
+        .meaning("what is subtracted from the heights; by default Tilt, for a periodic surface \
+                  Mean, with as_line Nothing"),
+    row("roughness.periodic", measured!(periodic), SWITCH)
+        .name("periodic surface").default("false")
         .meaning("true: the surface repeats itself at its borders, so no window is used"),
-    row("roughness.unit", UNIT).of("Measured").name("unit of the file").default("\"\"")
+    row("roughness.unit", measured!(unit), UNIT)
+        .name("unit of the file").default("\"\"")
         .meaning("unit of the lengths if the file states none; m if empty and as_line is true"),
-    row("roughness.height_unit", UNIT).of("Measured").name("unit of heights of the file").default("\"\"")
+    row("roughness.height_unit", measured!(height_unit), UNIT)
+        .name("unit of heights of the file").default("\"\"")
         .meaning("unit of the heights if the file states none; roughness.unit if empty"),
-    row("roughness.spacing", Range::closed(1e-18, 1e9)).of("Measured").quantity("distance between points of the file", "", "m").default("None")
+    row("roughness.spacing", measured!(spacing), Range::closed(1e-18, 1e9))
+        .quantity("distance between points of the file", "", "m").default("None")
         .meaning("distance between points if the file states none"),
-    row("roughness.interpolate", SWITCH).of("Measured").name("interpolation of missing points")
-        .default("false")
+    row("roughness.interpolate", measured!(interpolate), SWITCH)
+        .name("interpolation of missing points").default("false")
         .meaning("true: missing points get heights from their neighbours; false: they are refused"),
-    row("roughness.resample", SWITCH).of("Measured").name("resampling of uneven profiles").default("false")
+    row("roughness.resample", measured!(resample), SWITCH)
+        .name("resampling of uneven profiles").default("false")
         .meaning("true: points at uneven distances are resampled linearly"),
-    row("roughness.align_rows", SWITCH).of("Measured").name("levelling of rows").default("false")
+    row("roughness.align_rows", measured!(align_rows), SWITCH)
+        .name("levelling of rows").default("false")
         .meaning("true: the median of each row is subtracted"),
-    row("roughness.robust", SWITCH).of("Measured").name("replacement of outliers").default("false")
+    row("roughness.robust", measured!(robust), SWITCH)
+        .name("replacement of outliers").default("false")
         .meaning("true: outliers such as spikes get heights from their neighbours"),
-    row("roughness.surface_name", FILE_NAME).of("Measured").name("surface of a container").default("None")
+    row("roughness.surface_name", measured!(surface_name), FILE_NAME)
+        .name("surface of a container").default("None")
         .meaning("name of a surface or measurement in a container"),
-    row("roughness.channel", Whole(0, u32::MAX as u64)).of("Measured").name("channel of the file")
-        .step(Integer(1, 10)).default("None").meaning("number of the channel of the file, from 0"),
-    row("roughness.continue_to", Range::closed(1e-15, 10.0)).of("Measured").quantity("shortest wavelength", "λ_s", "m").default("None")
-        .meaning("wavelength down to which the spectrum continues as a power law; by default the shortest resolved wavelength"),
-    row("roughness.seed", Whole(0, u64::MAX)).of("Measured").name("seed of the equivalent line")
-        .step(Integer(1, 100)).default("1").meaning("seed of the random phases of the measured spectrum"),
-    row("adhesion", Choice(&["(work: 0.05)", "(kappa: 2.0)", "(elastic_energy_ratio: 0.5)"])).default("None")
-        .read(read_adhesion)
+    row("roughness.channel", measured!(channel), Whole(0, u32::MAX as u64))
+        .name("channel of the file").step(Integer(1, 10)).default("None")
+        .meaning("number of the channel of the file, from 0"),
+    row("roughness.continue_to", measured!(continue_to), Range::closed(1e-15, 10.0))
+        .quantity("shortest wavelength", "λ_s", "m").default("None")
+        .meaning("wavelength down to which the spectrum continues as a power law; by default \
+                  the shortest resolved wavelength"),
+    row("roughness.seed", measured!(seed), Whole(0, u64::MAX))
+        .name("seed of the equivalent line").step(Integer(1, 100)).default(defaults::MEASURED_SEED)
+        .meaning("seed of the random phases of the measured spectrum"),
+    row("adhesion", place!(adhesion), ADHESIONS)
+        .default("None").read(read_adhesion)
         .meaning("adhesion of the surfaces, by γ, κ or e_el/γ"),
-    row("adhesion.work", Range::closed(0.0, 1e6)).quantity("work of adhesion", "γ", "J/m²").default("None")
+    row("adhesion.work", WORK, Range::closed(0.0, 1e6))
+        .quantity("work of adhesion", "γ", "J/m²").default("None")
         .meaning("energy per area that opens the interface"),
-    row("adhesion.closing_work", Range::closed(0.0, 1e6)).quantity("work of adhesion on closing", "γ₁", "J/m²")
+    row("adhesion.closing_work", CLOSING_WORK, Range::closed(0.0, 1e6))
+        .quantity("work of adhesion on closing", "γ₁", "J/m²").default("None")
+        .meaning("energy per area gained where the interface closes, at most adhesion.work, \
+                  which is the default"),
+    row("adhesion.kappa", KAPPA, Range::closed(1e-6, 1e6))
+        .quantity("roughness-adhesion parameter", RoughnessParameter::Kappa.symbol(), "1")
         .default("None")
-        .meaning("energy per area gained where the interface closes, at most adhesion.work, which is the default"),
-    row("adhesion.kappa", Range::closed(1e-6, 1e6)).quantity("roughness-adhesion parameter", "κ", "1").default("None")
         .meaning("√(h⟨∇z⟩E*/γ): adhesion is strong for small κ"),
-    row("adhesion.elastic_energy_ratio", Range::closed(1e-12, 1e12)).quantity("elastic energy ratio", "e_el/γ", "1")
+    row("adhesion.elastic_energy_ratio", ELASTIC_ENERGY_RATIO, Range::closed(1e-12, 1e12))
+        .quantity("elastic energy ratio", RoughnessParameter::ElasticEnergyRatio.symbol(), "1")
         .default("None")
-        .meaning("elastic energy that flattens the roughness over γ: adhesion is strong for small e_el/γ"),
-    row("adhesion.range", Range::closed(1e-12, 1e-3)).quantity("range of attraction", "z₀", "m").default("None")
+        .meaning("elastic energy that flattens the roughness over γ: adhesion is strong for \
+                  small e_el/γ"),
+    row("adhesion.range", ATTRACTION_RANGE, Range::closed(1e-12, 1e-3))
+        .quantity("range of attraction", "z₀", "m").default("None")
         .meaning("range of the attraction, for the Tabor number; by default 0.3 nm"),
-    row("loading_stiffness", Range::closed(1e-12, 1e12)).quantity("loading stiffness", "k", "N/m").default("None")
+    row("loading_stiffness", place!(loading_stiffness), Range::closed(1e-12, 1e12))
+        .quantity("loading stiffness", "k", "N/m").default("None")
         .meaning("stiffness of the instrument that moves the body; rigid if left out"),
-    row("loading", List { of: &STAGES, least: 1, most: MOST_STAGES }).default("[ToZeroForce, ToSeparation]")
-        .read(read_stages)
+    row("loading", place!(loading), List { of: &STAGES, least: 1, most: MOST_STAGES })
+        .default(defaults::LOADING).read(read_stages)
         .meaning("stages in their order; the body starts separated"),
-    row("numerics", Range::Group).default("()")
+    row("numerics", place!(numerics), Range::Group)
+        .default("()")
         .meaning("resolution and method of the computation"),
-    row("numerics.points", Whole(1, MOST_POINTS)).quantity("points", "N", "1").step(Doubling).default("16384")
+    row("numerics.points", place!(numerics.points), Whole(1, MOST_POINTS))
+        .quantity("points", "N", "1").step(Doubling).default(defaults::POINTS)
         .meaning("number of springs along the profile"),
-    row("numerics.solver", Choice(&["Exact", "Stepwise(step: 1.0e-9)"])).name("solver").default("Exact")
+    row("numerics.solver", place!(numerics.solver), Choice(&["Exact", "Stepwise(step: 1.0e-9)"]))
+        .name("solver").default(defaults::SOLVER)
         .meaning("exact solver, or relaxation step by step, as Popov and Filippov (2012) do"),
-    row("numerics.solver.step", Range::closed(1e-30, 1e6)).of("Stepwise").quantity("step", "Δd", "m")
+    row("numerics.solver.step", SOLVER_STEP, Range::closed(1e-30, 1e6))
+        .quantity("step", "Δd", "m")
         .meaning("displacement between two relaxations"),
-    row("numerics.edges", Choice(&["Grid", "SubCell"])).name("edges").default("SubCell")
-        .meaning("SubCell: the edge of a patch may lie between two springs; Grid: a patch is a number of whole springs"),
-    row("numerics.samples", Whole(2, 1_000_000)).name("samples").step(Doubling).default("512")
+    row("numerics.edges", place!(numerics.edges), Choice(&["Grid", "SubCell"]))
+        .name("edges").default(defaults::EDGES)
+        .meaning("SubCell: the edge of a patch may lie between two springs; Grid: a patch is a \
+                  number of whole springs"),
+    row("numerics.samples", place!(numerics.samples), Whole(2, 1_000_000))
+        .name("samples").step(Doubling).default(defaults::SAMPLES)
         .meaning("points of the force curve on each stage"),
-    row("observe", List { of: &["Fragments", "HeightHistogram"], least: 0, most: 2 }).default("[]")
+    row("observe", place!(observe), OBSERVERS)
+        .default("[]")
         .meaning("quantities that are recorded beside the force curve"),
 ];
 

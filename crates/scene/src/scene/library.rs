@@ -71,13 +71,13 @@ pub fn find_scene(name: &str) -> Option<&'static Preset> {
 /// Converts typed text to a path. A leading `~` becomes the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
-    let in_home = text
-        .strip_prefix('~')
-        .filter(|rest| rest.is_empty() || rest.starts_with(is_separator));
-    match (in_home, home_dir()) {
-        (Some(rest), Ok(home)) => home.join(rest.trim_start_matches(is_separator)),
-        _ => PathBuf::from(text),
+    if let Some(inside) = text.strip_prefix('~')
+        && (inside.is_empty() || inside.starts_with(is_separator))
+        && let Ok(home) = home_dir()
+    {
+        return home.join(inside.trim_start_matches(is_separator));
     }
+    PathBuf::from(text)
 }
 
 /// Place from which a scene comes.
@@ -112,23 +112,17 @@ pub struct Entry {
 /// `~/.config`, on Windows in the folder for roaming application data. The folder need not exist.
 /// Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
-    Some(
-        choose_base_strategy()
-            .ok()?
-            .config_dir()
-            .join("asperity")
-            .join("presets"),
-    )
+    let strategy = choose_base_strategy().ok()?;
+    Some(strategy.config_dir().join("asperity").join("presets"))
 }
 
 /// Returns the file of the scene with this name in the user's own folder, if it exists.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
-    let is_name = matches!(
-        (components.next(), components.next()),
-        (Some(Component::Normal(_)), None)
-    );
-    Some(own.join(format!("{name}.ron"))).filter(|path| is_name && path.is_file())
+    let is_name =
+        matches!(components.next(), Some(Component::Normal(_))) && components.next().is_none();
+    let path = own.join(format!("{name}.ron"));
+    (is_name && path.is_file()).then_some(path)
 }
 
 /// Returns the names of the scenes in the user's own folder.
@@ -144,22 +138,18 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
 /// scenes in the folder `working`. A file is listed if its name ends in `.ron`, except for plans of
 /// studies. A file that is no valid scene is listed with its error.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
-    let built_in = presets().iter().map(|preset| {
-        Entry::new(
-            preset.name.into(),
-            Source::BuiltIn,
-            None,
-            Ok(preset.text.into()),
-        )
-    });
-    let mut entries: Vec<Entry> = built_in.collect();
-    entries.extend(
-        own.into_iter()
-            .flat_map(|own| list_folder(own, Source::Own)),
-    );
-    let place = |folder: &Path| folder.canonicalize().ok();
-    let own = own.and_then(place);
-    if own.is_none() || own != place(working) {
+    let mut entries = Vec::new();
+    for preset in presets() {
+        let text = Ok(preset.text.into());
+        entries.push(Entry::new(preset.name.into(), Source::BuiltIn, None, text));
+    }
+    let mut own_place = None;
+    if let Some(own) = own {
+        entries.extend(list_folder(own, Source::Own));
+        own_place = own.canonicalize().ok();
+    }
+    // A folder in both roles is listed once.
+    if own_place.is_none() || own_place != working.canonicalize().ok() {
         entries.extend(list_folder(working, Source::Working));
     }
     entries
@@ -214,7 +204,8 @@ impl Entry {
     /// errors. Returns `None` for a valid scene.
     pub fn error(&self) -> Option<String> {
         let errors = self.document.as_ref().err()?;
-        let (first, more) = (errors.first(), errors.iter().count() - 1);
+        let first = errors.first();
+        let more = errors.iter().count() - 1;
         let place = match &first.origin {
             Origin::File {
                 place: Some((line, column)),
@@ -247,29 +238,37 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
         }
     };
     paths.sort_by_cached_key(|path| name_of(path, origin));
-    let read = |path: PathBuf| {
+    let mut entries = Vec::new();
+    for path in paths {
+        let name = printable(&name_of(&path, origin)).into_owned();
         let text = read_regular_text(&path, LONGEST_TEXT).map_err(describe);
-        Entry::new(
-            printable(&name_of(&path, origin)).into_owned(),
-            origin,
-            Some(path),
-            text,
-        )
-    };
-    let mut entries: Vec<Entry> = paths.into_iter().map(read).collect();
-    // A plan of a study contains a scene.
-    let is_plan = |text: &str| Text::new(text).is_ok_and(|text| text.span("scene").is_some());
-    entries.retain(|entry| entry.document.is_ok() || !is_plan(&entry.text));
+        let entry = Entry::new(name, origin, Some(path), text);
+        if entry.document.is_ok() || !is_plan(&entry.text) {
+            entries.push(entry);
+        }
+    }
     entries
+}
+
+/// Returns true for the text of a plan of a study, which contains a scene.
+fn is_plan(text: &str) -> bool {
+    Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }
 
 /// Lists the files of a folder that end in `.ron`, without reading them.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let paths = fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
-    // The target of a link decides; a link without a target is no folder.
-    let is_scene =
-        |path: &PathBuf| path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir();
-    Ok(paths.filter(is_scene).collect())
+    let mut paths = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let Ok(entry) = entry else {
+            continue;
+        };
+        let path = entry.path();
+        // The target of a link decides; a link without a target is no folder.
+        if path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir() {
+            paths.push(path);
+        }
+    }
+    Ok(paths)
 }
 
 fn name_of(path: &Path, origin: Source) -> String {

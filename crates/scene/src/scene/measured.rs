@@ -1,12 +1,14 @@
 //! A measured surface as the roughness of a scene: its files, and the options for reading and
 //! analysing them.
 
-use super::fields::default_of;
+use super::defaults::{MEASURED_SEED, read_default};
 use asperity_surface::lines::MeasuredOptions;
 use asperity_surface::spectra::End;
 use asperity_surface::{AnalysisOptions, Cut, Detrend, ReadOptions, Unit};
+use serde::de::value::{Error as ValueError, MapDeserializer};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use std::iter;
 use std::ops::Not;
 
 /// A measured surface, profile or map, as the roughness of a scene. Many fields of this type are
@@ -108,32 +110,13 @@ pub struct Measured {
 impl Measured {
     /// Returns the surface of one file, with the default of each option.
     pub fn of_file(file: &str) -> Self {
-        Measured {
-            file: file.to_owned(),
-            further_files: Vec::new(),
-            as_line: false,
-            opposite: None,
-            unit: String::new(),
-            height_unit: String::new(),
-            spacing: None,
-            interpolate: false,
-            resample: false,
-            align_rows: false,
-            robust: false,
-            surface_name: None,
-            channel: None,
-            row: None,
-            column: None,
-            detrend: None,
-            periodic: false,
-            continue_to: None,
-            seed: default_seed(),
-        }
+        let stated = MapDeserializer::<_, ValueError>::new(iter::once(("file", file)));
+        Measured::deserialize(stated).expect("defaults of all fields but the file")
     }
 }
 
 fn default_seed() -> u64 {
-    default_of("roughness.seed")
+    read_default(MEASURED_SEED)
 }
 
 fn is_default_seed(seed: &u64) -> bool {
@@ -154,13 +137,11 @@ impl Measured {
     /// Returns the names of the files of each face: the rough face, then the opposite one, if it is
     /// given.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
-        let face = std::iter::once(&self.file)
-            .chain(&self.further_files)
-            .map(String::as_str)
-            .collect();
-        std::iter::once(face)
-            .chain(self.opposite.iter().map(|file| vec![file.as_str()]))
-            .collect()
+        let mut face = vec![self.file.as_str()];
+        face.extend(self.further_files.iter().map(String::as_str));
+        let mut faces = vec![face];
+        faces.extend(self.opposite.iter().map(|file| vec![file.as_str()]));
+        faces
     }
 
     /// Returns the options for reading and analysing the files of this surface. The values of this

@@ -3,7 +3,7 @@
 //! The types may hold invalid values. [`Scene::checked`] finds the invalid ones.
 
 use super::adhesion::Adhesion;
-use super::fields::{SCENE_VERSION, default_of};
+use super::defaults::{EDGES, LOADING, POINTS, SAMPLES, SOLVER, read_default};
 use super::measured::Measured;
 use asperity_contact::{ContactError, Edges, Modulus, Move};
 use asperity_data::Warning;
@@ -14,6 +14,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use strum::IntoStaticStr;
 
+/// Version of the format of scene files.
+pub const SCENE_VERSION: u32 = 1;
 /// Number of points of the force curve on a loading stage whose curve is not needed.
 pub const FEW_SAMPLES: u64 = 2;
 /// Recommended number of springs on the shortest wave. With this number the adhesion force of a
@@ -93,10 +95,9 @@ impl Material {
     /// Returns an isotropic material under a rigid body: Young's modulus E in Pa and Poisson's
     /// ratio ν give E* = E/(1 − ν²).
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Self {
-        let [youngs_modulus, poisson_ratio] = [youngs_modulus, poisson_ratio].map(Some);
         Material {
-            youngs_modulus,
-            poisson_ratio,
+            youngs_modulus: Some(youngs_modulus),
+            poisson_ratio: Some(poisson_ratio),
             effective_modulus: None,
         }
     }
@@ -114,10 +115,13 @@ impl Material {
     /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value
     /// is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
-        let [modulus, ratio] =
-            [self.youngs_modulus, self.poisson_ratio].map(|value| value.unwrap_or(f64::NAN));
-        self.effective_modulus
-            .map_or_else(|| Modulus::isotropic(modulus, ratio), Modulus::effective)
+        if let Some(effective_modulus) = self.effective_modulus {
+            return Modulus::effective(effective_modulus);
+        }
+        Modulus::isotropic(
+            self.youngs_modulus.unwrap_or(f64::NAN),
+            self.poisson_ratio.unwrap_or(f64::NAN),
+        )
     }
 }
 
@@ -214,9 +218,14 @@ impl Scene {
         else {
             return None;
         };
-        let mode = |wavelength: f64| (self.length / wavelength).round() as u64;
-        let (first, last) =
-            modes.or(wavelengths.map(|(longest, shortest)| (mode(longest), mode(shortest))))?;
+        let (first, last) = match (modes, wavelengths) {
+            (Some(modes), _) => modes,
+            (None, Some((longest, shortest))) => (
+                (self.length / longest).round() as u64,
+                (self.length / shortest).round() as u64,
+            ),
+            (None, None) => return None,
+        };
         let roll_off_mode = roll_off.map_or(0.0, |wavelength| self.length / wavelength);
         Some(SelfAffine {
             hurst,
@@ -342,12 +351,11 @@ struct NumericsText {
 
 impl Default for NumericsText {
     fn default() -> Self {
-        let [points, samples] = ["numerics.points", "numerics.samples"].map(default_of);
         NumericsText {
-            points,
-            solver: default_of("numerics.solver"),
+            points: read_default(POINTS),
+            solver: read_default(SOLVER),
             edges: None,
-            samples,
+            samples: read_default(SAMPLES),
         }
     }
 }
@@ -390,14 +398,14 @@ impl Solver {
     /// the exact solver, [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
-            Solver::Exact => default_of("numerics.edges"),
+            Solver::Exact => read_default(EDGES),
             Solver::Stepwise { .. } => Edges::Grid,
         }
     }
 }
 
 /// A quantity that is recorded in addition to the force curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Observer {
     /// The contact patches after each loading stage.
     Fragments,
@@ -406,5 +414,5 @@ pub enum Observer {
 }
 
 fn default_loading() -> Vec<Move> {
-    default_of("loading")
+    read_default(LOADING)
 }

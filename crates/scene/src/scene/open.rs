@@ -41,9 +41,8 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     }
     let names: Vec<_> = presets().iter().map(|preset| preset.name).collect();
     let own_names = own.as_deref().map_or_else(Vec::new, own_names);
-    if let Some(own) = own
-        .as_ref()
-        .filter(|_| own_names.iter().any(|name| name == name_or_path))
+    if let Some(own) = &own
+        && own_names.iter().any(|name| name == name_or_path)
     {
         // No regular file: the reason says so.
         let path = own.join(format!("{name_or_path}.ron"));
@@ -121,17 +120,19 @@ fn whole(name: &str, message: String) -> SceneErrors {
     .into()
 }
 
-/// Text with which a table of results begins, and text between its head and its scene.
-const TABLE: (&str, &str) = ("asperity ", "\nscene:\n");
+/// Text with which a table of results begins.
+const TABLE_START: &str = "asperity ";
+/// Text between the head of a table of results and its scene.
+const BEFORE_SCENE: &str = "\nscene:\n";
 
 /// Returns the document of a scene, or of the scene in a table of results, whose other lines are
 /// not read.
 fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
     let text = text.map_err(|error| whole(name, describe(error)))?;
-    if !text.starts_with(TABLE.0) {
+    if !text.starts_with(TABLE_START) {
         return Document::parse(&text, name);
     }
-    match text.split_once(TABLE.1) {
+    match text.split_once(BEFORE_SCENE) {
         Some((head, scene)) => Ok(Document::parse(scene, name)?.of_table(head)),
         None => {
             let reason = "a table without a scene; allowed: a scene, or a table that asperity has computed from one";
@@ -166,7 +167,8 @@ fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     }
     // Comments of a scene of the greatest length, with a line for each byte.
     let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
-    let (mut text, mut line) = (Vec::new(), Vec::new());
+    let mut text = Vec::new();
+    let mut line = Vec::new();
     while lines.read_until(b'\n', &mut line)? > 0 {
         let Some(content) = line.strip_prefix(b"#") else {
             break;

@@ -94,19 +94,20 @@ impl Range {
 /// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a
 /// name is returned whole.
 pub(super) fn choice_name(choice: &str) -> &str {
-    choice.split_once('(').map_or(
-        choice,
-        |(name, _)| if name.is_empty() { choice } else { name },
-    )
+    match choice.split_once('(') {
+        Some((name, _)) if !name.is_empty() => name,
+        _ => choice,
+    }
 }
 
 /// Returns the part that identifies a choice: its name, or the first field of a group without a
 /// name.
 pub(super) fn choice_key(choice: &str) -> &str {
-    let key = choice_name(choice.trim());
-    key.split_once(':')
-        .filter(|_| key.starts_with('('))
-        .map_or(key, |(key, _)| key)
+    let name = choice_name(choice.trim());
+    match name.split_once(':') {
+        Some((first_field, _)) if name.starts_with('(') => first_field,
+        _ => name,
+    }
 }
 
 impl fmt::Display for Range {

@@ -35,11 +35,12 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
         return Some((start, SceneError::whole(Origin::Scene, NO_SCENE)));
     }
     let text = Text::new(source).ok()?;
-    let (field, value) = (field("version", None)?, text.written("version")?);
-    if value
+    let field = field("version", None)?;
+    let value = text.written("version")?;
+    let is_supported = value
         .parse()
-        .is_ok_and(|version| field.range.contains_whole(version))
-    {
+        .is_ok_and(|version| field.range.contains_whole(version));
+    if is_supported {
         return None;
     }
     let error = SceneError::of(field.path, value, field.allowed(), field.name);
@@ -56,15 +57,12 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     }
     // The span starts before the last token read; if that was only blank or punctuation, the error
     // comes after it.
-    let something = |c: char| c.is_alphanumeric() || matches!(c, '"' | '\'' | '_' | '-');
-    (
-        if text[start..end].contains(something) {
-            start
-        } else {
-            end
-        },
-        end,
-    )
+    let is_token = |sign: char| sign.is_alphanumeric() || matches!(sign, '"' | '\'' | '_' | '-');
+    if text[start..end].contains(is_token) {
+        (start, end)
+    } else {
+        (end, end)
+    }
 }
 
 /// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the
@@ -75,15 +73,17 @@ pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
         error.code,
         Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment
     );
-    let (offset, message) = match Text::new(source) {
+    let unreadable = match Text::new(source) {
         Ok(text) => return explain_at(&text, offset, &error.code),
-        // If the reader reached the end of the text, the open bracket is the better place.
-        Err(unreadable) if end >= source.trim_end().len() || is_lost => {
-            (unreadable.offset, unreadable.reason.to_owned())
-        }
-        Err(_) => (offset, plain(&error.code)),
+        Err(unreadable) => unreadable,
     };
-    (offset, SceneError::whole(Origin::Scene, message))
+    // If the reader reached the end of the text, the open bracket is the better place.
+    if end >= source.trim_end().len() || is_lost {
+        let error = SceneError::whole(Origin::Scene, unreadable.reason);
+        return (unreadable.offset, error);
+    }
+    let error = SceneError::whole(Origin::Scene, plain(&error.code));
+    (offset, error)
 }
 
 fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) {
@@ -95,14 +95,11 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
             } else {
                 format!("{path}.{name}")
             };
-            let allowed =
-                field_at(text, &path).map(|field| format!("; allowed: {}", field.allowed()));
-            SceneError::of(
-                &path,
-                "",
-                "",
-                &format!("missing{}", allowed.unwrap_or_default()),
-            )
+            let message = match field_at(text, &path) {
+                Some(field) => format!("missing; allowed: {}", field.allowed()),
+                None => "missing".to_owned(),
+            };
+            SceneError::of(&path, "", "", &message)
         }
         Error::NoSuchEnumVariant {
             expected, found, ..
@@ -128,18 +125,22 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
 /// Explains the error of a value. A single value is marked as a whole and repeated, with the
 /// allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
-    let value = text.written(path).filter(|value| {
+    let single = text.written(path).filter(|value| {
         !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
     });
-    let (offset, value) = value.map_or((offset, ""), |value| (text.nearest_value(path), value));
-    let error = match field_at(text, path).filter(|_| !value.is_empty()) {
-        // Without quotes the content of a text is not the error.
-        Some(field) if !matches!(field.range, Range::Text { .. }) => {
-            SceneError::of(path, value, field.allowed(), field.name)
-        }
-        _ => SceneError::of(path, value, "", &plain(error)),
+    let Some(value) = single else {
+        return (offset, SceneError::of(path, "", "", &plain(error)));
     };
-    (offset, error)
+    let offset = text.nearest_value(path);
+    // Without quotes the content of a text is not the error.
+    if let Some(field) = field_at(text, path)
+        && !matches!(field.range, Range::Text { .. })
+        && !value.is_empty()
+    {
+        let error = SceneError::of(path, value, field.allowed(), field.name);
+        return (offset, error);
+    }
+    (offset, SceneError::of(path, value, "", &plain(error)))
 }
 
 /// Returns true if a field of the plan of a study was found where fields of a scene were expected.
@@ -181,18 +182,21 @@ fn plain(error: &Error) -> String {
         Error::ExpectedMapColon => "a colon is expected here",
         Error::ExceededRecursionLimit => "nested too deeply",
         Error::TrailingCharacters => "nothing may follow here",
-        other => {
-            let text = other.to_string();
-            let first = text
-                .chars()
-                .next()
-                .map(|first| first.to_lowercase().to_string());
-            return first.map_or_else(String::new, |first| {
-                first + text.get(1..).unwrap_or_default()
-            });
-        }
+        other => return with_small_letter(&other.to_string()),
     };
     text.to_string()
+}
+
+/// Returns a text with a small letter at its beginning.
+fn with_small_letter(text: &str) -> String {
+    let Some(first) = text.chars().next() else {
+        return String::new();
+    };
+    format!(
+        "{}{}",
+        first.to_lowercase(),
+        text.get(1..).unwrap_or_default()
+    )
 }
 
 #[cfg(test)]

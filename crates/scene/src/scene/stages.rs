@@ -1,7 +1,7 @@
 //! Loading stages: the table of their kinds, and loadings as text that can be read back.
 
 use super::range::choice_name;
-use super::text::ron_float;
+use super::text::real_in_ron;
 use asperity_contact::Move;
 use asperity_data::{QuantityError, parse_quantity, shown};
 use std::mem::discriminant;
@@ -65,23 +65,23 @@ impl StageKind {
     /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the
     /// stage, if it has one.
     pub fn of(stage: &Move) -> (usize, Option<f64>) {
-        let is_same = |kind: &StageKind| discriminant(&(kind.stage)(0.0)) == discriminant(stage);
+        let kind = StageKind::ALL
+            .iter()
+            .position(|kind| discriminant(&(kind.stage)(0.0)) == discriminant(stage));
         let number = match *stage {
             Move::ToForce(number) | Move::ToIndentation(number) | Move::ToDisplacement(number) => {
                 Some(number)
             }
             Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => None,
         };
-        (
-            StageKind::ALL.iter().position(is_same).unwrap_or_default(),
-            number,
-        )
+        (kind.unwrap_or_default(), number)
     }
 }
 
 /// Examples of all kinds in RON.
 pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
-    let (mut examples, mut place) = ([""; StageKind::ALL.len()], 0);
+    let mut examples = [""; StageKind::ALL.len()];
+    let mut place = 0;
     while place < examples.len() {
         examples[place] = StageKind::ALL[place].example;
         place += 1;
@@ -92,35 +92,44 @@ pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
 /// Returns the largest target force of the loading stages in N; 0 if no stage has a positive target
 /// force.
 pub fn pressing_force(loading: &[Move]) -> f64 {
-    let force = |stage: &Move| {
+    let mut largest = 0.0;
+    for stage in loading {
         if let Move::ToForce(force) = *stage {
-            force
-        } else {
-            0.0
+            largest = f64::max(largest, force);
         }
-    };
-    loading.iter().map(force).fold(0.0, f64::max)
+    }
+    largest
 }
 
 /// Returns a loading stage in RON, such as `ToForce(1.0e-5)`.
 pub fn stage_in_ron(stage: &Move) -> String {
     let (kind, number) = StageKind::of(stage);
     let name = choice_name(STAGES[kind]);
-    number.map_or_else(
-        || name.to_owned(),
-        |number| format!("{name}({})", ron_float(number)),
-    )
+    match number {
+        Some(number) => format!("{name}({})", real_in_ron(number)),
+        None => name.to_owned(),
+    }
+}
+
+/// Returns a list of loading stages in RON.
+pub(super) fn stages_in_ron(stages: &[Move]) -> String {
+    let stages: Vec<String> = stages.iter().map(stage_in_ron).collect();
+    format!("[{}]", stages.join(", "))
 }
 
 /// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     let (place, number) = StageKind::of(stage);
     let StageKind { word, unit, .. } = StageKind::ALL[place];
-    let is_first = StageKind::ALL.iter().position(|kind| kind.unit == unit) == Some(place);
-    match number.map(|number| format(number, unit)) {
-        None => word.to_owned(),
-        Some(number) if is_first => number,
-        Some(number) => format!("{word} {number}"),
+    let Some(number) = number else {
+        return word.to_owned();
+    };
+    let number = format(number, unit);
+    let first_of_unit = StageKind::ALL.iter().position(|kind| kind.unit == unit);
+    if first_of_unit == Some(place) {
+        number
+    } else {
+        format!("{word} {number}")
     }
 }
 
@@ -137,27 +146,29 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
 /// assert_eq!(loading_text(&loading, format_quantity), "10 µN, zero force, separation");
 /// ```
 pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String {
-    let (mut items, mut rest) = (Vec::new(), loading);
-    while let Some(&first) = rest.first() {
-        let pairs = rest[1..].chunks_exact(2);
-        let loops = pairs
-            .take_while(|pair| pair[0] == rest[1] && pair[1] == first)
-            .count();
-        let (item, stages) = match loops {
-            2.. => (
-                format!(
-                    "{loops} loops {} to {}",
-                    stage_text(&rest[1], format),
-                    stage_text(&first, format)
-                ),
-                loops,
-            ),
-            _ => (stage_text(&first, format), 0),
-        };
-        items.push(item);
-        rest = &rest[1 + 2 * stages..];
+    let mut items = Vec::new();
+    let mut remaining = loading;
+    while let Some(first) = remaining.first() {
+        let high = stage_text(first, format);
+        let loops = loops_at_start(remaining);
+        if loops >= 2 {
+            let low = stage_text(&remaining[1], format);
+            items.push(format!("{loops} loops {low} to {high}"));
+            remaining = &remaining[1 + 2 * loops..];
+        } else {
+            items.push(high);
+            remaining = &remaining[1..];
+        }
     }
     items.join(", ")
+}
+
+/// Returns how often the second stage and the first one follow each other after the first stage.
+fn loops_at_start(loading: &[Move]) -> usize {
+    loading[1..]
+        .chunks_exact(2)
+        .take_while(|pair| pair[0] == loading[1] && pair[1] == loading[0])
+        .count()
 }
 
 /// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage
@@ -173,16 +184,15 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
         .unwrap_or(text);
     let mut loading = Vec::new();
     for item in list.split(',').map(str::trim) {
-        let loops = item
-            .split_once(" loops ")
-            .and_then(|(count, ends)| Some((count, ends.split_once(" to ")?)));
-        if let Some((count, (low, high))) = loops {
-            let count = count
-                .parse()
-                .ok()
-                .filter(|count| (1..=MOST_STAGES / 2).contains(count));
-            let count = count.ok_or_else(|| refused(item))?;
-            let [low, high] = [read_stage(low, None)?, read_stage(high, None)?];
+        if let Some((count, ends)) = item.split_once(" loops ")
+            && let Some((low, high)) = ends.split_once(" to ")
+        {
+            let count = count.parse().map_err(|_| refused(item))?;
+            if !(1..=MOST_STAGES / 2).contains(&count) {
+                return Err(refused(item));
+            }
+            let low = read_stage(low, None)?;
+            let high = read_stage(high, None)?;
             loading.push(high);
             loading.extend([low, high].repeat(count));
         } else {
@@ -214,33 +224,37 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
 pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityError> {
     let plain = text.replace(['(', ')'], " ");
     let plain = plain.trim();
-    for StageKind {
-        example,
-        word,
-        unit,
-        stage,
-    } in &StageKind::ALL
-    {
-        let rest = [choice_name(example), word]
-            .into_iter()
-            .find_map(|name| plain.strip_prefix(name));
-        match rest {
-            Some("") if unit.is_empty() => return Ok(stage(0.0)),
-            Some(number) if !unit.is_empty() => return parse_quantity(number, unit).map(stage),
-            _ => {}
+    for kind in &StageKind::ALL {
+        let after_name = plain
+            .strip_prefix(choice_name(kind.example))
+            .or_else(|| plain.strip_prefix(kind.word));
+        let Some(number) = after_name else {
+            continue;
+        };
+        if !kind.unit.is_empty() {
+            return parse_quantity(number, kind.unit).map(kind.stage);
+        }
+        if number.is_empty() {
+            return Ok((kind.stage)(0.0));
         }
     }
-    let of_unit = StageKind::ALL
-        .iter()
-        .filter(|kind| plain.ends_with(kind.unit));
-    let kinds = usual
-        .map(|kind| &StageKind::ALL[kind])
-        .into_iter()
-        .chain(of_unit)
-        .chain(&StageKind::ALL[..1]);
-    let mut kinds = kinds.filter(|kind| !kind.unit.is_empty());
-    let found = kinds.find_map(|kind| parse_quantity(plain, kind.unit).ok().map(kind.stage));
-    found.ok_or_else(|| refused(text))
+    // A number without the name of a kind: its unit decides, or else it is a force.
+    let mut kinds: Vec<&StageKind> = Vec::new();
+    kinds.extend(usual.map(|usual| &StageKind::ALL[usual]));
+    kinds.extend(
+        StageKind::ALL
+            .iter()
+            .filter(|kind| plain.ends_with(kind.unit)),
+    );
+    kinds.push(&StageKind::ALL[0]);
+    for kind in kinds {
+        if !kind.unit.is_empty()
+            && let Ok(number) = parse_quantity(plain, kind.unit)
+        {
+            return Ok((kind.stage)(number));
+        }
+    }
+    Err(refused(text))
 }
 
 fn refused(text: &str) -> QuantityError {

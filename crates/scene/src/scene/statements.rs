@@ -6,7 +6,6 @@ use super::model::Scene;
 use super::range::Range;
 use super::stages::loading_text;
 use super::text::index::is_within;
-use super::tree::Tree;
 use asperity_data::{exact_quantity, grouped};
 
 /// Paths of fields on which the solution does not depend.
@@ -41,30 +40,40 @@ pub struct Statement {
 /// # Ok::<(), asperity_scene::Error>(())
 /// ```
 pub fn statements(scene: &Scene) -> Vec<Statement> {
-    let (tree, mut found) = (Tree::of(scene), Vec::new());
-    fields_inside("", None).for_each(|field| add(scene, &tree, field, &mut found));
+    let mut found = Vec::new();
+    for field in fields_inside("", None) {
+        add(field, scene, &mut found);
+    }
     found
 }
 
-fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statement>) {
-    let (inside, written) = (tree.inside(field), tree.written(field).unwrap_or_default());
+/// Adds the statements of a field, or of the fields inside it.
+fn add(field: &'static Field, scene: &Scene, found: &mut Vec<Statement>) {
+    let inside = field.inside(scene);
+    if !inside.is_empty() {
+        for field in inside {
+            add(field, scene, found);
+        }
+        return;
+    }
+    if field.value(scene).is_none() || DESCRIPTIONS.contains(&field.path) {
+        return;
+    }
+    let written = field.written(scene).unwrap_or_default();
     let is_number = matches!(
         field.range,
         Range::Real(..) | Range::Whole(..) | Range::Band(..) | Range::Wavelengths(..)
     );
-    if !inside.is_empty() {
-        return inside
-            .into_iter()
-            .for_each(|field| add(scene, tree, field, found));
-    }
-    let is_omitted = tree.value(field).is_none() || written == "None";
-    if is_omitted
-        || DESCRIPTIONS.contains(&field.path)
-        || !is_number && written == tree.default(field)
-    {
+    if !is_number && written == field.default_in(scene) {
         return;
     }
-    let value = match field.range {
+    let value = value_with_unit(field, scene, written);
+    found.push(Statement { field, value });
+}
+
+/// Returns a value in RON as text for readers.
+fn value_with_unit(field: &Field, scene: &Scene, written: String) -> String {
+    match field.range {
         Range::Band(..) => written.trim_matches(['(', ')']).replace(", ", " to "),
         Range::Whole(..) if !field.symbol.is_empty() => written.parse().map_or(written, grouped),
         Range::List { .. } if field.path == "loading" => {
@@ -73,6 +82,5 @@ fn add(scene: &Scene, tree: &Tree, field: &'static Field, found: &mut Vec<Statem
         _ => field
             .quantities(&written, exact_quantity)
             .unwrap_or(written),
-    };
-    found.push(Statement { field, value });
+    }
 }

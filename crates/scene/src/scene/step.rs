@@ -53,25 +53,29 @@ impl Field {
                 };
                 self.kept_whole(doubled(ron::from_str(value).ok()?, times))
             }
-            Step::Band if matches!(self.range, Range::Wavelengths(..)) => None,
-            Step::Band => {
-                let (first, last) = ron::from_str(value).ok()?;
-                let (first, last) = if coarse {
-                    (doubled(first, steps), last)
-                } else {
-                    (first, doubled(last, steps))
-                };
-                (first <= last
-                    && self.range.contains_whole(first)
-                    && self.range.contains_whole(last))
-                .then(|| format!("({first}, {last})"))
-            }
+            Step::Band => self.stepped_modes(value, steps, coarse),
             Step::Choice => self.chosen(value, steps),
             Step::Typed => None,
         };
-        next.filter(|next| {
-            next != value && number(next).is_none_or(|next| number(value) != Some(next))
-        })
+        let next = next?;
+        let is_same_number = number(&next).is_some_and(|next| number(value) == Some(next));
+        (next != value && !is_same_number).then_some(next)
+    }
+
+    /// Returns the next pair of modes; `None` for wavelengths, whose steps depend on the length.
+    fn stepped_modes(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
+        if let Range::Wavelengths(..) = self.range {
+            return None;
+        }
+        let (mut first, mut last) = ron::from_str(value).ok()?;
+        if coarse {
+            first = doubled(first, steps);
+        } else {
+            last = doubled(last, steps);
+        }
+        let is_allowed =
+            first <= last && self.range.contains_whole(first) && self.range.contains_whole(last);
+        is_allowed.then(|| format!("({first}, {last})"))
     }
 
     /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has
@@ -95,20 +99,23 @@ impl Field {
         if !matches!(self.range, Range::Wavelengths(..)) {
             return self.stepped(value, steps, coarse);
         }
-        let (longest, shortest) = ron::from_str::<(f64, f64)>(value).ok()?;
-        let present = if coarse { longest } else { shortest };
-        let moved = self.whole_wave(length, present, steps, coarse)?;
-        let (longest, shortest) = if coarse {
-            (moved, shortest)
-        } else {
-            (longest, moved)
-        };
+        let (mut longest, mut shortest) = ron::from_str::<(f64, f64)>(value).ok()?;
+        let changed = if coarse { &mut longest } else { &mut shortest };
+        *changed = self.whole_wave(length, *changed, steps, coarse)?;
+        if !self.range.contains(*changed) {
+            return None;
+        }
         // Waves on the length, since a longest wavelength that is not whole may equal the shortest
         // one.
         let is_ordered = (length / longest).round() <= (length / shortest).round();
-        let (longest, shortest) = (longest.max(shortest), shortest.min(longest));
-        (is_ordered && self.range.contains(moved))
-            .then(|| format!("({}, {})", ron_float(longest), ron_float(shortest)))
+        if !is_ordered {
+            return None;
+        }
+        Some(format!(
+            "({}, {})",
+            ron_float(longest.max(shortest)),
+            ron_float(shortest.min(longest))
+        ))
     }
 
     /// Returns the wavelength of which a whole number fits on the length, near the preferred number
@@ -132,10 +139,11 @@ impl Field {
     fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
         let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
         let mut next = preferred(value, series, steps > 0)?;
-        let mut left = steps.unsigned_abs().saturating_sub(1);
-        while left > 0 && self.range.contains(next) {
+        for _ in 1..steps.unsigned_abs() {
+            if !self.range.contains(next) {
+                break;
+            }
             next = preferred(next, series, steps > 0)?;
-            left -= 1;
         }
         Some(next)
     }
@@ -159,26 +167,29 @@ impl Field {
         let Range::Choice(choices) = self.range else {
             return None;
         };
-        // A text such as a file name cannot be stepped to; a choice that requires one is only
-        // typed.
-        let is_stepped = |choice: &&str| {
-            let mut fields = fields_inside(self.path, Some(choice_name(choice)));
-            !fields
-                .any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
-        };
-        let none = (self.default == "None").then_some("None");
-        let choices: Vec<&str> = none
-            .into_iter()
-            .chain(choices.iter().copied().filter(is_stepped))
-            .collect();
-        let here = choices
+        let mut circle = Vec::new();
+        if self.default == "None" {
+            circle.push("None");
+        }
+        for choice in choices {
+            if !self.requires_text(choice) {
+                circle.push(choice);
+            }
+        }
+        let here = circle
             .iter()
             .position(|choice| choice_key(choice) == choice_key(value));
-        let count = i64::try_from(choices.len()).ok()?;
+        let count = i64::try_from(circle.len()).ok()?;
         let next = (i64::try_from(here.unwrap_or(0)).ok()? + i64::from(steps)).rem_euclid(count);
-        choices
-            .get(usize::try_from(next).ok()?)
-            .map(|choice| (*choice).to_string())
+        let next = circle.get(usize::try_from(next).ok()?)?;
+        Some((*next).to_owned())
+    }
+
+    /// Returns true for a choice that requires a text such as the name of a file, which no step can
+    /// give. Such a choice is only typed.
+    fn requires_text(&self, choice: &str) -> bool {
+        fields_inside(self.path, Some(choice_name(choice)))
+            .any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
     }
 }
 
@@ -196,14 +207,16 @@ fn decimal(value: f64, unit: f64) -> f64 {
 
 /// Returns the power of two `times` steps above or below a value.
 fn doubled(value: u64, times: i32) -> u64 {
-    (0..times.unsigned_abs().min(64)).fold(value, |value, _| match value {
-        value if times > 0 => value
-            .saturating_add(1)
-            .checked_next_power_of_two()
-            .unwrap_or(u64::MAX),
-        0 | 1 => value,
-        value => 1 << (value - 1).ilog2(),
-    })
+    let mut value = value;
+    for _ in 0..times.unsigned_abs().min(64) {
+        if times > 0 {
+            let above = value.saturating_add(1).checked_next_power_of_two();
+            value = above.unwrap_or(u64::MAX);
+        } else if value > 1 {
+            value = 1 << (value - 1).ilog2();
+        }
+    }
+    value
 }
 
 /// Returns the next member of a series of preferred numbers in
@@ -215,24 +228,31 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     // Exponent and mantissa from the decimal text, which is exact at powers of ten; log10 is not.
     let text = format!("{:e}", value.abs());
     let (mantissa, exponent) = text.split_once('e')?;
-    let (mantissa, exponent) = (mantissa.parse::<f64>().ok()?, exponent.parse::<i32>().ok()?);
-    let larger = up == (value > 0.0);
-    let (mantissa, exponent) = if larger {
-        let next = series
+    let mantissa: f64 = mantissa.parse().ok()?;
+    let mut exponent: i32 = exponent.parse().ok()?;
+    let is_larger = up == (value > 0.0);
+    let next_in_decade = if is_larger {
+        series
             .iter()
-            .find(|member| **member > mantissa * (1.0 + SAME));
-        next.map_or((1.0, exponent + 1), |next| (*next, exponent))
+            .find(|member| **member > mantissa * (1.0 + SAME))
     } else {
-        let next = series
+        series
             .iter()
             .rev()
-            .find(|member| **member < mantissa * (1.0 - SAME));
-        match next {
-            Some(next) => (*next, exponent),
-            None => (*series.last()?, exponent - 1),
+            .find(|member| **member < mantissa * (1.0 - SAME))
+    };
+    let next_mantissa = match next_in_decade {
+        Some(next) => *next,
+        None if is_larger => {
+            exponent += 1;
+            1.0
+        }
+        None => {
+            exponent -= 1;
+            *series.last()?
         }
     };
-    let next: f64 = format!("{mantissa}e{exponent}").parse().ok()?;
+    let next: f64 = format!("{next_mantissa}e{exponent}").parse().ok()?;
     Some(next.copysign(value))
 }
 

@@ -1,14 +1,14 @@
 //! Effects of a document, switched off and on, and steps through choices.
 
 use super::adhesion::Adhesion;
-use super::document::{Document, pair};
+use super::document::{Document, LeftChoice, RemovedEffect, RemovedValue, pair};
 use super::effects::{Effect, pressing};
 use super::errors::SceneErrors;
 use super::field::Field;
 use super::model::Scene;
 use super::range::{Range, choice_key};
 use super::text::read_ron;
-use super::tree::{Tree, differing};
+use super::written::differing;
 
 /// Adhesion that a smooth body gets.
 const BY_WORK: &str = "(work: 0.05)";
@@ -41,13 +41,16 @@ impl Document {
         }
         let overrides = overrides_to(self.scene(), &scene);
         let mut new = self.set_all(&overrides)?;
-        let value = |document: &Document, path| document.value(path).unwrap_or_default().to_owned();
-        let values = overrides
-            .iter()
-            .map(|(path, _)| [path.clone(), value(self, path), value(&new, path)]);
-        let removed = (effect, values.collect());
-        new.removed.retain(|(other, _)| *other != effect);
-        new.removed.push(removed);
+        let mut values = Vec::new();
+        for (path, _) in overrides {
+            values.push(RemovedValue {
+                former: self.value(&path).unwrap_or_default().to_owned(),
+                present: new.value(&path).unwrap_or_default().to_owned(),
+                path,
+            });
+        }
+        new.removed.retain(|removed| removed.effect != effect);
+        new.removed.push(RemovedEffect { effect, values });
         Ok(new)
     }
 
@@ -61,22 +64,28 @@ impl Document {
         if effect.is_on(self.scene()) {
             return Ok(self.clone());
         }
-        let restored = self
+        if let Some(restored) = self.restored(effect) {
+            return Ok(restored);
+        }
+        self.with_scene(&effect.suited(self.scene()))
+    }
+
+    /// Returns this document with the values that an effect had before it was removed, except for
+    /// values that were changed meanwhile. Returns `None` if the effect was not removed, or if the
+    /// scene does not allow these values.
+    fn restored(&self, effect: Effect) -> Option<Document> {
+        let removed = self
             .removed
             .iter()
-            .find(|(off, _)| *off == effect)
-            .and_then(|(_, values)| {
-                let unchanged = values
-                    .iter()
-                    .filter(|[path, _, present]| self.value(path) == Some(present));
-                let back: Vec<_> = unchanged
-                    .map(|[path, removed, _]| pair(path, removed.as_str()))
-                    .collect();
-                self.set_all(&back)
-                    .ok()
-                    .filter(|new| effect.is_on(new.scene()))
-            });
-        restored.map_or_else(|| self.with_scene(&effect.suited(self.scene())), Ok)
+            .find(|removed| removed.effect == effect)?;
+        let mut former = Vec::new();
+        for value in &removed.values {
+            if self.value(&value.path) == Some(&value.present) {
+                former.push(pair(&value.path, value.former.as_str()));
+            }
+        }
+        let restored = self.set_all(&former).ok()?;
+        effect.is_on(restored.scene()).then_some(restored)
     }
 
     /// Returns this document with the values of `scene`. Only values that differ are replaced in
@@ -111,87 +120,117 @@ impl Document {
         field: &Field,
         forwards: bool,
     ) -> Result<Option<Document>, SceneErrors> {
-        let effect = Effect::ALL
-            .into_iter()
-            .find(|effect| effect.path() == field.path);
-        let is_on = effect.is_some_and(|effect| effect.is_on(self.scene()));
-        let Some(here) = Tree::of(self.scene()).written(field) else {
-            return Ok(None);
-        };
-        let mut refused = None;
-        let mut left = self.left.clone();
-        if here != "None" {
-            left.retain(|(path, other)| {
-                *path != field.path || choice_key(other) != choice_key(&here)
-            });
-            left.push((field.path, here.clone()));
-        }
-        // The circle holds the choices and `None`; the present one need not be among them.
         let Range::Choice(choices) = field.range else {
             return Ok(None);
         };
+        let Some(here) = field.written(self.scene()) else {
+            return Ok(None);
+        };
+        let mut refused = None;
+        // The circle holds the choices and `None`; the present one need not be among them.
         for distance in 1..=choices.len() as i32 + 1 {
-            let next = field.stepped(&here, if forwards { distance } else { -distance }, false);
-            let Some(next) = next.filter(|next| choice_key(next) != choice_key(&here)) else {
+            let steps = if forwards { distance } else { -distance };
+            let Some(next) = field.stepped(&here, steps, false) else {
                 break;
             };
-            let chosen = match effect {
-                // The removed text where it is this choice: other choices lie on the way around the
-                // circle.
-                Some(effect) if !is_on => match self.with(effect) {
-                    Ok(back)
-                        if back.value(field.path).map(choice_key) != Some(choice_key(&next)) =>
-                    {
-                        self.with_choice(field.path, &next)
-                    }
-                    back => back,
-                },
-                Some(effect) if next == "None" => self.without(effect),
-                _ => self.with_choice(field.path, &next),
-            };
-            match chosen {
+            if is_same_choice(&next, &here) {
+                break;
+            }
+            match self.with_chosen(field, &next) {
                 Ok(mut document) => {
-                    document.left = left;
+                    document.left = self.left_choices(field, here);
                     return Ok(Some(document));
                 }
-                Err(errors) => refused = refused.or(Some(errors)),
+                Err(errors) => {
+                    refused.get_or_insert(errors);
+                }
             }
         }
         refused.map_or(Ok(None), Err)
     }
 
+    /// Returns the choices that keys have replaced, also `here`, the present one of a field.
+    fn left_choices(&self, field: &Field, here: String) -> Vec<LeftChoice> {
+        let mut left = self.left.clone();
+        if here != "None" {
+            left.retain(|left| left.path != field.path || !is_same_choice(&left.text, &here));
+            left.push(LeftChoice {
+                path: field.path,
+                text: here,
+            });
+        }
+        left
+    }
+
+    /// Returns this document with another choice of a field, which may be `None`.
+    fn with_chosen(&self, field: &Field, choice: &str) -> Result<Document, SceneErrors> {
+        let Some(effect) = effect_at(field.path) else {
+            return self.with_choice(field.path, choice);
+        };
+        if effect.is_on(self.scene()) {
+            return if choice == "None" {
+                self.without(effect)
+            } else {
+                self.with_choice(field.path, choice)
+            };
+        }
+        // The removed text where it is this choice: other choices lie on the way around the circle.
+        let back = self.with(effect)?;
+        let is_this_choice = back
+            .value(field.path)
+            .is_some_and(|value| is_same_choice(value, choice));
+        if is_this_choice {
+            Ok(back)
+        } else {
+            self.with_choice(field.path, choice)
+        }
+    }
+
     /// Returns this document with a choice as the field last had it, if that is still allowed.
     /// Otherwise the choice has values that suit the scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
-        let is_same = |text: &str| choice_key(text) == choice_key(choice);
         let left = self
             .left
             .iter()
-            .find(|(of, text)| *of == path && is_same(text));
-        if let Some(back) = left.and_then(|(_, text)| self.set(path, text).ok()) {
+            .find(|left| left.path == path && is_same_choice(&left.text, choice));
+        if let Some(left) = left
+            && let Ok(back) = self.set(path, &left.text)
+        {
             return Ok(back);
         }
-        let effect = Effect::ALL.into_iter().find(|effect| effect.path() == path);
-        let suited = effect.and_then(|effect| self.with_scene(&effect.suited(self.scene())).ok());
-        let suited = suited.filter(|suited| suited.value(path).is_some_and(is_same));
-        match (suited, self.scene().adhesion, read_ron::<Adhesion>(choice)) {
-            (Some(suited), ..) => Ok(suited),
-            // The range of the attraction stays.
-            (None, Some(Adhesion { range, .. }), Ok(usual)) if path == "adhesion" => {
-                self.with_adhesion(Adhesion { range, ..usual })
-            }
-            _ => self.set(path, choice),
+        if let Some(effect) = effect_at(path)
+            && let Ok(suited) = self.with_scene(&effect.suited(self.scene()))
+            && let Some(value) = suited.value(path)
+            && is_same_choice(value, choice)
+        {
+            return Ok(suited);
         }
+        // The range of the attraction stays.
+        if path == "adhesion"
+            && let Some(Adhesion { range, .. }) = self.scene().adhesion
+            && let Ok(usual) = read_ron::<Adhesion>(choice)
+        {
+            return self.with_adhesion(Adhesion { range, ..usual });
+        }
+        self.set(path, choice)
     }
+}
+
+/// Returns the optional part whose field has this path.
+fn effect_at(path: &str) -> Option<Effect> {
+    Effect::ALL.into_iter().find(|effect| effect.path() == path)
+}
+
+fn is_same_choice(one: &str, other: &str) -> bool {
+    choice_key(one) == choice_key(other)
 }
 
 /// Returns overrides that turn one scene into another. A field that is no longer given is replaced
 /// together with its group.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
-    let [from, to] = [from, to].map(Tree::of);
-    let changed = differing([&from, &to], |before, after| after || !before).into_iter();
-    changed
-        .map(|field| pair(field.path, to.written(field).unwrap_or_default()))
+    differing(from, to, |before, after| after || !before)
+        .into_iter()
+        .map(|field| pair(field.path, field.written(to).unwrap_or_default()))
         .collect()
 }
 

@@ -14,73 +14,116 @@ pub const LONGEST_TEXT: usize = 1 << 20;
 
 /// Returns the text with the field at `path` set to `value`.
 pub(super) fn with_typed(text: &Text, path: &str, value: &str) -> Result<Text, SceneErrors> {
-    let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
-    let band = || {
-        field(parent, None)
-            .filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
+    let typed = Typed {
+        path,
+        value,
+        field: field_at(text, path).or_else(|| pair_around(path)),
     };
-    let known = field_at(text, path).or_else(band);
-    let origin = || Origin::Overrides(vec![format!("{path}={value}")]);
-    let refused = |message| SceneErrors::from(SceneError::whole(origin(), message));
-    let wrong = |known: &Field, why: &str| {
-        SceneErrors::from(SceneError::of(path, value, known.allowed(), why).at(origin()))
-    };
-    let typed = match known {
-        Some(known) => known
-            .read_typed(value)
-            .map_err(|error| wrong(known, &error.to_string()))?,
-        None => value.to_string(),
-    };
-    let typed = group_in_ron(path, &typed).unwrap_or(typed);
-    let text = set(text, path, &typed).map_err(|message| match known {
-        Some(known) if message == NOT_ONE_VALUE => wrong(known, ""),
-        _ => refused(message),
+    let ron = typed.in_ron()?;
+    let text = set(text, path, &ron).map_err(|message| match typed.field {
+        Some(field) if message == NOT_ONE_VALUE => typed.not_allowed(field, ""),
+        _ => typed.refused(message),
     })?;
-    check_length(text.as_str()).map_err(refused)?;
+    check_length(text.as_str()).map_err(|message| typed.refused(message))?;
     Ok(text)
+}
+
+/// Returns the field of the pair of numbers that has one of its numbers at this path.
+fn pair_around(path: &str) -> Option<&'static Field> {
+    let (pair, _) = path.rsplit_once('.')?;
+    field(pair, None)
+        .filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
+}
+
+/// A value as a user types it.
+struct Typed<'t> {
+    path: &'t str,
+    value: &'t str,
+    /// Field at the path; `None` if there is no such field.
+    field: Option<&'static Field>,
+}
+
+impl Typed<'_> {
+    fn in_ron(&self) -> Result<String, SceneErrors> {
+        let ron = match self.field {
+            Some(field) => field
+                .read_typed(self.value)
+                .map_err(|error| self.not_allowed(field, &error.to_string()))?,
+            None => self.value.to_owned(),
+        };
+        Ok(group_in_ron(self.path, &ron).unwrap_or(ron))
+    }
+
+    fn origin(&self) -> Origin {
+        Origin::Overrides(vec![format!("{}={}", self.path, self.value)])
+    }
+
+    fn not_allowed(&self, field: &Field, reason: &str) -> SceneErrors {
+        SceneError::of(self.path, self.value, field.allowed(), reason)
+            .at(self.origin())
+            .into()
+    }
+
+    fn refused(&self, message: String) -> SceneErrors {
+        SceneError::whole(self.origin(), message).into()
+    }
 }
 
 /// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON.
 /// Returns `None` for any other text, also for a group that is in RON already.
 fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
-    let mut depth = 0_usize;
-    let between = |c: char| {
-        depth = match c {
-            '(' | '[' => depth + 1,
-            ')' | ']' => depth.saturating_sub(1),
-            _ => depth,
-        };
-        c == ',' && depth == 0
-    };
-    let value = |part: &str| {
-        let (field, value) = part.split_once(':')?;
-        let (field, value) = (field.trim(), value.trim());
-        let path = if path.is_empty() {
-            field.to_owned()
-        } else {
-            format!("{path}.{field}")
-        };
-        let known = FIELDS.iter().find(|field| field.path == path)?;
-        let value = known.read_typed(value).ok()?;
-        Some(format!(
-            "{field}: {}",
-            group_in_ron(&path, &value).unwrap_or(value)
-        ))
-    };
     // A text or a comment may contain any sign.
-    let is_plain = !["\"", "//", "/*"].iter().any(|sign| inside.contains(sign));
-    let parts = Some(inside).filter(|_| is_plain)?.split(between);
-    let parts: Vec<_> = parts.filter(|part| !part.trim().is_empty()).collect();
-    let read = parts
-        .iter()
-        .map(|part| value(part))
-        .collect::<Option<Vec<_>>>()?;
-    let is_read = parts
-        .iter()
-        .zip(&read)
-        .any(|(part, read)| part.trim() != read);
-    is_read.then(|| format!("{name}({})", read.join(", ")))
+    if ["\"", "//", "/*"].iter().any(|sign| inside.contains(sign)) {
+        return None;
+    }
+    let mut entries = Vec::new();
+    let mut is_changed = false;
+    for entry in split_at_commas(inside) {
+        if entry.trim().is_empty() {
+            continue;
+        }
+        let ron = entry_in_ron(path, entry)?;
+        is_changed |= entry.trim() != ron;
+        entries.push(ron);
+    }
+    is_changed.then(|| format!("{name}({})", entries.join(", ")))
+}
+
+/// Splits a text at its commas outside brackets.
+fn split_at_commas(text: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let mut start = 0;
+    let mut depth = 0_usize;
+    for (place, sign) in text.char_indices() {
+        match sign {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            ',' if depth == 0 => {
+                parts.push(&text[start..place]);
+                start = place + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[start..]);
+    parts
+}
+
+/// Returns an entry `name: value` of the group at a path in RON; `None` if the group has no field
+/// of this name, or if the value is none of this field.
+fn entry_in_ron(group: &str, entry: &str) -> Option<String> {
+    let (name, value) = entry.split_once(':')?;
+    let name = name.trim();
+    let path = if group.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{group}.{name}")
+    };
+    let field = FIELDS.iter().find(|field| field.path == path)?;
+    let value = field.read_typed(value.trim()).ok()?;
+    let value = group_in_ron(&path, &value).unwrap_or(value);
+    Some(format!("{name}: {value}"))
 }
 
 pub(super) fn check_length(text: &str) -> Result<(), String> {

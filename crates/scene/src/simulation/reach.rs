@@ -39,15 +39,15 @@ impl Reach {
     /// Computes the deepest state up to which loadings of this contact are computed.
     pub fn of(contact: &Contact) -> Reach {
         let length = contact.profile().length();
-        let full_contact = (contact.full_contact_force(), contact.profile().deepest());
-        let force = full_contact.0 + force_of_a_length(contact);
-        let indentation = full_contact.1 + length;
-        let displacement = contact.displacement(indentation, force);
+        let full_contact_force = contact.full_contact_force();
+        let full_contact_indentation = contact.profile().deepest();
+        let force = full_contact_force + force_of_a_length(contact);
+        let indentation = full_contact_indentation + length;
         Reach {
-            full_contact,
+            full_contact: (full_contact_force, full_contact_indentation),
             force,
             indentation,
-            displacement,
+            displacement: contact.displacement(indentation, force),
         }
     }
 
@@ -59,16 +59,16 @@ impl Reach {
 
     fn beyond(&self, stage: Move) -> Option<BeyondFullContact> {
         let (field, found) = target_field(stage)?;
+        let (force, indentation) = self.full_contact;
         let (full_contact, most) = match stage {
-            Move::ToForce(_) => (self.full_contact.0, self.force),
-            Move::ToDisplacement(_) => (self.full_contact.1, self.displacement),
-            _ => (self.full_contact.1, self.indentation),
+            Move::ToForce(_) => (force, self.force),
+            Move::ToDisplacement(_) => (indentation, self.displacement),
+            _ => (indentation, self.indentation),
         };
-        let allowed = -rounded_up(-most);
         (found > most).then_some(BeyondFullContact {
             found,
             full_contact,
-            allowed,
+            allowed: -rounded_up(-most),
             unit: field.unit,
         })
     }
@@ -96,21 +96,28 @@ pub struct BeyondFullContact {
 
 /// Returns an error if a stage of the loading ends beyond the deepest state.
 pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFullContact> {
-    let length = contact.profile().length();
-    // Even without the way to full contact most loadings are within reach.
-    let is_near = |stage: &Move| match *stage {
-        Move::ToForce(force) => force <= force_of_a_length(contact),
-        Move::ToIndentation(to) | Move::ToDisplacement(to) => to <= length,
-        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => true,
-    };
-    if loading.iter().all(is_near) {
+    if loading.iter().all(|stage| is_near(contact, *stage)) {
         return Ok(());
     }
     let reach = Reach::of(contact);
-    let beyond = loading.iter().filter_map(|stage| reach.beyond(*stage));
-    beyond
-        .max_by(|one, other| one.found.total_cmp(&other.found))
-        .map_or(Ok(()), Err)
+    let deepest = loading
+        .iter()
+        .filter_map(|stage| reach.beyond(*stage))
+        .max_by(|one, other| one.found.total_cmp(&other.found));
+    match deepest {
+        Some(beyond) => Err(beyond),
+        None => Ok(()),
+    }
+}
+
+/// Returns true if a stage is within reach even without the way to full contact, as most are. This
+/// is known without the deepest state.
+fn is_near(contact: &Contact, stage: Move) -> bool {
+    match stage {
+        Move::ToForce(force) => force <= force_of_a_length(contact),
+        Move::ToIndentation(end) | Move::ToDisplacement(end) => end <= contact.profile().length(),
+        Move::ToTouch | Move::ToZeroForce | Move::ToSeparation => true,
+    }
 }
 
 /// Returns the force in N that is added to the force at full contact if the body goes one length of

@@ -31,7 +31,8 @@ impl Simulation {
     pub fn reverse(
         &mut self,
         scene: &CheckedScene,
-        (ends, points): (&[Move], &[f64]),
+        ends: &[Move],
+        points: &[f64],
         stop: &dyn Fn() -> bool,
         see: &mut SeeReversal<'_>,
     ) -> Result<(), RunError> {
@@ -43,16 +44,16 @@ impl Simulation {
         });
         let Prepared { contact, .. } = self.prepare(&plan, scene, stop)?;
         reach::check(&contact, ends)?;
-        let mut see = |index, reversal| {
+        let mut body = Body::new(&contact, scene.numerics.samples as usize);
+        body.reversals(ends, points, &mut |index, reversal| {
             see(index, reversal)?;
             if stop() {
                 Err(ContactError::Interrupted)
             } else {
                 Ok(())
             }
-        };
-        Ok(Body::new(&contact, scene.numerics.samples as usize)
-            .reversals(ends, points, &mut see)?)
+        })?;
+        Ok(())
     }
 
     /// Returns the deepest state up to which loadings of a scene are computed.
@@ -111,25 +112,29 @@ impl Simulation {
                 Move::ToIndentation(pressed.ok_or(RunError::NeverPressed)?),
             ]
         };
-        let mut found = [(0.0, 0.0); 2];
-        self.reverse(&scene, (&ends, &[]), stop, &mut |index, reversal| {
-            found[index] = (reversal.turn.indentation, reversal.separation);
+        let mut turns = [0.0; 2];
+        let mut separations = [0.0; 2];
+        self.reverse(&scene, &ends, &[], stop, &mut |index, reversal| {
+            turns[index] = reversal.turn.indentation;
+            separations[index] = reversal.separation;
             Ok(())
         })?;
-        let [(low, _), (high, separation)] = found;
+        let [low, high] = turns;
+        let [_, separation] = separations;
         let step = (high - low) / (count - 1) as f64;
         if !(step > 0.0 && low + step > low) {
             return Err(RunError::NeverPressed);
         }
         let below = (((low - separation) / step).ceil() as usize + 1).min(MOST_BELOW * count);
-        let at = |index: usize| low + step * (index as f64 - below as f64);
-        let points: Vec<f64> = (0..below + count).map(at).collect();
+        let points: Vec<f64> = (0..below + count)
+            .map(|index| low + step * (index as f64 - below as f64))
+            .collect();
         let ends: Vec<Move> = points[below..]
             .iter()
             .map(|&point| Move::ToIndentation(point))
             .collect();
         let mut reversals = Vec::with_capacity(count);
-        self.reverse(&scene, (&ends, &points), stop, &mut |_, reversal| {
+        self.reverse(&scene, &ends, &points, stop, &mut |_, reversal| {
             reversals.push(reversal);
             Ok(())
         })?;

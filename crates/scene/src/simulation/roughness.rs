@@ -5,7 +5,7 @@ use crate::analysis::premises::MeasuredFacts;
 use crate::scene::fields::MOST_POINTS;
 use crate::scene::model::{SPRINGS_PER_WAVE, Scene};
 use asperity_surface::lines::{
-    MeasuredOptions, MeasuredRoughness, ModeRange, Synthesizer, read_faces,
+    MeasuredOptions, MeasuredProfile, MeasuredRoughness, ModeRange, Synthesizer, read_faces,
 };
 use asperity_surface::{Amplitude, EquivalentLine, SelfAffine, SurfaceError};
 use std::f64::consts::TAU;
@@ -46,9 +46,17 @@ pub(super) struct Rough {
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
     /// First and last mode of a random profile.
-    pub modes: Option<(u64, u64)>,
+    pub modes: Option<ModeRange>,
     /// Facts about a measured surface and the profile made from it.
     pub facts: Option<MeasuredFacts>,
+}
+
+/// Spectrum of measured files, with everything on which it depends.
+pub(super) struct KeptSpectrum {
+    /// Paths of the files of each face.
+    faces: Vec<Vec<PathBuf>>,
+    options: MeasuredOptions,
+    pub surface: Arc<MeasuredRoughness>,
 }
 
 /// Maker of heights. It keeps what several roughnesses share.
@@ -59,7 +67,7 @@ pub(super) struct RoughnessMaker {
     /// A measured surface in memory that replaces the files of all scenes.
     pub measured: Option<Arc<MeasuredRoughness>>,
     /// Spectrum of the files that were read last. It is small and serves all seeds.
-    pub equivalent: Option<(Vec<Vec<PathBuf>>, MeasuredOptions, Arc<MeasuredRoughness>)>,
+    pub equivalent: Option<KeptSpectrum>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
     pub phases_drawn: u64,
@@ -73,17 +81,14 @@ impl RoughnessMaker {
             .form
             .as_ref()
             .map_or(0.0, |form| form.shift(points as u64));
-        let source = match (scene.spectrum(), &scene.roughness) {
-            (Some(spectrum), _) => Source::SelfAffine(spectrum),
-            (None, roughness) => {
-                roughness.as_ref()?;
-                let faces = scene.measured_paths(&self.folder);
-                Source::Measured {
-                    faces,
-                    options: scene.measured_options(),
-                    length: scene.length,
-                }
-            }
+        scene.roughness.as_ref()?;
+        let source = match scene.spectrum() {
+            Some(spectrum) => Source::SelfAffine(spectrum),
+            None => Source::Measured {
+                faces: scene.measured_paths(&self.folder),
+                options: scene.measured_options(),
+                length: scene.length,
+            },
         };
         Some(RoughnessKey {
             source,
@@ -95,86 +100,87 @@ impl RoughnessMaker {
 
     /// Makes the heights of a roughness. Random heights use the memory `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
-        let RoughnessKey {
-            ref source,
-            seed,
-            points,
-            shift,
-        } = key;
-        let (faces, options, length) = match source {
+        match &key.source {
             Source::SelfAffine(spectrum) => {
-                let heights = self
-                    .synthesizer
-                    .synthesize(*spectrum, seed, points, shift, memory)?;
-                self.phases_drawn += spectrum.last + 1 - spectrum.first;
-                let (unit, modes) = (
-                    spectrum.unit_amplitude(1.0),
-                    (spectrum.first, spectrum.last),
-                );
-                return Ok(Rough {
-                    key,
-                    heights,
-                    unit: Some(unit),
-                    measured: None,
-                    modes: Some(modes),
-                    facts: None,
-                });
+                let spectrum = *spectrum;
+                self.make_self_affine(key, spectrum, memory)
             }
             Source::Measured {
                 faces,
                 options,
                 length,
-            } => (faces, options, *length),
-        };
-        let file = faces
-            .iter()
-            .flatten()
-            .next()
-            .map_or(Path::new(""), PathBuf::as_path);
-        let refused = |error: SurfaceError| error.in_measured(file);
-        let surface = self.surface(faces, options)?;
-        match &*surface {
-            MeasuredRoughness::Profile(profile) => {
-                let heights = profile.sample(length, points, shift).map_err(refused)?;
-                let amplitude = profile.amplitude()?;
-                let rms_heights = [amplitude.rms_height, root_mean_square_about_mean(&heights)];
-                let facts = MeasuredFacts {
-                    scan: profile.length(),
-                    rms_heights,
-                    long_waves: None,
-                };
-                Ok(Rough {
-                    key,
-                    heights,
-                    unit: None,
-                    measured: Some(amplitude),
-                    modes: None,
-                    facts: Some(facts),
-                })
-            }
-            MeasuredRoughness::Equivalent(line) => {
-                let modes = line.modes(length, points).map_err(refused)?;
-                let of_mode = |mode: u64| line.amplitude(mode, length);
-                let heights = self
-                    .synthesizer
-                    .synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
-                self.phases_drawn += modes.last + 1 - modes.first;
-                let amplitude = line.amplitude_of_modes(length, modes);
-                let facts = MeasuredFacts {
-                    scan: TAU / line.range()[0],
-                    rms_heights: [line.moments().rms_height.value, amplitude.rms_height],
-                    long_waves: Some(long_waves(line, length, modes, amplitude.rms_height)),
-                };
-                Ok(Rough {
-                    key,
-                    heights,
-                    unit: None,
-                    measured: Some(amplitude),
-                    modes: Some(modes),
-                    facts: Some(facts),
-                })
+            } => {
+                let length = *length;
+                let file = faces.iter().flatten().next().cloned().unwrap_or_default();
+                let surface = self.surface(faces, options)?;
+                match &*surface {
+                    MeasuredRoughness::Profile(profile) => cut_profile(key, profile, length, &file),
+                    MeasuredRoughness::Equivalent(line) => {
+                        self.make_measured(key, line, length, &file, memory)
+                    }
+                }
             }
         }
+    }
+
+    fn make_self_affine(
+        &mut self,
+        key: RoughnessKey,
+        spectrum: SelfAffine,
+        memory: Vec<f64>,
+    ) -> Result<Rough, RunError> {
+        let heights = self
+            .synthesizer
+            .synthesize(spectrum, key.seed, key.points, key.shift, memory)?;
+        self.phases_drawn += spectrum.last + 1 - spectrum.first;
+        Ok(Rough {
+            key,
+            heights,
+            unit: Some(spectrum.unit_amplitude(1.0)),
+            measured: None,
+            modes: Some(ModeRange {
+                first: spectrum.first,
+                last: spectrum.last,
+            }),
+            facts: None,
+        })
+    }
+
+    /// Makes random heights with the spectrum of a measured surface, whose first file is `file`.
+    fn make_measured(
+        &mut self,
+        key: RoughnessKey,
+        line: &EquivalentLine,
+        length: f64,
+        file: &Path,
+        memory: Vec<f64>,
+    ) -> Result<Rough, RunError> {
+        let modes = line
+            .modes(length, key.points)
+            .map_err(|error| error.in_measured(file))?;
+        let heights = self.synthesizer.synthesize_waves(
+            &|mode| line.amplitude(mode, length),
+            modes,
+            key.seed,
+            key.points,
+            key.shift,
+            memory,
+        )?;
+        self.phases_drawn += modes.last + 1 - modes.first;
+        let amplitude = line.amplitude_of_modes(length, modes);
+        let facts = MeasuredFacts {
+            scan: TAU / line.range()[0],
+            rms_heights: [line.moments().rms_height.value, amplitude.rms_height],
+            long_waves: Some(long_waves(line, length, modes, amplitude.rms_height)),
+        };
+        Ok(Rough {
+            key,
+            heights,
+            unit: None,
+            measured: Some(amplitude),
+            modes: Some(modes),
+            facts: Some(facts),
+        })
     }
 
     /// Returns the measured surface of the faces: the given one, the spectrum kept from the last
@@ -184,19 +190,51 @@ impl RoughnessMaker {
         faces: &[Vec<PathBuf>],
         options: &MeasuredOptions,
     ) -> Result<Arc<MeasuredRoughness>, SurfaceError> {
-        let last = self
-            .equivalent
-            .as_ref()
-            .filter(|(of, with, _)| of == faces && with == options);
-        if let Some(known) = self.measured.as_ref().or(last.map(|(.., surface)| surface)) {
-            return Ok(Arc::clone(known));
+        if let Some(measured) = &self.measured {
+            return Ok(Arc::clone(measured));
+        }
+        if let Some(kept) = &self.equivalent
+            && kept.faces == faces
+            && kept.options == *options
+        {
+            return Ok(Arc::clone(&kept.surface));
         }
         let surface = Arc::new(MeasuredRoughness::new(&read_faces(faces)?, options)?);
         if let MeasuredRoughness::Equivalent(_) = *surface {
-            self.equivalent = Some((faces.to_vec(), options.clone(), Arc::clone(&surface)));
+            self.equivalent = Some(KeptSpectrum {
+                faces: faces.to_vec(),
+                options: options.clone(),
+                surface: Arc::clone(&surface),
+            });
         }
         Ok(surface)
     }
+}
+
+/// Cuts the heights of a scene from a measured profile, whose file is `file`.
+fn cut_profile(
+    key: RoughnessKey,
+    profile: &MeasuredProfile,
+    length: f64,
+    file: &Path,
+) -> Result<Rough, RunError> {
+    let heights = profile
+        .sample(length, key.points, key.shift)
+        .map_err(|error| error.in_measured(file))?;
+    let amplitude = profile.amplitude()?;
+    let facts = MeasuredFacts {
+        scan: profile.length(),
+        rms_heights: [amplitude.rms_height, root_mean_square_about_mean(&heights)],
+        long_waves: None,
+    };
+    Ok(Rough {
+        key,
+        heights,
+        unit: None,
+        measured: Some(amplitude),
+        modes: None,
+        facts: Some(facts),
+    })
 }
 
 /// Returns a recommended number of springs for a profile of this length in m with this measured

@@ -28,24 +28,24 @@ impl Simulation {
         let Some(works) = governing.adhesive_works() else {
             return Ok(None);
         };
-        let (length, effective_modulus) = (scene.length, governing.effective_modulus);
         let preload = figures.preload.unwrap_or(0.0).max(0.0);
-        let closed = smooth_adhesion_force(
+        let closed_form = smooth_adhesion_force(
             scene.form.as_ref(),
-            length,
-            effective_modulus,
+            scene.length,
+            governing.effective_modulus,
             works,
             preload,
         );
-        let Some(form) = scene.form.as_ref().filter(|_| closed.is_none()) else {
-            return Ok(closed);
+        if closed_form.is_some() {
+            return Ok(closed_form);
+        }
+        let Some(form) = &scene.form else {
+            return Ok(None);
         };
         let is_smooth = scene.roughness.is_none();
-        if let (Some(own), true) = (
-            figures.adhesion_force,
-            is_smooth && figures.preload >= Some(0.0),
-        ) {
-            return Ok(Some(own));
+        let is_own_preload = is_smooth && figures.preload >= Some(0.0);
+        if is_own_preload && figures.adhesion_force.is_some() {
+            return Ok(figures.adhesion_force);
         }
         let profile = if is_smooth {
             self.profile(scene)?
@@ -57,29 +57,33 @@ impl Simulation {
             .edges(scene.numerics.edges)
             .build()?;
         let mut force = None;
-        let mut see = |_, reversal: Reversal| {
-            force = reversal.adhesion_force();
-            Ok(())
-        };
-        match Body::new(&contact, FEW_SAMPLES as usize).reversals(
+        let mut body = Body::new(&contact, FEW_SAMPLES as usize);
+        let unloaded = body.reversals(
             &[Move::ToForce(preload)],
             &[],
-            &mut see,
-        ) {
+            &mut |_, reversal: Reversal| {
+                force = reversal.adhesion_force();
+                Ok(())
+            },
+        );
+        match unloaded {
+            Ok(()) => Ok(force),
             Err(error) if error.is_out_of_reach() => Ok(None),
             Err(error) => Err(error.into()),
-            Ok(()) => Ok(force),
         }
     }
 
     /// Returns the profile of a form without roughness. It is kept from the last scene with the
     /// same form, length and number of springs.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
-        let (length, points) = (scene.length, scene.numerics.points);
-        let is_same =
-            |of: &&SmoothProfile| of.form == *form && of.length == length && of.points == points;
-        if let Some(known) = self.smooth.as_ref().filter(is_same) {
-            return Ok(known.profile.clone());
+        let length = scene.length;
+        let points = scene.numerics.points;
+        if let Some(kept) = &self.smooth
+            && kept.form == *form
+            && kept.length == length
+            && kept.points == points
+        {
+            return Ok(kept.profile.clone());
         }
         self.smooth = None;
         let line = Line::new(length, points as usize, Some(form), None, 0.0)?;

@@ -23,6 +23,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
+const NOT_MADE: ContactError = ContactError::Internal("the profile of the scene has not been made");
 /// Kept memory is released if it exceeds the memory that the next run needs by more than this
 /// factor.
 const MOST_SPARE: u64 = 4;
@@ -55,7 +56,7 @@ pub struct Simulation {
     single: bool,
     maker: RoughnessMaker,
     roughness: Option<Rough>,
-    line: Option<(LineKey, Line)>,
+    line: Option<KeptLine>,
     histogram: Option<Histogram>,
     /// The last profile as the profile of a contact, with its tree.
     profile: Option<Profile>,
@@ -65,6 +66,12 @@ pub struct Simulation {
     former_tree: ContactTree,
     /// Memory kept from former runs, in bytes.
     kept: u64,
+}
+
+/// A line, with everything on which it depends.
+struct KeptLine {
+    key: LineKey,
+    line: Line,
 }
 
 #[derive(Clone, PartialEq)]
@@ -133,15 +140,12 @@ impl Simulation {
     /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise
     /// the last one that was estimated from files. Returns `None` if there is no spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
-        let RoughnessMaker {
-            measured,
-            equivalent,
-            ..
-        } = &self.maker;
-        match &**measured
-            .as_ref()
-            .or(equivalent.as_ref().map(|(.., surface)| surface))?
-        {
+        let surface = match (&self.maker.measured, &self.maker.equivalent) {
+            (Some(measured), _) => measured,
+            (None, Some(kept)) => &kept.surface,
+            (None, None) => return None,
+        };
+        match &**surface {
             MeasuredRoughness::Equivalent(line) => Some(line),
             MeasuredRoughness::Profile(_) => None,
         }
@@ -149,25 +153,20 @@ impl Simulation {
 
     /// Returns a new simulation with the same folder and the same measured surface.
     pub fn another(&self) -> Simulation {
-        let RoughnessMaker {
-            folder, measured, ..
-        } = &self.maker;
-        let (folder, measured) = (folder.clone(), measured.clone());
-        let maker = RoughnessMaker {
-            folder,
-            measured,
-            ..RoughnessMaker::default()
-        };
         Simulation {
             single: self.single,
-            maker,
+            maker: RoughnessMaker {
+                folder: self.maker.folder.clone(),
+                measured: self.maker.measured.clone(),
+                ..RoughnessMaker::default()
+            },
             ..Simulation::default()
         }
     }
 
     /// Returns the profile that was computed last; `None` before the first profile.
     pub fn line(&self) -> Option<&Line> {
-        self.line.as_ref().map(|(_, line)| line)
+        self.line.as_ref().map(|kept| &kept.line)
     }
 
     /// Returns the profile of a scene, the numbers that describe it, and the governing parameters.
@@ -182,7 +181,8 @@ impl Simulation {
     }
 
     fn line_of(&mut self, scene: &Scene) -> Result<(&Line, LineFacts, Governing), RunError> {
-        let (points, length) = (scene.numerics.points as usize, scene.length);
+        let points = scene.numerics.points as usize;
+        let length = scene.length;
         let roughness = self.maker.key(scene);
         if self.roughness.as_ref().map(|rough| &rough.key) != roughness.as_ref() {
             let before = self.roughness.take().map(|rough| rough.heights);
@@ -212,16 +212,12 @@ impl Simulation {
             points,
             form: scene.form.clone(),
         };
-        if self.line.as_ref().is_none_or(|(of, _)| *of != key) {
+        if self.line.as_ref().is_none_or(|kept| kept.key != key) {
             let line = self.lay_line(scene, &key)?;
             self.profile = Some(profile_of(&line, nominal_form(scene))?);
-            self.line = Some((key, line));
+            self.line = Some(KeptLine { key, line });
         }
-        let Some((_, line)) = &self.line else {
-            return Err(
-                ContactError::Internal("the profile of the scene has not been made").into(),
-            );
-        };
+        let line = self.line().ok_or(NOT_MADE)?;
         let facts = LineFacts {
             points,
             length,
@@ -249,9 +245,7 @@ impl Simulation {
 
     /// Returns the profile that was made last.
     fn made(&self) -> Result<&Profile, ContactError> {
-        self.profile.as_ref().ok_or(ContactError::Internal(
-            "the profile of the scene has not been made",
-        ))
+        self.profile.as_ref().ok_or(NOT_MADE)
     }
 
     /// Makes a profile from the heights of its roughness and its form.
@@ -270,22 +264,23 @@ impl Simulation {
         let mut memory = self
             .line
             .take()
-            .and_then(|(_, line)| Arc::into_inner(line.gaps))
+            .and_then(|kept| Arc::into_inner(kept.line.gaps))
             .unwrap_or_default();
-        if let (Some(of), Some(rough)) = (&key.roughness, &self.roughness)
+        if let Some(roughness) = &key.roughness
+            && let Some(rough) = &self.roughness
             && rough.heights.is_empty()
         {
-            self.roughen(scene, of, take(&mut memory))?;
+            self.roughen(scene, roughness, take(&mut memory))?;
         }
-        if let Some(rough) = self.roughness.as_mut().filter(|_| self.single) {
+        if self.single
+            && let Some(rough) = &mut self.roughness
+        {
             memory = take(&mut rough.heights);
         } else {
             memory = emptied(memory, points).map_err(SurfaceError::of_springs)?;
-            let heights = self
-                .roughness
-                .as_ref()
-                .map_or(&[][..], |rough| &rough.heights);
-            memory.extend_from_slice(heights);
+            if let Some(rough) = &self.roughness {
+                memory.extend_from_slice(&rough.heights);
+            }
             memory.resize(points, 0.0);
         }
         Ok(Line::from_roughness(
@@ -319,10 +314,12 @@ impl Simulation {
         if plan.runs(Stage::Tree) {
             self.made()?.build_tree(edges, memory)?;
         }
-        let line = self
-            .line()
-            .filter(|_| plan.runs(Stage::HeightHistogram) && self.histogram.is_none());
-        let Some(line) = line else { return Ok(0) };
+        if !plan.runs(Stage::HeightHistogram) || self.histogram.is_some() {
+            return Ok(0);
+        }
+        let Some(line) = self.line() else {
+            return Ok(0);
+        };
         let binned = line.gaps.len() as u64;
         self.histogram = Some(Histogram::new(
             line.heights(),
@@ -358,27 +355,21 @@ impl Simulation {
         scene: &Scene,
         stop: &dyn Fn() -> bool,
     ) -> Result<Prepared, RunError> {
-        let interrupted = || {
-            if stop() {
-                Err(ContactError::Interrupted)
-            } else {
-                Ok(())
-            }
-        };
         let mut timings = Timings::default();
         self.make_room(plan.peak_bytes)?;
 
         let drawn_before = self.maker.phases_drawn;
-        let clock = Instant::now();
+        let begun = Instant::now();
         let (_, facts, governing) = self.line_of(scene)?;
-        timings.line = clock.elapsed().as_secs_f64();
-        interrupted()?;
+        timings.line = begun.elapsed().as_secs_f64();
+        check_interruption(stop)?;
         let random_phases = self.maker.phases_drawn - drawn_before;
 
-        let (clock, edges) = (Instant::now(), scene.numerics.edges);
+        let edges = scene.numerics.edges;
+        let begun = Instant::now();
         let heights_binned = self.look_at_line(plan, edges)?;
-        timings.tree = clock.elapsed().as_secs_f64();
-        interrupted()?;
+        timings.tree = begun.elapsed().as_secs_f64();
+        check_interruption(stop)?;
 
         let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
         let contact = governing
@@ -451,93 +442,151 @@ impl Simulation {
         after: &mut AfterLeg<'_>,
     ) -> Result<Outcome, RunError> {
         let plan = Workload::of(scene);
-        let made = self.prepare(&plan, scene, stop)?;
+        let mut prepared = self.prepare(&plan, scene, stop)?;
+        reach::check(&prepared.contact, &scene.loading)?;
+        let loaded = prepared.load(scene, &plan, stop, after)?;
+        self.outcome(scene, &plan, prepared, loaded)
+    }
+
+    /// Derives all results of a scene from its loading.
+    fn outcome(
+        &mut self,
+        scene: &CheckedScene,
+        plan: &Workload,
+        prepared: Prepared,
+        loaded: Loaded,
+    ) -> Result<Outcome, RunError> {
         let Prepared {
             contact,
             facts,
             governing,
-            random_phases,
-            heights_binned,
-            mut timings,
-            warnings: of_scene,
-        } = made;
-        reach::check(&contact, &scene.loading)?;
-        let on_foundation = |patch: Patch| Patch {
-            first: patch.first + facts.first,
-            last: patch.last + facts.first,
+            timings,
+            warnings: warnings_before_loading,
+            ..
+        } = prepared;
+        let Loaded {
+            history,
+            fragments,
+            without_preload,
+        } = loaded;
+        let mut warnings = history.warnings(contact.profile());
+        warnings.extend(warnings_before_loading);
+        let figures = Figures::of(&history);
+        let ideal = governing.adhesive_work().map(|work| {
+            ClosedForm::ideal_adhesion_force(work, governing.effective_modulus, scene.length)
+        });
+        let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
+        let [first_touch, zero_force] = without_preload;
+        let histogram = if plan.runs(Stage::HeightHistogram) {
+            self.histogram.clone()
+        } else {
+            None
         };
+        Ok(Outcome {
+            line: facts,
+            governing,
+            ideal_adhesion_force: ideal,
+            smooth_adhesion_force: smooth,
+            first_touch_adhesion_force: first_touch,
+            zero_force_adhesion_force: zero_force,
+            tabor_number: governing.tabor_number(scene),
+            steep_waves: SteepWaves::of(scene, &governing),
+            regime: Regime::of_loading(&figures, first_touch, smooth),
+            regime_after_zero_force: Regime::of_loading(&figures, zero_force, smooth),
+            instrument: scene
+                .loading_stiffness
+                .map(|stiffness| InstrumentFigures::of(&history, &figures, stiffness)),
+            figures,
+            history,
+            fragments,
+            histogram,
+            warnings,
+            timings,
+        })
+    }
+}
 
-        let (clock, mut stage, mut fragments) = (Instant::now(), 0, Vec::new());
-        let mut see = |record: &LegRecord, leg: &Leg| {
-            if stop() {
-                return Err(ContactError::Interrupted);
-            }
+/// Loading of a scene.
+struct Loaded {
+    history: History,
+    /// Patches of the contact at the end of each loading stage.
+    fragments: Vec<Vec<Patch>>,
+    /// F_a(d=0) and F_a(F=0) in N, where they were computed.
+    without_preload: [Option<f64>; 2],
+}
+
+impl Prepared {
+    /// Loads the contact of a scene. `after` is called after each loading stage.
+    fn load(
+        &mut self,
+        scene: &Scene,
+        plan: &Workload,
+        stop: &dyn Fn() -> bool,
+        after: &mut AfterLeg<'_>,
+    ) -> Result<Loaded, RunError> {
+        let first_spring = self.facts.first;
+        let begun = Instant::now();
+        let mut stage = 0;
+        let mut fragments = Vec::new();
+        let mut after_leg = |record: &LegRecord, leg: &Leg| {
+            check_interruption(stop)?;
             if plan.runs(Stage::Fragments) {
-                let patches = record
-                    .end_in_contact()
-                    .map_or_else(Vec::new, |end| leg.patches(end.indentation));
-                fragments.push(patches.into_iter().map(on_foundation).collect());
+                fragments.push(patches_at_end(record, leg, first_spring));
             }
             stage += 1;
             after(stage - 1, record, leg)
         };
-        let without_preload = plan.runs(Stage::WithoutPreload);
         let (mut history, without_preload) = load(
             scene,
-            &contact,
-            without_preload,
-            &mut timings,
+            &self.contact,
+            plan.runs(Stage::WithoutPreload),
+            &mut self.timings,
             stop,
-            &mut see,
+            &mut after_leg,
         )?;
-        timings.passes =
-            (clock.elapsed().as_secs_f64() - timings.curve - timings.without_preload).max(0.0);
-        history
-            .contacts
-            .iter_mut()
-            .for_each(|contact| *contact = on_foundation(*contact));
-        let transforms = u64::from(random_phases > 0);
-        let work = &mut history.work;
-        (work.random_phases, work.transforms, work.heights_binned) =
-            (random_phases, transforms, heights_binned);
-
-        let mut warnings = history.warnings(contact.profile());
-        warnings.extend(of_scene);
-        let figures = Figures::of(&history);
-        let [first_touch_adhesion_force, zero_force_adhesion_force] = without_preload;
-        let (work, modulus, length) = (
-            governing.adhesive_work(),
-            governing.effective_modulus,
-            scene.length,
-        );
-        let smooth = self.smooth_adhesion_force(scene, &governing, &figures)?;
-        let regime = |without_preload| Regime::of_loading(&figures, without_preload, smooth);
-        Ok(Outcome {
-            line: facts,
-            governing,
-            ideal_adhesion_force: work
-                .map(|work| ClosedForm::ideal_adhesion_force(work, modulus, length)),
-            smooth_adhesion_force: smooth,
-            first_touch_adhesion_force,
-            zero_force_adhesion_force,
-            tabor_number: governing.tabor_number(scene),
-            steep_waves: SteepWaves::of(scene, &governing),
-            regime: regime(first_touch_adhesion_force),
-            regime_after_zero_force: regime(zero_force_adhesion_force),
-            instrument: scene
-                .loading_stiffness
-                .map(|k| InstrumentFigures::of(&history, &figures, k)),
-            figures,
+        let timings = &mut self.timings;
+        let seconds = begun.elapsed().as_secs_f64();
+        timings.passes = (seconds - timings.curve - timings.without_preload).max(0.0);
+        for contact in &mut history.contacts {
+            *contact = on_foundation(*contact, first_spring);
+        }
+        history.work.random_phases = self.random_phases;
+        history.work.transforms = u64::from(self.random_phases > 0);
+        history.work.heights_binned = self.heights_binned;
+        Ok(Loaded {
             history,
             fragments,
-            histogram: self
-                .histogram
-                .as_ref()
-                .filter(|_| plan.runs(Stage::HeightHistogram))
-                .cloned(),
-            warnings,
-            timings,
+            without_preload,
         })
+    }
+}
+
+fn check_interruption(stop: &dyn Fn() -> bool) -> Result<(), ContactError> {
+    if stop() {
+        Err(ContactError::Interrupted)
+    } else {
+        Ok(())
+    }
+}
+
+/// Returns the patches at the end of a loading stage. The body lies on the springs from
+/// `first_spring` on.
+fn patches_at_end(record: &LegRecord, leg: &Leg, first_spring: usize) -> Vec<Patch> {
+    let Some(end) = record.end_in_contact() else {
+        return Vec::new();
+    };
+    leg.patches(end.indentation)
+        .into_iter()
+        .map(|patch| on_foundation(patch, first_spring))
+        .collect()
+}
+
+/// Returns a patch with its springs counted from the first spring of the foundation instead of the
+/// first one under the body.
+fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
+    Patch {
+        first: patch.first + first_spring,
+        last: patch.last + first_spring,
     }
 }
 
@@ -570,48 +619,65 @@ fn load(
     stop: &dyn Fn() -> bool,
     see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
 ) -> Result<(History, [Option<f64>; 2]), ContactError> {
-    let samples = scene.numerics.samples as usize;
-    let mut forces = [None; 2];
     match scene.numerics.solver {
         SolverChoice::Stepwise { step } => {
-            let body = |samples| Stepwise::new(contact, step, samples, stop);
-            let mut solver = body(samples)?;
-            let mut history = load_body(&mut solver, &scene.loading, see)?;
-            timings.curve = solver.curve_seconds();
-            if without_preload {
-                let clock = Instant::now();
-                for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
-                    let turned = match load_body(
-                        &mut body(2)?,
-                        &[turn, Move::ToSeparation],
-                        |_, _| Ok(()),
-                    ) {
-                        Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-                        // A turn out of reach of the steps has no F_a(d=0).
-                        Err(_) => continue,
-                        Ok(turned) => turned,
-                    };
-                    *force = Figures::of(&turned).adhesion_force;
-                    let work = &mut history.work;
-                    work.steps += turned.work.steps;
-                    work.relaxation_sweeps += turned.work.relaxation_sweeps;
-                    work.spring_updates += turned.work.spring_updates;
-                }
-                timings.without_preload = clock.elapsed().as_secs_f64();
-            }
-            Ok((history, forces))
+            load_stepwise(scene, contact, step, without_preload, timings, stop, see)
         }
-        SolverChoice::Exact => {
-            let mut body = Body::new(contact, samples);
-            let mut history = load_body(&mut body, &scene.loading, see)?;
-            timings.curve = body.curve_seconds();
-            if without_preload && contact.has_adhesion() {
-                let clock = Instant::now();
-                forces = body.adhesion_without_preload()?;
-                history.work = body.work();
-                timings.without_preload = clock.elapsed().as_secs_f64();
-            }
-            Ok((history, forces))
-        }
+        SolverChoice::Exact => load_exactly(scene, contact, without_preload, timings, see),
     }
+}
+
+fn load_exactly(
+    scene: &Scene,
+    contact: &Contact,
+    without_preload: bool,
+    timings: &mut Timings,
+    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<(History, [Option<f64>; 2]), ContactError> {
+    let mut body = Body::new(contact, scene.numerics.samples as usize);
+    let mut history = load_body(&mut body, &scene.loading, see)?;
+    timings.curve = body.curve_seconds();
+    let mut forces = [None; 2];
+    if without_preload && contact.has_adhesion() {
+        let begun = Instant::now();
+        forces = body.adhesion_without_preload()?;
+        history.work = body.work();
+        timings.without_preload = begun.elapsed().as_secs_f64();
+    }
+    Ok((history, forces))
+}
+
+fn load_stepwise(
+    scene: &Scene,
+    contact: &Contact,
+    step: f64,
+    without_preload: bool,
+    timings: &mut Timings,
+    stop: &dyn Fn() -> bool,
+    see: &mut dyn FnMut(&LegRecord, &Leg) -> Result<(), ContactError>,
+) -> Result<(History, [Option<f64>; 2]), ContactError> {
+    let samples = scene.numerics.samples as usize;
+    let mut solver = Stepwise::new(contact, step, samples, stop)?;
+    let mut history = load_body(&mut solver, &scene.loading, see)?;
+    timings.curve = solver.curve_seconds();
+    let mut forces = [None; 2];
+    if !without_preload {
+        return Ok((history, forces));
+    }
+    let begun = Instant::now();
+    for (force, turn) in forces.iter_mut().zip([Move::ToTouch, Move::ToZeroForce]) {
+        let mut solver = Stepwise::new(contact, step, 2, stop)?;
+        let turned = match load_body(&mut solver, &[turn, Move::ToSeparation], |_, _| Ok(())) {
+            Ok(turned) => turned,
+            Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
+            // A turn out of reach of the steps has no F_a(d=0).
+            Err(_) => continue,
+        };
+        *force = Figures::of(&turned).adhesion_force;
+        history.work.steps += turned.work.steps;
+        history.work.relaxation_sweeps += turned.work.relaxation_sweeps;
+        history.work.spring_updates += turned.work.spring_updates;
+    }
+    timings.without_preload = begun.elapsed().as_secs_f64();
+    Ok((history, forces))
 }

@@ -132,32 +132,44 @@ impl Workload {
 
     /// Plans the computation of a checked scene whose loading may have been replaced.
     pub(super) fn of_any(scene: &Scene) -> Self {
-        let (points, springs) = (
-            scene.numerics.points,
-            scene.springs_under_body().count() as u64,
-        );
-        let stages = stages(scene, points, springs);
+        let points = scene.numerics.points;
+        let springs = scene.springs_under_body().count() as u64;
+        let planner = Planner {
+            scene,
+            points,
+            springs,
+            is_adhesive: Effect::Adhesion.is_on(scene),
+            goes_back: Effect::Unloading.is_on(scene),
+            is_exact: scene.numerics.solver == Solver::Exact,
+            is_measured: matches!(scene.roughness, Some(Roughness::Measured { .. })),
+            is_random: scene.seed().is_some(),
+        };
         let mut plan = Workload {
             springs,
             peak_bytes: 0,
             resident_bytes: 0,
-            stages,
+            stages: planner.stages(),
         };
-        // At most, if the whole contact under load also exists at first touch.
+        // This is the most, if the whole contact under load also exists at first touch.
         let solved = [
             Stage::Tree,
             Stage::LoadingPass,
             Stage::Relaxation,
             Stage::WithoutPreload,
         ];
-        let between =
-            scene.numerics.edges == Edges::SubCell && scene.numerics.solver == Solver::Exact;
-        let sampled = if between { SAMPLED_WITH_EDGES } else { SAMPLED };
-        let curves =
-            scene.numerics.samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64
-                + scene.numerics.samples.saturating_mul(sampled);
-        let contact =
-            HEIGHT * springs + solved.map(|stage| plan.bytes(stage)).iter().sum::<u64>() + curves;
+        let mut contact = HEIGHT * springs;
+        for stage in solved {
+            contact += plan.bytes(stage);
+        }
+        let has_edges_between = planner.is_exact && scene.numerics.edges == Edges::SubCell;
+        let sampled = if has_edges_between {
+            SAMPLED_WITH_EDGES
+        } else {
+            SAMPLED
+        };
+        let samples = scene.numerics.samples;
+        contact += samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64;
+        contact += samples.saturating_mul(sampled);
         // The profile is made before the contact is solved: the larger of both amounts of memory.
         let heights = if Effect::Roughness.is_on(scene) {
             HEIGHT * points
@@ -192,131 +204,259 @@ impl Workload {
     }
 }
 
-fn stages(scene: &Scene, points: u64, springs: u64) -> Vec<PlannedStage> {
-    let (adhesive, pulls) = (
-        Effect::Adhesion.is_on(scene),
-        Effect::Unloading.is_on(scene),
-    );
-    let exact = scene.numerics.solver == Solver::Exact;
-    let (measured, random) = (
-        matches!(scene.roughness, Some(Roughness::Measured { .. })),
-        scene.seed().is_some(),
-    );
-    // Field that requires the stage or reason for skipping it, number of passes, springs of each
-    // pass, bytes.
-    let row = |stage, because: Result<_, _>, (passes, springs): (Option<u64>, u64), bytes| {
-        let runs = because.is_ok();
-        let (passes, bytes) = if runs { (passes, bytes) } else { (Some(0), 0) };
-        let springs_touched = passes.map(|passes| passes.saturating_mul(springs));
-        let because = because.unwrap_or_else(|reason| reason);
-        PlannedStage {
-            stage,
-            runs,
-            because,
-            passes,
-            springs_touched,
+/// Field that requires a part of the computation, or else the reason why the part is skipped.
+type Because = Result<&'static str, &'static str>;
+
+/// Work of a part of the computation that runs.
+struct Work {
+    /// Number of passes; `None` if it depends on the loading stages.
+    passes: Option<u64>,
+    /// Number of springs that a pass visits at most.
+    springs: u64,
+    /// Memory in bytes.
+    bytes: u64,
+}
+
+impl PlannedStage {
+    fn new(stage: Stage, because: Because, work: Work) -> Self {
+        match because {
+            Ok(field) => PlannedStage {
+                stage,
+                runs: true,
+                because: field,
+                passes: work.passes,
+                springs_touched: work
+                    .passes
+                    .map(|passes| passes.saturating_mul(work.springs)),
+                bytes: work.bytes,
+            },
+            Err(reason) => PlannedStage {
+                stage,
+                runs: false,
+                because: reason,
+                passes: Some(0),
+                springs_touched: Some(0),
+                bytes: 0,
+            },
+        }
+    }
+}
+
+fn because(is_needed: bool, field: &'static str, reason: &'static str) -> Because {
+    if is_needed { Ok(field) } else { Err(reason) }
+}
+
+/// A scene whose computation is planned, with the properties on which its parts depend.
+struct Planner<'s> {
+    scene: &'s Scene,
+    points: u64,
+    /// Number of springs under the body.
+    springs: u64,
+    is_adhesive: bool,
+    goes_back: bool,
+    is_exact: bool,
+    is_measured: bool,
+    is_random: bool,
+}
+
+impl Planner<'_> {
+    fn stages(&self) -> Vec<PlannedStage> {
+        let solved = self.because_solved();
+        let fragments = Work {
+            passes: Some(self.scene.loading.len() as u64),
+            springs: self.springs,
+            bytes: 0,
+        };
+        let is_observed = |observer| self.scene.observe.contains(&observer);
+        let not_observed = "not in observe";
+        vec![
+            PlannedStage::new(Stage::Form, self.because_form(), self.once(0)),
+            self.synthesis(),
+            self.measured_profile(),
+            PlannedStage::new(Stage::Tree, solved, self.once(NODE * self.springs)),
+            self.rule_of_hess(),
+            PlannedStage::new(
+                Stage::LoadingPass,
+                solved,
+                self.each_stage(PASSED * self.springs),
+            ),
+            PlannedStage::new(
+                Stage::UnloadingPass,
+                self.because_unloading(),
+                self.each_stage(0),
+            ),
+            PlannedStage::new(
+                Stage::Relaxation,
+                because(!self.is_exact, STEPWISE, "solver: Exact"),
+                self.each_stage(RELAXED * self.springs),
+            ),
+            self.without_preload(),
+            PlannedStage::new(
+                Stage::Fragments,
+                because(
+                    is_observed(Observer::Fragments),
+                    "observe: Fragments",
+                    not_observed,
+                ),
+                fragments,
+            ),
+            PlannedStage::new(
+                Stage::HeightHistogram,
+                because(
+                    is_observed(Observer::HeightHistogram),
+                    "observe: HeightHistogram",
+                    not_observed,
+                ),
+                self.once(0),
+            ),
+        ]
+    }
+
+    /// One pass over the springs under the body.
+    fn once(&self, bytes: u64) -> Work {
+        Work {
+            passes: Some(1),
+            springs: self.springs,
             bytes,
         }
-    };
-    let when = |does: bool, field, reason| if does { Ok(field) } else { Err(reason) };
-    let (once, each_stage, line) = ((Some(1), springs), (None, springs), (Some(1), points));
-    let solver = if adhesive { STEPWISE } else { NO_ADHESION };
-    let solved = when(exact && adhesive, "adhesion with the exact solver", solver);
-    let form = match &scene.form {
-        None => Err("no form: nominally flat"),
-        Some(form) if form.flat_end().is_some() => Ok("form: the springs under the punch"),
-        Some(_) => Ok("form"),
-    };
-    let synthesis = match (random, measured) {
-        (true, true) => Ok("roughness: Measured, its equivalent line"),
-        (true, false) => Ok("roughness: SelfAffine"),
-        (false, true) => Err("roughness: Measured, as the line"),
-        (false, false) => Err("no roughness: smooth"),
-    };
-    // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs
-    // transform at twice the length.
-    let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
-    // The convolution that transforms a large prime factor, as measured.
-    let factor = largest_prime_factor(points);
-    let convolution = if factor > LARGEST_FACTOR {
-        152 * factor
-    } else {
-        0
-    };
-    let file = if random {
-        "roughness: SelfAffine"
-    } else {
-        "no roughness: smooth"
-    };
-    let unloading = match (pulls, adhesive, exact) {
-        (false, ..) => Err(NEVER_BACK),
-        (true, false, _) => Err(NO_ADHESION),
-        (true, true, false) => Err(STEPWISE),
-        (true, true, true) => Ok("loading goes back"),
-    };
-    let without_preload = match (adhesive, pulls) {
-        (false, _) => Err("no adhesion: non-adhesive"),
-        (true, false) => Err(NEVER_BACK),
-        (true, true) => Ok("adhesion with a loading that goes back"),
-    };
-    let hess = when(adhesive, "adhesion", "no adhesion: nothing is stretched");
-    let observed =
-        |observer, field| when(scene.observe.contains(&observer), field, "not in observe");
-    let fragments = observed(Observer::Fragments, "observe: Fragments");
-    let histogram = observed(Observer::HeightHistogram, "observe: HeightHistogram");
-    let (touch, touch_bytes) = if exact {
-        ((Some(2), springs), 0)
-    } else {
-        (each_stage, RELAXED * springs)
-    };
-    // F_smooth of a form without a closed form takes springs of its own.
-    let has_smooth = scene.roughness.is_some()
-        && scene
-            .form
-            .as_ref()
-            .is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
-    let smooth_bytes = if has_smooth {
-        (HEIGHT + NODE) * springs
-    } else {
-        0
-    };
-    vec![
-        row(Stage::Form, form, once, 0),
-        row(Stage::Synthesis, synthesis, line, transform + convolution),
-        row(
+    }
+
+    /// Passes over the springs under the body in each loading stage.
+    fn each_stage(&self, bytes: u64) -> Work {
+        Work {
+            passes: None,
+            springs: self.springs,
+            bytes,
+        }
+    }
+
+    /// One pass over the whole profile.
+    fn over_profile(&self, bytes: u64) -> Work {
+        Work {
+            passes: Some(1),
+            springs: self.points,
+            bytes,
+        }
+    }
+
+    fn because_form(&self) -> Because {
+        match &self.scene.form {
+            None => Err("no form: nominally flat"),
+            Some(form) if form.flat_end().is_some() => Ok("form: the springs under the punch"),
+            Some(_) => Ok("form"),
+        }
+    }
+
+    fn because_solved(&self) -> Because {
+        if !self.is_adhesive {
+            Err(NO_ADHESION)
+        } else if !self.is_exact {
+            Err(STEPWISE)
+        } else {
+            Ok("adhesion with the exact solver")
+        }
+    }
+
+    fn because_unloading(&self) -> Because {
+        if !self.goes_back {
+            Err(NEVER_BACK)
+        } else if !self.is_adhesive {
+            Err(NO_ADHESION)
+        } else if !self.is_exact {
+            Err(STEPWISE)
+        } else {
+            Ok("loading goes back")
+        }
+    }
+
+    fn synthesis(&self) -> PlannedStage {
+        let because = match (self.is_random, self.is_measured) {
+            (true, true) => Ok("roughness: Measured, its equivalent line"),
+            (true, false) => Ok("roughness: SelfAffine"),
+            (false, true) => Err("roughness: Measured, as the line"),
+            (false, false) => Err("no roughness: smooth"),
+        };
+        // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs
+        // transform at twice the length.
+        let points = self.points;
+        let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
+        // The convolution that transforms a large prime factor, as measured.
+        let factor = largest_prime_factor(points);
+        let convolution = if factor > LARGEST_FACTOR {
+            152 * factor
+        } else {
+            0
+        };
+        let work = self.over_profile(transform + convolution);
+        PlannedStage::new(Stage::Synthesis, because, work)
+    }
+
+    fn measured_profile(&self) -> PlannedStage {
+        let reason = if self.is_random {
+            "roughness: SelfAffine"
+        } else {
+            "no roughness: smooth"
+        };
+        PlannedStage::new(
             Stage::MeasuredProfile,
-            when(measured, "roughness: Measured", file),
-            line,
-            HEIGHT * points,
-        ),
-        row(Stage::Tree, solved, once, NODE * springs),
-        row(Stage::RuleOfHess, hess, (Some(0), springs), 0),
-        row(Stage::LoadingPass, solved, each_stage, PASSED * springs),
-        row(Stage::UnloadingPass, unloading, each_stage, 0),
-        row(
-            Stage::Relaxation,
-            when(!exact, STEPWISE, "solver: Exact"),
-            each_stage,
-            RELAXED * springs,
-        ),
-        row(
-            Stage::WithoutPreload,
-            without_preload,
-            touch,
-            touch_bytes + smooth_bytes,
-        ),
-        row(
-            Stage::Fragments,
-            fragments,
-            (Some(scene.loading.len() as u64), springs),
-            0,
-        ),
-        row(Stage::HeightHistogram, histogram, once, 0),
-    ]
+            because(self.is_measured, "roughness: Measured", reason),
+            self.over_profile(HEIGHT * self.points),
+        )
+    }
+
+    fn rule_of_hess(&self) -> PlannedStage {
+        let no_pass = Work {
+            passes: Some(0),
+            springs: self.springs,
+            bytes: 0,
+        };
+        PlannedStage::new(
+            Stage::RuleOfHess,
+            because(
+                self.is_adhesive,
+                "adhesion",
+                "no adhesion: nothing is stretched",
+            ),
+            no_pass,
+        )
+    }
+
+    fn without_preload(&self) -> PlannedStage {
+        let because = if !self.is_adhesive {
+            Err("no adhesion: non-adhesive")
+        } else if !self.goes_back {
+            Err(NEVER_BACK)
+        } else {
+            Ok("adhesion with a loading that goes back")
+        };
+        // F_smooth of a form without a closed form takes springs of its own.
+        let has_smooth = self.scene.roughness.is_some()
+            && self
+                .scene
+                .form
+                .as_ref()
+                .is_some_and(|form| form.flat_end().is_none() && form.power_law().is_none());
+        let smooth_bytes = if has_smooth {
+            (HEIGHT + NODE) * self.springs
+        } else {
+            0
+        };
+        let work = if self.is_exact {
+            Work {
+                passes: Some(2),
+                springs: self.springs,
+                bytes: smooth_bytes,
+            }
+        } else {
+            self.each_stage(RELAXED * self.springs + smooth_bytes)
+        };
+        PlannedStage::new(Stage::WithoutPreload, because, work)
+    }
 }
 
 fn largest_prime_factor(mut number: u64) -> u64 {
-    let (mut factor, mut largest) = (2, 1);
+    let mut factor = 2;
+    let mut largest = 1;
     while factor * factor <= number {
         if number.is_multiple_of(factor) {
             number /= factor;

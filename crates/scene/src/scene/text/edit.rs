@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use super::index::{Text, TextSpan};
 
+/// Blanks between entries on one line.
+const BLANKS: [char; 2] = [' ', '\t'];
+
 /// Message for a text that is not exactly one value.
 pub(in crate::scene) const NOT_ONE_VALUE: &str =
     "not one RON value by itself, such as 1.0e-3 or (1, 512)";
@@ -33,15 +36,9 @@ impl Text {
     ) -> Result<Text, String> {
         let inside = self.span(group).and_then(|entry| entry.inside.clone());
         let inside = inside.ok_or_else(|| format!("{group} has no fields here"))?;
-        let rank = |name: &str| order.iter().position(|other| *other == name);
-        let ranked = |entry: &&&TextSpan| rank(entry.path.rsplit('.').next().unwrap_or_default());
         let entries = self.inside(group);
-        let before = entries
-            .iter()
-            .filter(|entry| ranked(entry) < rank(name))
-            .max_by_key(ranked);
         let new = format!("{name}: {value}");
-        let splices = match before.or(entries.last()) {
+        let splices = match entry_before(&entries, name, order).or(entries.last().copied()) {
             None => vec![(inside.start..inside.start, new)],
             Some(anchor) => {
                 let after = anchor.comma.unwrap_or(anchor.value.end);
@@ -66,49 +63,64 @@ impl Text {
     /// missing, or if a comment would make the new text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
-        let (old, mut start) = (self.inside(list), inside.start);
+        let present = self.inside(list);
+        let has_last_comma = present.last()?.comma.is_some();
+        let parts = self.parts(&present, &inside);
+        let first_blank = blank_start(parts.first()?.before);
+        let further_blank = match parts.get(1) {
+            Some(part) => blank_start(part.before),
+            None if first_blank.contains('\n') => first_blank,
+            None => " ",
+        };
+        let mut new = String::new();
+        for (place, (kept, written)) in elements.iter().enumerate() {
+            new += if place == 0 {
+                first_blank
+            } else {
+                further_blank
+            };
+            let comma = if place + 1 < elements.len() || has_last_comma {
+                ","
+            } else {
+                ""
+            };
+            if let Some(index) = kept {
+                let part = parts.get(*index)?;
+                new += part.before.trim_start();
+                new += part.value;
+                new += comma;
+                new += &part.after;
+            } else {
+                new += written;
+                new += comma;
+            }
+        }
+        let end = parts.last()?.end;
+        let mut source = self.source.clone();
+        source.replace_range(inside.start..end, &new);
+        Text::new(source).ok()
+    }
+
+    /// Divides the text inside the brackets of a list into its elements.
+    fn parts(&self, elements: &[&TextSpan], inside: &Range<usize>) -> Vec<Part<'_>> {
         let mut parts = Vec::new();
-        for (place, TextSpan { value, comma, .. }) in old.iter().enumerate() {
+        let mut start = inside.start;
+        for (place, TextSpan { value, comma, .. }) in elements.iter().enumerate() {
             let after = comma.unwrap_or(value.end);
-            let next = old
+            let next = elements
                 .get(place + 1)
                 .map_or(inside.end, |next| next.value.start);
             let end = self.line_break_in(after..next).unwrap_or(after);
             let before_comma = &self.source[value.end..after - usize::from(comma.is_some())];
-            let behind = format!("{before_comma}{}", &self.source[after..end]);
-            parts.push((
-                &self.source[start..value.start],
-                &self.source[value.clone()],
-                behind,
-            ));
+            parts.push(Part {
+                before: &self.source[start..value.start],
+                value: &self.source[value.clone()],
+                after: format!("{before_comma}{}", &self.source[after..end]),
+                end,
+            });
             start = end;
         }
-        let blank = |before: &'_ str| before[..before.len() - before.trim_start().len()].to_owned();
-        let first = blank(parts.first()?.0);
-        let usual = if first.contains('\n') {
-            first.clone()
-        } else {
-            " ".to_owned()
-        };
-        let further = parts.get(1).map_or(usual, |part| blank(part.0));
-        let mut new = String::new();
-        for (place, (kept, written)) in elements.iter().enumerate() {
-            let added = ("", written.as_str(), String::new());
-            let (before, value, behind) = if let Some(at) = kept {
-                parts.get(*at)?
-            } else {
-                &added
-            };
-            let has_comma = place + 1 < elements.len() || old.last()?.comma.is_some();
-            let (blank, comma) = (
-                if place == 0 { &first } else { &further },
-                if has_comma { "," } else { "" },
-            );
-            new += &format!("{blank}{}{value}{comma}{behind}", before.trim_start());
-        }
-        let mut source = self.source.clone();
-        source.replace_range(inside.start..start, &new);
-        Text::new(source).ok()
+        parts
     }
 
     /// Returns the text without the entry at a path, and without its line if nothing else is on the
@@ -117,10 +129,9 @@ impl Text {
         let Some(TextSpan { entry, comma, .. }) = self.span(path) else {
             return self.clone();
         };
-        let blanks = [' ', '\t'];
-        let before = self.source[..entry.start].trim_end_matches(blanks);
+        let before = self.source[..entry.start].trim_end_matches(BLANKS);
         let end = comma.unwrap_or(entry.end);
-        let after = self.source[end..].trim_start_matches(blanks);
+        let after = self.source[end..].trim_start_matches(BLANKS);
         let mut removed = entry.start..self.source.len() - after.len();
         let line_break = ["\r\n", "\n"]
             .into_iter()
@@ -138,9 +149,7 @@ impl Text {
     pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
         let mut text = self.clone();
         while let Some(range) = text.comment_beside(path) {
-            let before = text.source[..range.start]
-                .trim_end_matches([' ', '\t'])
-                .len();
+            let before = text.source[..range.start].trim_end_matches(BLANKS).len();
             let shorter = text.without(before..range.end);
             if shorter == text {
                 break;
@@ -152,13 +161,10 @@ impl Text {
 
     fn comment_beside(&self, path: &str) -> Option<Range<usize>> {
         let end = self.span(path)?.value.end;
-        let is_beside = |comment: &&Range<usize>| {
-            comment.start >= end
-                && self.source[end..comment.start]
-                    .chars()
-                    .all(|c| matches!(c, ' ' | '\t' | ','))
-        };
-        self.comments.iter().find(is_beside).cloned()
+        let following = self.comments.iter().find(|comment| comment.start >= end)?;
+        let between = &self.source[end..following.start];
+        let is_beside = between.chars().all(|sign| matches!(sign, ' ' | '\t' | ','));
+        is_beside.then(|| following.clone())
     }
 
     /// Returns the text without a range of bytes; the same text if the rest could not be read.
@@ -176,39 +182,44 @@ impl Text {
         gap: Range<usize>,
         new: &str,
     ) -> Vec<(Range<usize>, String)> {
-        let comma = if anchor.comma.is_some() { "," } else { "" };
-        match (
-            indentation(&self.source, anchor.entry.start),
-            self.line_break_in(gap.clone()),
-        ) {
-            (Some(indentation), Some(line_break)) => {
-                let newline = if self.source[..line_break].ends_with('\r') {
-                    "\r\n"
-                } else {
-                    "\n"
-                };
-                let end = line_break + 1 - newline.len();
-                let missing_comma = if anchor.comma.is_some() { "" } else { "," };
-                vec![
-                    (
-                        anchor.value.end..anchor.value.end,
-                        missing_comma.to_string(),
-                    ),
-                    (end..end, format!("{newline}{indentation}{new}{comma}")),
-                ]
-            }
-            _ if anchor.comma.is_some() => vec![(gap.start..gap.start, format!(" {new},"))],
-            _ => vec![(gap.start..gap.start, format!(", {new}"))],
+        let has_comma = anchor.comma.is_some();
+        let indentation = indentation(&self.source, anchor.entry.start);
+        let line_break = self.line_break_in(gap.clone());
+        let (Some(indentation), Some(line_break)) = (indentation, line_break) else {
+            let on_same_line = if has_comma {
+                format!(" {new},")
+            } else {
+                format!(", {new}")
+            };
+            return vec![(gap.start..gap.start, on_same_line)];
+        };
+        let newline = if self.source[..line_break].ends_with('\r') {
+            "\r\n"
+        } else {
+            "\n"
+        };
+        let end = line_break + 1 - newline.len();
+        let on_next_line = format!("{newline}{indentation}{new}");
+        if has_comma {
+            vec![(end..end, on_next_line + ",")]
+        } else {
+            let value_end = anchor.value.end;
+            vec![
+                (value_end..value_end, ",".to_owned()),
+                (end..end, on_next_line),
+            ]
         }
     }
 
     /// Returns the first line break outside block comments, in a stretch of blanks and comments.
     fn line_break_in(&self, gap: Range<usize>) -> Option<usize> {
-        let mut breaks = self.source[gap.clone()]
-            .match_indices('\n')
-            .map(|(at, _)| gap.start + at);
-        let is_outside = |at: &usize| !self.comments.iter().any(|comment| comment.contains(at));
-        breaks.find(is_outside)
+        for (offset, _) in self.source[gap.clone()].match_indices('\n') {
+            let place = gap.start + offset;
+            if !self.comments.iter().any(|comment| comment.contains(&place)) {
+                return Some(place);
+            }
+        }
+        None
     }
 
     /// Returns the text after replacements in ascending order. Returns an error unless the value at
@@ -223,11 +234,37 @@ impl Text {
         for (range, new) in splices.into_iter().rev() {
             source.replace_range(range, &new);
         }
-        let text = Text::new(source)
-            .ok()
-            .filter(|text| text.written(path) == Some(value));
-        text.ok_or_else(|| NOT_ONE_VALUE.to_string())
+        match Text::new(source) {
+            Ok(text) if text.written(path) == Some(value) => Ok(text),
+            _ => Err(NOT_ONE_VALUE.to_owned()),
+        }
     }
+}
+
+/// One element of a list in the text.
+struct Part<'t> {
+    /// Blanks and comments before the value.
+    before: &'t str,
+    value: &'t str,
+    /// Comments after the value on its line, without the comma.
+    after: String,
+    /// Byte after the element.
+    end: usize,
+}
+
+/// Returns the last one of the entries whose names precede `name` in `order`.
+fn entry_before<'t>(entries: &[&'t TextSpan], name: &str, order: &[&str]) -> Option<&'t TextSpan> {
+    let rank = |name: &str| order.iter().position(|other| *other == name);
+    entries
+        .iter()
+        .copied()
+        .filter(|entry| rank(entry.name()) < rank(name))
+        .max_by_key(|entry| rank(entry.name()))
+}
+
+/// Returns the blanks with which a text begins.
+fn blank_start(text: &str) -> &str {
+    &text[..text.len() - text.trim_start().len()]
 }
 
 /// Returns the blanks before an offset in its line; `None` on the first line, or if other

@@ -43,30 +43,28 @@ pub struct TextSpan {
 
 /// Returns line and column of a byte offset in a text, both from 1, the column in characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
-    let ends = |offset: &usize| text.is_char_boundary(*offset);
-    let before = &text[..(0..=offset.min(text.len())).rev().find(ends).unwrap_or(0)];
+    let mut end = offset.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &text[..end];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (
-        before.matches('\n').count() + 1,
-        before[line_start..].chars().count() + 1,
-    )
+    let line = before.matches('\n').count() + 1;
+    let column = before[line_start..].chars().count() + 1;
+    (line, column)
 }
 
 /// Returns the byte offset of a line and column, or of the end of the line or the text if that
 /// comes first.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
-    let start: usize = lines
-        .by_ref()
-        .take(line.saturating_sub(1))
-        .map(str::len)
-        .sum();
+    let mut start = 0;
+    for line in lines.by_ref().take(line.saturating_sub(1)) {
+        start += line.len();
+    }
     let line = lines.next().unwrap_or_default().trim_end_matches('\n');
-    start
-        + line
-            .char_indices()
-            .nth(column.saturating_sub(1))
-            .map_or(line.len(), |(at, _)| at)
+    let character = line.char_indices().nth(column.saturating_sub(1));
+    start + character.map_or(line.len(), |(place, _)| place)
 }
 
 /// Returns true if a path equals another path or lies inside it.
@@ -89,7 +87,7 @@ impl Text {
         };
         let mut spans = Vec::new();
         if let Some(root) = tokens.root() {
-            tokens.add(String::new(), (root, root), &mut spans);
+            tokens.add(String::new(), root, root, &mut spans);
         }
         Ok(Text {
             source,
@@ -111,13 +109,15 @@ impl Text {
     /// Returns the offset of the first byte of the value at a path, or of the nearest group around
     /// it.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
-        let mut around = std::iter::successors(Some(path), |path| Some(path.rsplit_once('.')?.0));
-        let found = around.find_map(|path| self.span(path).filter(|_| !path.is_empty()));
-        let opening = || Some(self.spans.first()?.inside.as_ref()?.start - 1);
-        found
-            .map(|span| span.value.start)
-            .or_else(opening)
-            .unwrap_or(0)
+        let mut around = path;
+        while !around.is_empty() {
+            if let Some(span) = self.span(around) {
+                return span.value.start;
+            }
+            around = around.rsplit_once('.').map_or("", |(group, _)| group);
+        }
+        let root = self.spans.first().and_then(|root| root.inside.as_ref());
+        root.map_or(0, |inside| inside.start - 1)
     }
 
     /// Returns the value at a path as written, including `Some(…)` around it.
@@ -138,9 +138,7 @@ impl Text {
 
     /// Returns the values directly inside the group or list at a path, in order.
     pub(super) fn inside(&self, path: &str) -> Vec<&TextSpan> {
-        let group = |path: &str| path.rfind('.').unwrap_or(0);
-        let is_inside =
-            |span: &&TextSpan| !span.path.is_empty() && span.path[..group(&span.path)] == *path;
+        let is_inside = |span: &&TextSpan| !span.path.is_empty() && span.group() == path;
         self.spans.iter().filter(is_inside).collect()
     }
 
@@ -151,13 +149,23 @@ impl Text {
     /// Returns the path of the innermost value whose entry contains a byte offset; empty if there
     /// is none.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
-        let around = self
-            .spans
+        self.spans
             .iter()
-            .filter(|span| span.entry.contains(&offset));
-        around
+            .filter(|span| span.entry.contains(&offset))
             .max_by_key(|span| span.entry.start)
             .map_or("", |span| &span.path)
+    }
+}
+
+impl TextSpan {
+    /// Returns the path of the group or list around the value.
+    fn group(&self) -> &str {
+        self.path.rsplit_once('.').map_or("", |(group, _)| group)
+    }
+
+    /// Returns the last part of the path: a name, or a position in a list.
+    pub(super) fn name(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or_default()
     }
 }
 
@@ -172,52 +180,79 @@ impl Tokens<'_> {
     fn add(
         &self,
         path: String,
-        (start, first): (usize, usize),
+        start: usize,
+        first: usize,
         spans: &mut Vec<TextSpan>,
     ) -> Option<usize> {
-        let (end, inner) = (self.value_end(first)?, self.inside_some(first));
-        let bytes = |first: usize, end: usize| self.tokens[first].start..self.tokens[end - 1].end;
-        let open = if self.is(inner, Kind::Word) {
-            inner + 1
-        } else {
-            inner
-        };
-        let brackets = match self.tokens.get(open).map(|token| token.kind) {
-            Some(Kind::Open('(', close)) => Some((open, close)),
-            Some(Kind::Open('[', close)) if open == inner => Some((open, close)),
-            _ => None,
-        };
+        let end = self.value_end(first)?;
+        let inner = self.inside_some(first);
+        let brackets = self.brackets(inner);
         spans.push(TextSpan {
             path: path.clone(),
-            entry: bytes(start, end),
-            value: bytes(first, end),
-            bare: bytes(inner, self.value_end(inner)?),
+            entry: self.bytes(start, end),
+            value: self.bytes(first, end),
+            bare: self.bytes(inner, self.value_end(inner)?),
             inside: brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start),
             comma: self.is(end, Kind::Comma).then(|| self.tokens[end].end),
         });
         // Paths become longer from level to level, so that the levels are few.
-        if let Some((open, close)) = brackets.filter(|_| path.len() < LONGEST_PATH) {
-            let group = if path.is_empty() { path } else { path + "." };
-            let mut start = open + 1;
-            for index in 0.. {
-                let name = self.word(start).filter(|_| self.is(start + 1, Kind::Colon));
-                let first = if name.is_some() { start + 2 } else { start };
-                if self.value_end(first).is_none_or(|end| end > close) {
-                    break;
-                }
-                let path = name.map_or_else(
-                    || format!("{group}{index}"),
-                    |name| format!("{group}{name}"),
-                );
-                let end = self.add(path, (start, first), spans)?;
-                // Without a comma this is the last entry, regardless of the text after it.
-                if !self.is(end, Kind::Comma) {
-                    break;
-                }
-                start = end + 1;
-            }
+        if let Some((open, close)) = brackets
+            && path.len() < LONGEST_PATH
+        {
+            self.add_inside(&path, open, close, spans)?;
         }
         Some(end)
+    }
+
+    /// Indexes the values between two brackets.
+    fn add_inside(
+        &self,
+        group: &str,
+        open: usize,
+        close: usize,
+        spans: &mut Vec<TextSpan>,
+    ) -> Option<()> {
+        let mut start = open + 1;
+        for position in 0.. {
+            let name = if self.is(start + 1, Kind::Colon) {
+                self.word(start)
+            } else {
+                None
+            };
+            let first = if name.is_some() { start + 2 } else { start };
+            if self.value_end(first).is_none_or(|end| end > close) {
+                break;
+            }
+            let name = name.map_or_else(|| position.to_string(), str::to_owned);
+            let path = if group.is_empty() {
+                name
+            } else {
+                format!("{group}.{name}")
+            };
+            let end = self.add(path, start, first, spans)?;
+            // Without a comma this is the last entry, regardless of the text after it.
+            if !self.is(end, Kind::Comma) {
+                break;
+            }
+            start = end + 1;
+        }
+        Some(())
+    }
+
+    /// Returns the indices of the brackets of the value that starts at this token.
+    fn brackets(&self, first: usize) -> Option<(usize, usize)> {
+        let has_name = self.is(first, Kind::Word);
+        let open = if has_name { first + 1 } else { first };
+        match self.tokens.get(open)?.kind {
+            Kind::Open('(', close) => Some((open, close)),
+            Kind::Open('[', close) if !has_name => Some((open, close)),
+            _ => None,
+        }
+    }
+
+    /// Returns the bytes from one token to the one before `end`.
+    fn bytes(&self, first: usize, end: usize) -> Range<usize> {
+        self.tokens[first].start..self.tokens[end - 1].end
     }
 
     /// Returns the index of the token with which the whole value starts, after attributes such as

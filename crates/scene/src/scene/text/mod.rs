@@ -36,6 +36,12 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
+/// Writes a number of a scene in RON. A number that is not finite becomes `NaN`; no valid scene has
+/// one, and messages show it as the author wrote it.
+pub(in crate::scene) fn real_in_ron(value: f64) -> String {
+    ron_float(if value.is_finite() { value } else { f64::NAN })
+}
+
 /// Writes text as a RON string in quotes. Only characters that RON does not allow in a string are
 /// escaped.
 pub fn ron_string(text: &str) -> String {

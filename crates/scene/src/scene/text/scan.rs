@@ -36,7 +36,7 @@ pub struct Unreadable {
 }
 
 /// Tokens of a text, and the byte ranges of the comments between them.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Scan {
     pub(super) tokens: Vec<Token>,
     pub(super) comments: Vec<Range<usize>>,
@@ -48,20 +48,13 @@ const BLANKS: [char; 11] = [
 
 /// Divides a text with matching brackets into tokens.
 pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
-    let Scan {
-        mut tokens,
-        mut comments,
-    } = Scan::default();
+    let mut tokens: Vec<Token> = Vec::new();
+    let mut comments = Vec::new();
+    // Indices of the tokens that open a bracket, with their brackets.
     let mut open: Vec<(usize, char)> = Vec::new();
     let mut at = skip_blank(text, 0, &mut comments)?;
     while let Some(c) = text[at..].chars().next() {
         let start = at;
-        let fail = |reason| {
-            Err(Unreadable {
-                offset: start,
-                reason,
-            })
-        };
         at += c.len_utf8();
         let kind = match c {
             '(' | '[' | '{' => {
@@ -72,7 +65,7 @@ pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
                 let Some((opener, bracket)) =
                     open.pop().filter(|(_, bracket)| closing(*bracket) == c)
                 else {
-                    return fail("this bracket closes nothing");
+                    return Err(unreadable(start, "this bracket closes nothing"));
                 };
                 tokens[opener].kind = Kind::Open(bracket, tokens.len());
                 Kind::Close
@@ -84,7 +77,7 @@ pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
                     at = end;
                     Kind::Quoted
                 }
-                Some(Err(reason)) => return fail(reason),
+                Some(Err(reason)) => return Err(unreadable(start, reason)),
                 None => {
                     at = word_end(text, start);
                     Kind::Word
@@ -99,12 +92,16 @@ pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
         at = skip_blank(text, at, &mut comments)?;
     }
     match open.last() {
-        Some((opener, _)) => Err(Unreadable {
-            offset: tokens[*opener].start,
-            reason: "this bracket is not closed",
-        }),
+        Some((opener, _)) => {
+            let offset = tokens[*opener].start;
+            Err(unreadable(offset, "this bracket is not closed"))
+        }
         None => Ok(Scan { tokens, comments }),
     }
+}
+
+fn unreadable(offset: usize, reason: &'static str) -> Unreadable {
+    Unreadable { offset, reason }
 }
 
 fn closing(bracket: char) -> char {
@@ -115,39 +112,39 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// Returns the offset of the first byte from `at` on that is neither blank nor comment, and records
-/// the comments before it.
+/// Returns the offset of the first byte from `start` on that is neither blank nor comment, and
+/// records the comments before it.
 fn skip_blank(
     text: &str,
-    at: usize,
+    start: usize,
     comments: &mut Vec<Range<usize>>,
 ) -> Result<usize, Unreadable> {
-    let mut at = at;
+    let mut start = start;
     loop {
-        let rest = &text[at..];
-        let next = at + rest.find(|c| !BLANKS.contains(&c)).unwrap_or(rest.len());
-        match comment_end(text, next)? {
-            Some(end) => {
-                comments.push(next..end);
-                at = end;
-            }
-            None => return Ok(next),
-        }
+        let rest = &text[start..];
+        let blanks = rest.find(|sign| !BLANKS.contains(&sign));
+        let next = start + blanks.unwrap_or(rest.len());
+        let Some(end) = comment_end(text, next)? else {
+            return Ok(next);
+        };
+        comments.push(next..end);
+        start = end;
     }
 }
 
 /// Returns the end of the comment that starts at this byte: the line break after `//`, the byte
 /// after `/* */`. Returns `None` if no comment starts there. Block comments may be nested.
-fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
-    let rest = &text[at..];
+fn comment_end(text: &str, start: usize) -> Result<Option<usize>, Unreadable> {
+    let rest = &text[start..];
     if rest.starts_with("//") {
-        return Ok(Some(at + rest.find('\n').unwrap_or(rest.len())));
+        return Ok(Some(start + rest.find('\n').unwrap_or(rest.len())));
     }
     if !rest.starts_with("/*") {
         return Ok(None);
     }
     let bytes = rest.as_bytes();
-    let (mut level, mut index) = (0_usize, 0);
+    let mut level = 0_usize;
+    let mut index = 0;
     while index + 1 < bytes.len() {
         match &bytes[index..index + 2] {
             b"/*" => {
@@ -158,24 +155,21 @@ fn comment_end(text: &str, at: usize) -> Result<Option<usize>, Unreadable> {
                 level -= 1;
                 index += 2;
                 if level == 0 {
-                    return Ok(Some(at + index));
+                    return Ok(Some(start + index));
                 }
             }
             _ => index += 1,
         }
     }
-    Err(Unreadable {
-        offset: at,
-        reason: "this comment is not closed",
-    })
+    Err(unreadable(start, "this comment is not closed"))
 }
 
 /// Returns the end of the string or character that starts at this byte; `None` if none starts
 /// there.
-fn quoted_end(text: &str, at: usize) -> Option<Result<usize, &'static str>> {
-    let rest = &text[at..];
+fn quoted_end(text: &str, start: usize) -> Option<Result<usize, &'static str>> {
+    let rest = &text[start..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
-    let inside = at + rest.len() - unprefixed.len() + 1;
+    let inside = start + rest.len() - unprefixed.len() + 1;
     if unprefixed.starts_with('"') {
         return Some(escaped_end(text, inside, '"'));
     }
@@ -205,8 +199,8 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
 }
 
 /// Returns the end of the identifier or number that starts at this byte.
-fn word_end(text: &str, at: usize) -> usize {
-    let rest = &text[at..];
+fn word_end(text: &str, start: usize) -> usize {
+    let rest = &text[start..];
     let mut characters = rest.char_indices().skip(1);
     let end = characters.find(|(_, c)| {
         BLANKS.contains(c)
@@ -215,5 +209,5 @@ fn word_end(text: &str, at: usize) -> usize {
                 '(' | ')' | '[' | ']' | '{' | '}' | ',' | ':' | '"' | '\'' | '/'
             )
     });
-    at + end.map_or(rest.len(), |(end, _)| end)
+    start + end.map_or(rest.len(), |(end, _)| end)
 }

@@ -1,0 +1,56 @@
+//! Numbers of a scene by their paths, as studies read and set them.
+
+use super::adhesion::Adhesion;
+use super::errors::NumberError;
+use super::fields::FIELDS;
+use super::model::Scene;
+
+impl Scene {
+    /// Returns the number at a path, such as `form.radius`, `roughness.modes.0` or `loading.1.0`;
+    /// `None` if there is no number.
+    ///
+    /// ```
+    /// let sphere = asperity_scene::open("jkr-sphere")?;
+    /// assert_eq!(sphere.scene().number("length"), Some(1.0e-4));
+    /// assert_eq!(sphere.scene().number("form.angle"), None);
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    pub fn number(&self, path: &str) -> Option<f64> {
+        FIELDS
+            .iter()
+            .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
+    }
+
+    /// Sets the number at a path without checking its range. A number that the scene leaves out is
+    /// added.
+    ///
+    /// # Errors
+    /// Returns an error, and leaves the scene as it was, if the scene can have no number at this
+    /// path or if the number contradicts another one.
+    ///
+    /// ```
+    /// use asperity_scene::fields::NumberError;
+    ///
+    /// let mut scene = asperity_scene::Scene::clone(asperity_scene::open("jkr-sphere")?.scene());
+    /// scene.set_number("length", 2.0e-4).unwrap();
+    /// assert_eq!(scene.length, 2.0e-4);
+    /// assert_eq!(scene.set_number("width", 1.0), Err(NumberError::Missing));
+    /// # Ok::<(), asperity_scene::Error>(())
+    /// ```
+    pub fn set_number(&mut self, path: &str, number: f64) -> Result<(), NumberError> {
+        for field in FIELDS {
+            let Some(inside) = field.inside_path(path) else {
+                continue;
+            };
+            if let Some(slot) = (field.place.slot_mut)(self)
+                && slot.set_number(inside, number)
+            {
+                return Ok(());
+            }
+        }
+        // Which numbers an adhesion can have depends on those that it has already.
+        let name = path.strip_prefix("adhesion.").ok_or(NumberError::Missing)?;
+        self.adhesion = Some(Adhesion::with_number(self.adhesion, name, number)?);
+        Ok(())
+    }
+}

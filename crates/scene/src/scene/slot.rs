@@ -1,0 +1,320 @@
+//! Slots of a scene: the places of its values, to which the rows of the table of fields refer.
+
+use super::adhesion::Adhesion;
+use super::model::{Material, Numerics, Observer, Roughness, Scene, Solver};
+use super::stages::StageKind;
+use asperity_contact::{Edges, Move};
+use asperity_surface::{Detrend, Form};
+
+/// Value of a field in a scene, in the kind of its range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Value<'s> {
+    Real(f64),
+    Whole(u64),
+    Flag(bool),
+    Text(&'s str),
+    Texts(&'s [String]),
+    /// First and last mode.
+    Modes(u64, u64),
+    /// Longest and shortest wavelength in m.
+    Wavelengths(f64, f64),
+    /// Name of the selected choice. The numbers of a choice are fields of their own.
+    Choice(&'static str),
+    /// A group without a name. Its values are fields of their own.
+    Group,
+    Stages(&'s [Move]),
+    Observers(&'s [Observer]),
+}
+
+impl Value<'_> {
+    /// Returns the name of the selected choice.
+    pub(super) fn choice(&self) -> Option<&'static str> {
+        match self {
+            Value::Choice(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// Returns the number at a path inside this value: at the empty path the number itself, at `0`
+    /// and `1` the numbers of a pair, at `2.0` the number of the third loading stage.
+    pub(super) fn number(&self, inside: &str) -> Option<f64> {
+        match (*self, inside) {
+            (Value::Real(number), "") => Some(number),
+            (Value::Whole(number), "") => Some(number as f64),
+            (Value::Modes(first, _), "0") => Some(first as f64),
+            (Value::Modes(_, last), "1") => Some(last as f64),
+            (Value::Wavelengths(longest, _), "0") => Some(longest),
+            (Value::Wavelengths(_, shortest), "1") => Some(shortest),
+            (Value::Stages(stages), inside) => {
+                let (_, number) = StageKind::of(stages.get(stage_index(inside)?)?);
+                number
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Returns the index of a loading stage from the path of its number inside the loading, `2.0`.
+fn stage_index(inside: &str) -> Option<usize> {
+    inside.strip_suffix(".0")?.parse().ok()
+}
+
+/// Place of a value in a scene, which holds the value or leaves it out.
+pub(super) trait Slot {
+    /// Returns the value; `None` if it is left out.
+    fn value(&self) -> Option<Value<'_>>;
+
+    /// Sets the number at a path inside this slot, as [`Value::number`] reads it. Returns false if
+    /// the slot has no number there.
+    fn set_number(&mut self, _inside: &str, _number: f64) -> bool {
+        false
+    }
+
+    /// Returns a slot that holds a number where it was left out; `None` for other slots.
+    fn of_number(_number: f64) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
+    }
+}
+
+impl<T: Slot> Slot for Option<T> {
+    fn value(&self) -> Option<Value<'_>> {
+        self.as_ref()?.value()
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        if let Some(slot) = self {
+            return slot.set_number(inside, number);
+        }
+        if inside.is_empty() {
+            *self = T::of_number(number);
+        }
+        self.is_some()
+    }
+}
+
+impl Slot for f64 {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Real(*self))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        if !inside.is_empty() {
+            return false;
+        }
+        *self = number;
+        true
+    }
+
+    fn of_number(number: f64) -> Option<f64> {
+        Some(number)
+    }
+}
+
+impl Slot for u64 {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Whole(*self))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        if !inside.is_empty() {
+            return false;
+        }
+        *self = number as u64;
+        true
+    }
+
+    fn of_number(number: f64) -> Option<u64> {
+        Some(number as u64)
+    }
+}
+
+impl Slot for u32 {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Whole(u64::from(*self)))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        if !inside.is_empty() {
+            return false;
+        }
+        *self = number as u32;
+        true
+    }
+}
+
+impl Slot for (u64, u64) {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Modes(self.0, self.1))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        match inside {
+            "0" => self.0 = number as u64,
+            "1" => self.1 = number as u64,
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Slot for (f64, f64) {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Wavelengths(self.0, self.1))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        match inside {
+            "0" => self.0 = number,
+            "1" => self.1 = number,
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Slot for Vec<Move> {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Stages(self))
+    }
+
+    fn set_number(&mut self, inside: &str, number: f64) -> bool {
+        let Some(stage) = stage_index(inside).and_then(|index| self.get_mut(index)) else {
+            return false;
+        };
+        let (kind, present) = StageKind::of(stage);
+        if present.is_none() {
+            return false;
+        }
+        *stage = (StageKind::ALL[kind].stage)(number);
+        true
+    }
+}
+
+impl Slot for bool {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Flag(*self))
+    }
+}
+
+impl Slot for String {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Text(self))
+    }
+}
+
+impl Slot for Vec<String> {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Texts(self))
+    }
+}
+
+impl Slot for Vec<Observer> {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Observers(self))
+    }
+}
+
+impl Slot for Form {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Choice(self.into()))
+    }
+}
+
+impl Slot for Roughness {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Choice(self.into()))
+    }
+}
+
+impl Slot for Detrend {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Choice(self.into()))
+    }
+}
+
+impl Slot for Solver {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Choice(self.into()))
+    }
+}
+
+impl Slot for Edges {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Choice(self.name()))
+    }
+}
+
+impl Slot for Material {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Group)
+    }
+}
+
+impl Slot for Adhesion {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Group)
+    }
+}
+
+impl Slot for Numerics {
+    fn value(&self) -> Option<Value<'_>> {
+        Some(Value::Group)
+    }
+}
+
+/// Place of a field in every scene: functions that return its slot in a scene, for reading and for
+/// writing, or `None` if the scene has another choice. The macro `place!` makes both functions from
+/// one expression.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Choice that has the field, such as `Cone` for an angle.
+    pub(super) choice: Option<&'static str>,
+    pub(super) slot: fn(&Scene) -> Option<&dyn Slot>,
+    pub(super) slot_mut: fn(&mut Scene) -> Option<&mut dyn Slot>,
+}
+
+impl Place {
+    /// Place of a parameter that is no field of a scene, such as the number of a loading stage.
+    pub(super) const NOWHERE: Place = Place {
+        choice: None,
+        slot: |_| None,
+        slot_mut: |_| None,
+    };
+
+    /// Returns this place as one that only this choice has.
+    pub(super) const fn of(self, choice: &'static str) -> Place {
+        Place {
+            choice: Some(choice),
+            ..self
+        }
+    }
+}
+
+/// Makes the [`Place`] of a member of every scene, such as `place!(numerics.points)`, or of a member
+/// that some scenes have, such as `place!(form, Some(Form::Cone { angle }) => angle)`.
+macro_rules! place {
+    ($($member:ident).+) => {
+        $crate::scene::slot::Place {
+            choice: None,
+            slot: |scene| Some(&scene.$($member).+),
+            slot_mut: |scene| Some(&mut scene.$($member).+),
+        }
+    };
+    ($($group:ident).+, $pattern:pat => $member:ident) => {
+        $crate::scene::slot::Place {
+            choice: None,
+            slot: |scene| match &scene.$($group).+ {
+                $pattern => Some($member),
+                _ => None,
+            },
+            slot_mut: |scene| match &mut scene.$($group).+ {
+                $pattern => Some($member),
+                _ => None,
+            },
+        }
+    };
+}
+pub(super) use place;
