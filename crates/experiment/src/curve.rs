@@ -4,9 +4,9 @@
 use crate::baseline::{ends, right_angled};
 use crate::error::{ExperimentError, refused};
 use crate::free::FEWEST;
-use crate::options::{CurveOptions, Drift, Negate, Tilt};
 use crate::points::{Points, ends_free, kept};
 use crate::read::Columns;
+use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
 use crate::segment::{Segments, are_shuffled};
 use crate::zero::FreeParts;
 use asperity_data::{format_quantity, grouped, mean};

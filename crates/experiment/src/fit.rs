@@ -352,7 +352,7 @@ mod tests {
     use crate::made::{
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
-    use crate::options::Drift;
+    use crate::read::options::Drift;
     use crate::reason::Reason;
     use asperity_contact::Move;
 

@@ -15,17 +15,13 @@
 //! * Errors: an [`ExperimentError`] says why a curve cannot be read or fitted.
 
 mod baseline;
-mod columns;
 mod curve;
 mod ensemble;
 mod error;
 mod fit;
 mod fit_result;
-mod foreign;
 mod free;
-mod metadata;
 mod model;
-mod options;
 mod parameter;
 mod points;
 mod population;
@@ -37,7 +33,6 @@ mod segment;
 mod space;
 mod start;
 mod statistics;
-mod text;
 mod zero;
 
 #[cfg(test)]
@@ -55,6 +50,6 @@ pub use ensemble::result::{
 pub use error::ExperimentError;
 pub use fit::Fit;
 pub use fit_result::{FitResult, FittedParameter};
-pub use options::{CurveOptions, Drift, Negate, Tilt};
 pub use parameter::{Free, Parameter, ParameterRow};
+pub use read::options::{CurveOptions, Drift, Negate, Tilt};
 pub use reason::Reason;

@@ -3,8 +3,8 @@
 use crate::curve::MeasuredCurve;
 use crate::fit::Fit;
 use crate::fit_result::FitResult;
-use crate::options::{CurveOptions, Drift};
 use crate::parameter::{Free, Parameter};
+use crate::read::options::{CurveOptions, Drift};
 use crate::scene::radius_of;
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::Control;

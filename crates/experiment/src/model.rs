@@ -355,7 +355,7 @@ impl Sampling {
 mod tests {
     use super::*;
     use crate::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
-    use crate::options::Drift;
+    use crate::read::options::Drift;
     use crate::scene::radius_of;
     use crate::statistics::scale;
 

@@ -3,7 +3,7 @@
 use crate::baseline::{Baseline, ends};
 use crate::error::{ExperimentError, refused};
 use crate::free::{FEWEST, free_count};
-use crate::options::{CurveOptions, Negate};
+use crate::read::options::{CurveOptions, Negate};
 use crate::segment::Segments;
 use asperity_data::{format_quantity, mean};
 use std::ops::Range;

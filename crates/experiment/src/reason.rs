@@ -297,7 +297,7 @@ fn branches_differ(
 mod tests {
     use super::*;
     use crate::made::from_text;
-    use crate::options::CurveOptions;
+    use crate::read::options::CurveOptions;
     use crate::scene::values_of;
     use asperity_scene::{Document, open};
     use std::fmt::Write;

@@ -217,7 +217,7 @@ pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
 mod tests {
     use super::*;
     use crate::made::{on_rubber, read, rubber};
-    use crate::options::Drift;
+    use crate::read::options::Drift;
 
     #[test]
     fn values_found_are_written_where_they_belong() {

@@ -2,6 +2,7 @@
 //! them.
 
 use crate::baseline::ends;
+use crate::read::Label;
 
 /// Share of the range by which the displacement comes back after a turning point, and share of the
 /// points that a smoothed displacement averages.
@@ -15,25 +16,6 @@ const MORE: f64 = 8.0;
 /// Mean step between points, over the range of the displacement, above which the rows are not in
 /// the order of time.
 const SHUFFLED: f64 = 0.2;
-
-/// Label of the points in a part of a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Label {
-    /// Number of the part. Another name begins another part.
-    pub part: usize,
-    /// True if the name of the part means a pause.
-    pub is_pause: bool,
-}
-
-impl Label {
-    /// Makes the label of an approach or a retraction.
-    pub fn of_part(part: usize) -> Label {
-        Label {
-            part,
-            is_pause: false,
-        }
-    }
-}
 
 pub(crate) struct Segments {
     /// Index of the segment of each point, from 0.

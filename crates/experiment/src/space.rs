@@ -256,7 +256,7 @@ impl<'a> Space<'a> {
 mod tests {
     use super::*;
     use crate::made::{on_rubber, read, rubber};
-    use crate::options::Drift;
+    use crate::read::options::Drift;
     use std::f64::consts::PI;
 
     /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR)

@@ -4,8 +4,8 @@
 use crate::baseline::{Baseline, ends};
 use crate::error::{ExperimentError, refused};
 use crate::free::{FEWEST, NoBaseline, Slopes, free_count};
-use crate::options::{CurveOptions, Drift, Tilt};
 use crate::points::Points;
+use crate::read::options::{CurveOptions, Drift, Tilt};
 use asperity_data::{format_quantity, mean};
 use std::ops::Range;
 

@@ -10,7 +10,7 @@ use super::specimens::{document, scene};
 use super::summary::{NAMES, Summaries};
 use crate::curve::MeasuredCurve;
 use crate::made::gauss;
-use crate::options::{CurveOptions, Negate};
+use crate::read::options::{CurveOptions, Negate};
 use asperity_contact::Move;
 use asperity_data::{Control, between, mean, standard_deviation};
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};

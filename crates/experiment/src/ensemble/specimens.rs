@@ -2,7 +2,7 @@
 
 use crate::curve::MeasuredCurve;
 use crate::made::{from_text, gauss, lines};
-use crate::options::{CurveOptions, Negate};
+use crate::read::options::{CurveOptions, Negate};
 use asperity_contact::{CurvePoint, Move};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
 

@@ -1,46 +1,16 @@
 //! The columns of a measured curve: which columns hold displacement, force and segment, and in
 //! which units.
 
-use crate::metadata::Metadata;
-use crate::options::CurveOptions;
+use crate::read::metadata::Metadata;
+use crate::read::names::{
+    OF_BODY, QUANTITIES, SEGMENT, direction, is_one_of, is_unit, letters, unit,
+};
+use crate::read::options::CurveOptions;
 use asperity_data::text_table::TextColumn;
 use asperity_data::{format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// For displacement and force: name in words, SI unit, example of a unit, and known names of
-/// columns as letters. Preferred names come first. The displacement of the instrument is preferred
-/// to the displacement of the body, which lacks the deflection of the instrument. A force is
-/// preferred to a deflection.
-const QUANTITIES: [(&str, &str, &str, &str); 2] = [
-    (
-        "displacement",
-        "m",
-        "nm",
-        "displacement heightmeasured measuredheight smoothedmeasuredheight straingaugeheight smoothedstraingaugeheight \
-         capacitivesensorheight zsense zsensor zsnsr piezo piezoposition piezodisplacement piezoz zpiezo calcramp ramp \
-         stageposition stagedisplacement motorposition position height distance heightpiezo zposition zheight indentation \
-         tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth d z x",
-    ),
-    (
-        "force",
-        "N",
-        "nN",
-        "force normalforce load appliedload vdeflection verticaldeflection deflection defl dfl cantileverdeflection \
-         cantilever memsdisplacement memsdispl tb fn f",
-    ),
-];
-/// Names of columns with the displacement of the body, without the deflection of the instrument.
-const OF_BODY: &str = "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
-/// Names of a column of segments.
-const SEGMENT: &str = "segment segmentname segmenttype phase direction";
-/// Words for approach and for retraction in the names of columns side by side, and words for a
-/// pause in the names of segments.
-const DIRECTIONS: [&str; 2] = [
-    "approach approaching extend extension ext ex trace loading advance forward",
-    "retraction retract retracting ret rt retrace withdraw unloading backward",
-];
-const PAUSES: &str = "pause hold dwell delay wait";
 /// Displacement per row in m, used before the rows have displacements.
 const OF_ROW: f64 = 1e-9;
 /// Option that helps if the columns are not recognised.
@@ -378,48 +348,4 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
         ([None, _], _) => Err(QUANTITIES[0].0),
         ([_, None], _) => Err(QUANTITIES[1].0),
     }
-}
-
-fn is_one_of(word: &str, words: &str) -> bool {
-    words.split(' ').any(|one| one == word)
-}
-
-/// The letters of a name in lower case, so that `Z-Sense` and `z_sense` are the same.
-fn letters(name: &str) -> String {
-    name.chars()
-        .filter(|c| c.is_alphanumeric())
-        .flat_map(char::to_lowercase)
-        .collect()
-}
-
-/// Direction that a word states: 0 approach, 1 retraction.
-fn direction(word: &str) -> Option<usize> {
-    let word = letters(word);
-    DIRECTIONS.iter().position(|words| is_one_of(&word, words))
-}
-
-/// Returns true for the name of a segment in which the instrument waits.
-pub(crate) fn is_pause(text: &str) -> bool {
-    text.split(|c: char| !c.is_alphanumeric())
-        .any(|word| is_one_of(&letters(word), PAUSES))
-}
-
-/// Returns true for a line that names a segment.
-pub(crate) fn names_segment(text: &str) -> bool {
-    is_pause(text)
-        || text
-            .split(|c: char| !c.is_alphanumeric())
-            .any(|word| direction(word).is_some())
-}
-
-/// Returns true for a unit of length, force or voltage.
-pub(crate) fn is_unit(text: &str) -> bool {
-    QUANTITIES.iter().any(|row| unit(text, row.1).is_some())
-}
-
-/// A unit, such as nm, as a number of SI units.
-fn unit(text: &str, si: &str) -> Option<f64> {
-    parse_quantity(&format!("1 {text}"), si)
-        .ok()
-        .filter(|_| text.ends_with(si))
 }

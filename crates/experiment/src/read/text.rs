@@ -1,7 +1,7 @@
 //! Where the points of a text begin, and what the lines above them say.
 
-use crate::columns::is_unit;
-use crate::metadata::Metadata;
+use crate::read::metadata::Metadata;
+use crate::read::names::is_unit;
 use asperity_data::text_table::{
     COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, TextFault, each_line,
 };
@@ -152,7 +152,7 @@ impl Above {
 mod tests {
     use crate::curve::MeasuredCurve;
     use crate::made::{assert_same, from_text, lines, of_spring};
-    use crate::options::CurveOptions;
+    use crate::read::options::CurveOptions;
 
     /// Head and rows of a text, joined by line ends.
     fn joined(head: &str, count: usize, line: &dyn Fn(usize) -> String) -> String {

@@ -1,13 +1,19 @@
 //! Columns of a measured curve in SI units, read from text, CSV or a NumPy array.
 
-use crate::baseline::ends;
-use crate::columns::{Choice, Pair, Stated, is_pause, names_segment};
+pub(crate) mod columns;
+pub(crate) mod foreign;
+pub(crate) mod metadata;
+pub(crate) mod names;
+pub(crate) mod options;
+pub(crate) mod text;
+
 use crate::error::ExperimentError;
-use crate::foreign::check_is_text;
-use crate::metadata::Metadata;
-use crate::options::CurveOptions;
-use crate::segment::Label;
-use crate::text::{Above, Shape, beginning, is_comment, segment_of};
+use crate::read::columns::{Choice, Pair, Stated};
+use crate::read::foreign::check_is_text;
+use crate::read::metadata::Metadata;
+use crate::read::names::{is_pause, names_segment};
+use crate::read::options::CurveOptions;
+use crate::read::text::{Above, Shape, beginning, is_comment, segment_of};
 use asperity_data::text_table::{Decimal, ONE_MARK, TextCell, TextColumn, each_line};
 use asperity_data::{PROVENANCE, grouped, npy, shown};
 use asperity_surface::files::{columns as npy_columns, refused, unpacked};
@@ -20,6 +26,25 @@ const LARGEST: [f64; 2] = [1e3, 1e6];
 /// Distance from the central nine tenths of the displacements, in units of their range, beyond
 /// which a few displacements are errors of the file.
 const WILD: f64 = 10.0;
+
+/// Label of the points in a part of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Label {
+    /// Number of the part. Another name begins another part.
+    pub part: usize,
+    /// True if the name of the part means a pause.
+    pub is_pause: bool,
+}
+
+impl Label {
+    /// Makes the label of an approach or a retraction.
+    pub fn of_part(part: usize) -> Label {
+        Label {
+            part,
+            is_pause: false,
+        }
+    }
+}
 
 /// Columns of a file in SI units, without the points at which a value is missing.
 #[derive(Debug, Default)]
@@ -220,7 +245,8 @@ impl Columns {
             && (1..=(count / 50).max(1)).contains(&wild)
             && let Some(first) = self.displacement.iter().position(&is_wild)
         {
-            let (low, high) = ends(sorted.into_iter().filter(|at| !is_wild(at)));
+            sorted.retain(|at| !is_wild(at));
+            let (low, high) = (sorted[0], sorted[sorted.len() - 1]);
             return Err(refused(
                 place(self.places[first]),
                 format!(
