@@ -1,8 +1,8 @@
 //! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit
 //! also finds the parameters that the curve cannot separate.
 
-use crate::baseline::dot;
 use crate::curve::MeasuredCurve;
+use crate::curve::numerics::{correlated, dot};
 use crate::error::ExperimentError;
 use crate::fit_result::{FitResult, FittedParameter};
 use crate::model::Model;
@@ -12,7 +12,7 @@ use crate::reason::reason;
 use crate::scene::{with_values, wrong};
 use crate::search::{Found, MISFIT, Search};
 use crate::space::Space;
-use crate::statistics::{Spread, block_error, correlated, correlation, spread, widen};
+use crate::statistics::{Spread, block_error, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
 use asperity_scene::{Document, Simulation};
 

@@ -14,26 +14,21 @@
 //!   [`RoughnessShifts`], [`SummaryDeviation`]s and a [`CurveOfEnsemble`] for each curve.
 //! * Errors: an [`ExperimentError`] says why a curve cannot be read or fitted.
 
-mod baseline;
 mod curve;
 mod ensemble;
 mod error;
 mod fit;
 mod fit_result;
-mod free;
 mod model;
 mod parameter;
-mod points;
 mod population;
 mod read;
 mod reason;
 mod scene;
 mod search;
-mod segment;
 mod space;
 mod start;
 mod statistics;
-mod zero;
 
 #[cfg(test)]
 mod coverage;

@@ -1,7 +1,7 @@
 //! The force of a scene at the measured displacements, for any values of the parameters.
 
-use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
+use crate::curve::numerics::ends;
 use crate::error::ExperimentError;
 use crate::parameter::{Parameter, Values};
 use asperity_contact::motion::Leg;

@@ -1,9 +1,8 @@
 //! The reason why a model does not describe a curve, found from the pattern of the residuals.
 
-use crate::baseline::{dot, ends, right_angled, take_off};
 use crate::curve::MeasuredCurve;
+use crate::curve::numerics::{dot, ends, least_squares, right_angled, take_off};
 use crate::error::ExperimentError;
-use crate::free::least_squares;
 use crate::model::Model;
 use crate::parameter::{Parameter, Values};
 use asperity_data::{Warning, format_quantity, median};

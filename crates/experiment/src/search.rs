@@ -11,7 +11,7 @@
 //! copies separate again. In the end the members are distributed as the noise allows. The start is
 //! no member, because a start close to the result would be copied to the whole population.
 
-use crate::baseline::{dot, ends};
+use crate::curve::numerics::{dot, ends};
 use crate::error::{ExperimentError, refused};
 use crate::model::Model;
 use crate::parameter::{Coordinate, Parameter};

@@ -1,7 +1,7 @@
 //! The coordinates in which a scene is fitted, and their ranges and starts from the curve.
 
-use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
+use crate::curve::numerics::ends;
 use crate::error::{ExperimentError, refused};
 use crate::parameter::{Coordinate, Free, Parameter, Values};
 use crate::population::WRONG_SIDE;

@@ -1,8 +1,8 @@
 //! Values at which a fit begins. They follow from the curve and the known parameters; the values of
 //! the scene for free parameters have no effect.
 
-use crate::baseline::ends;
 use crate::curve::MeasuredCurve;
+use crate::curve::numerics::ends;
 use crate::error::ExperimentError;
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, Modulus};

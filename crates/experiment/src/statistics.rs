@@ -1,10 +1,7 @@
 //! Statistics of samples and residuals.
 
-use crate::baseline::dot;
+use crate::curve::numerics::dot;
 use asperity_data::{mean, quantile, standard_deviation};
-
-/// Smallest number of independent ranges that a curve is assumed to have.
-const RANGES: usize = 20;
 
 /// Number of parts into which each segment is divided as blocks of the curve.
 pub(crate) const PARTS: usize = 4;
@@ -59,19 +56,6 @@ pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
             .sqrt()
     };
     [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
-}
-
-/// Returns the factor by which correlation of the residuals along the curve increases the variance
-/// of their mean; 1 without correlation.
-pub(crate) fn correlated(residuals: &[f64]) -> f64 {
-    let square = dot(residuals, residuals);
-    let least = 2.0 / (residuals.len() as f64).sqrt();
-    let correlations =
-        (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
-    1.0 + 2.0
-        * correlations
-            .take_while(|correlation| *correlation > least)
-            .sum::<f64>()
 }
 
 fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
@@ -182,28 +166,6 @@ mod tests {
             ),
             (0.0, 0.0)
         );
-    }
-
-    #[test]
-    fn correlated_residuals_count_less() {
-        // Sines of 16 points a period, and their values in an order without correlation.
-        let sine = |index: usize| (std::f64::consts::TAU * index as f64 / 16.0).sin();
-        let smooth: Vec<f64> = (0..480).map(sine).collect();
-        let factor = correlated(&smooth);
-        // 1 + 2 Σ cos(2πn/16) up to the first that is close to 0.
-        let expected: f64 = 1.0
-            + 2.0
-                * (1..4)
-                    .map(|lag| sine(4 + lag) * (480 - lag) as f64 / 480.0)
-                    .sum::<f64>();
-        assert!(
-            (factor / expected - 1.0).abs() < 0.01,
-            "{factor} {expected}"
-        );
-        let turned: Vec<f64> = (0..480).map(|index| sine(index * index * 7)).collect();
-        assert!(correlated(&turned) < 2.0, "{}", correlated(&turned));
-        let alternating: Vec<f64> = (0..480).map(|index| [1.0, -1.0][index % 2]).collect();
-        assert_eq!(correlated(&alternating), 1.0);
     }
 
     #[test]

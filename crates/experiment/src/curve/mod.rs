@@ -1,14 +1,19 @@
 //! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing
 //! is positive.
 
-use crate::baseline::{ends, right_angled};
+pub(crate) mod free_parts;
+pub(crate) mod numerics;
+pub(crate) mod points;
+pub(crate) mod segments;
+pub(crate) mod zero;
+
+use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
+use crate::curve::numerics::{ends, right_angled};
+use crate::curve::points::Points;
+use crate::curve::segments::{Segments, are_shuffled};
 use crate::error::{ExperimentError, refused};
-use crate::free::FEWEST;
-use crate::points::{Points, ends_free, kept};
 use crate::read::Columns;
 use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
-use crate::segment::{Segments, are_shuffled};
-use crate::zero::FreeParts;
 use asperity_data::{format_quantity, grouped, mean};
 use asperity_surface::files::content;
 use std::path::Path;
@@ -366,6 +371,40 @@ fn in_order(
     force.rotate_left(first);
     segments.exchange(first);
     Some("the retraction comes first and was put behind the approach")
+}
+
+/// Returns the indices of the points of the chosen segments without pauses; of all segments if none
+/// is chosen.
+fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
+    let all = 0..points.force.len();
+    let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
+    if let Some(wrong) = options
+        .segments
+        .iter()
+        .find(|number| !numbers.contains(*number))
+    {
+        let allowed = numbers
+            .map(|number| number.to_string())
+            .collect::<Vec<_>>()
+            .join(", ");
+        return refused(
+            format!("--segments {wrong}: the curve has no such segment"),
+            allowed,
+        );
+    }
+    let is_chosen = |index: usize| {
+        options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1))
+    };
+    let is_kept = |index: &usize| is_chosen(*index) && !points.is_still[*index];
+    let kept: Vec<usize> = all.filter(is_kept).collect();
+    if kept.len() < 2 * FEWEST {
+        let fault = format!(
+            "{} points in the segments that are used, without pauses",
+            kept.len()
+        );
+        return refused(fault, format!("at least {}", 2 * FEWEST));
+    }
+    Ok(kept)
 }
 
 /// Returns the numbers of points that are used, that lie before or after contact, and that belong

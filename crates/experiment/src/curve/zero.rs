@@ -1,13 +1,11 @@
-//! The points of a curve without contact, and the zero, drift and tilt of the force at these
-//! points.
+//! The zero, the drift and the tilt of the force, from the points without contact.
 
-use crate::baseline::{Baseline, ends};
+use crate::curve::free_parts::{FEWEST, FreeParts};
+use crate::curve::numerics::{Baseline, dot, least_squares, right_angled, take_off};
+use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
-use crate::free::{FEWEST, NoBaseline, Slopes, free_count};
-use crate::points::Points;
 use crate::read::options::{CurveOptions, Drift, Tilt};
 use asperity_data::{format_quantity, mean};
-use std::ops::Range;
 
 /// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
 const REMAINS: f64 = 5.0;
@@ -17,90 +15,67 @@ const REMAINS: f64 = 5.0;
 const CURVED: f64 = 1.5;
 const DOMINATES: f64 = 20.0;
 
-/// Points without contact: at the beginning of an approach and at the end of a retraction.
-pub(crate) struct FreeParts {
-    pub before: Option<usize>,
-    /// Number of points after contact at the end; 0 if there are few.
-    pub after: usize,
-    /// Time and displacement of each point, as shares of the whole curve.
-    pub shares: [Vec<f64>; 2],
+/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is
+/// the change from the first to the last point of the curve. The tilt is the change over the range
+/// of the displacement. The step is the difference of the force after and before contact that
+/// neither drift nor tilt explains.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Slopes {
+    pub zero: f64,
+    pub drift: (f64, f64),
+    pub tilt: (f64, f64),
+    pub step: (f64, f64),
 }
 
-impl FreeParts {
-    pub fn of(
-        points: &Points,
-        options: &CurveOptions,
-        averaged: usize,
-        least: f64,
-    ) -> Result<Self, ExperimentError> {
-        let count = points.force.len();
-        let approach = &points.force[points.moving(0)];
-        let is_retraction = approach.is_empty();
-        let asked = options.free_points.map(|free| free / averaged);
-        let before = match asked.filter(|_| !is_retraction) {
-            Some(free) => Ok(free),
-            None => free_count(approach, least),
+impl Slopes {
+    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or
+    /// 0 before, force). Time and displacement are shares of the whole curve. Slopes that are not
+    /// selected are 0. Returns `None` if the points cannot separate the slopes.
+    pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
+        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
+        let mut columns = vec![vec![1.0; points.len()]];
+        columns.extend((0..3).filter(|of| is_asked[*of]).map(column));
+        let mut found = least_squares(&columns, &column(3))?.into_iter();
+        let zero = found.next()?.0;
+        let mut slope = |of: usize| {
+            if is_asked[of] {
+                found.next()
+            } else {
+                Some((0.0, 0.0))
+            }
         };
-        let ends_apart = points.segment[count - 1] % 2 == 1;
-        let after = ends_apart.then(|| points.free_at_the_end(least)).flatten();
-        let after = asked.filter(|_| is_retraction).or(after).unwrap_or(0);
-        let needs_approach =
-            !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
-        let (number, of) = if needs_approach {
-            (before, approach.len())
-        } else {
-            (before.or(Ok(after)), count)
-        };
-        let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
-        if !(FEWEST..of).contains(&free) {
-            let place = if needs_approach { "before" } else { "without" };
-            let fault = format!("no part {place} contact: {free} of {of} points");
-            return refused(
-                fault,
-                format!("at least {FEWEST}, found or by --free-points"),
-            );
-        }
-        let (low, high) = ends(points.displacement.iter().copied());
-        let time = (0..count)
-            .map(|index| index as f64 / (count - 1) as f64)
-            .collect();
-        let displacement = points
-            .displacement
-            .iter()
-            .map(|at| (at - low) / (high - low))
-            .collect();
-        Ok(FreeParts {
-            before: before.ok(),
-            after,
-            shares: [time, displacement],
+        Some(Slopes {
+            zero,
+            drift: slope(0)?,
+            tilt: slope(1)?,
+            step: slope(2)?,
         })
     }
 
-    /// Returns the index range of the points without contact that give the zero and the noise.
-    fn base(&self) -> Range<usize> {
-        let count = self.shares[0].len();
-        self.before
-            .map_or(count - self.after..count, |before| 0..before)
+    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the
+    /// deviation expected from the noise between neighbouring points.
+    pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
+        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
+        let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
+        let mut rests = column(3);
+        right_angled(&columns).iter().for_each(|one| {
+            take_off(&mut rests, one);
+        });
+        let changes: f64 = rests
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).powi(2))
+            .sum();
+        let count = rests.len() as f64;
+        (
+            (dot(&rests, &rests) / count).sqrt(),
+            (0.5 * changes / count).sqrt(),
+        )
     }
+}
 
+impl FreeParts {
     pub fn line(&self, points: &Points) -> Baseline {
         Baseline::through(&points.force[self.base()])
-    }
-
-    /// Returns the displacement in m at which the contact seems to begin, behind the part before
-    /// contact. For a retraction without an approach it lies where compression ends, or half way to
-    /// its end.
-    pub fn touch(&self, points: &Points) -> f64 {
-        if let Some(before) = self.before {
-            return points.displacement[before];
-        }
-        let in_contact = &points.force[points.of(1)];
-        let end = in_contact.len().saturating_sub(self.after).max(1);
-        let place = match in_contact[..end].iter().position(|force| *force <= 0.0) {
-            Some(0) => end / 2,
-            crossing => crossing.unwrap_or(end),
-        };
-        points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 
     /// Subtracts zero, drift and tilt as the options request. Returns the drift, tilt and step that
@@ -244,56 +219,6 @@ impl FreeParts {
                 " The parts without contact are no straight lines, as by interference of light.";
         }
         Ok((remaining, text))
-    }
-}
-
-/// Returns the error of a curve without a part before contact, according to the reason.
-fn refuse_baseline<T>(
-    why: NoBaseline,
-    points: &Points,
-    approach: &[f64],
-    least: f64,
-) -> Result<T, ExperimentError> {
-    let newton = |force: f64| format_quantity(force, "N");
-    let first: Vec<f64> = approach.iter().rev().copied().collect();
-    match why {
-        NoBaseline::Few if approach.is_empty() => refused(
-            "no part without contact after the retraction",
-            "a retraction that ends without contact",
-        ),
-        NoBaseline::Few => refused(
-            format!(
-                "{} points in the approach are too few to find the contact",
-                approach.len()
-            ),
-            format!("at least {}, or --free-points COUNT", 2 * FEWEST),
-        ),
-        NoBaseline::InContact
-            if points.segment.contains(&1) && free_count(&first, least).is_ok() =>
-        {
-            refused(
-                "the first segment begins in contact and ends without it: a retraction",
-                "an approach first, in the order of time",
-            )
-        }
-        NoBaseline::InContact => refused(
-            "no part before contact: the force changes from the first point on",
-            "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
-        ),
-        NoBaseline::Straight(range, noise) if range > 20.0 * noise => refused(
-            format!(
-                "no contact, or contact from the first point on: the force changes by {} along one straight line",
-                newton(range)
-            ),
-            "a part before contact, then another slope; --free-points COUNT for a weak contact",
-        ),
-        NoBaseline::Straight(_, noise) => refused(
-            format!(
-                "no contact: in the approach the force stays within its noise of {}",
-                newton(noise)
-            ),
-            "a change by more than the noise; --free-points COUNT for a weak contact",
-        ),
     }
 }
 

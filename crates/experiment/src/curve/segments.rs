@@ -1,7 +1,7 @@
 //! The segments of a curve, in which the body is pressed and pulled in turn, and the pauses between
 //! them.
 
-use crate::baseline::ends;
+use crate::curve::numerics::ends;
 use crate::read::Label;
 
 /// Share of the range by which the displacement comes back after a turning point, and share of the

@@ -1,7 +1,11 @@
-//! The parts of a curve without contact: where they end, and the drift and the tilt of their force.
+//! The parts of a curve without contact, and the place at which the contact begins.
 
-use crate::baseline::{Baseline, dot, ends, growing, right_angled, take_off};
-use crate::statistics::correlated;
+use crate::curve::numerics::{Baseline, correlated, ends, growing};
+use crate::curve::points::Points;
+use crate::error::{ExperimentError, refused};
+use crate::read::options::CurveOptions;
+use asperity_data::format_quantity;
+use std::ops::Range;
 
 /// Smallest number of points without contact, and of points in contact.
 pub(crate) const FEWEST: usize = 10;
@@ -107,116 +111,160 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
-/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is
-/// the change from the first to the last point of the curve. The tilt is the change over the range
-/// of the displacement. The step is the difference of the force after and before contact that
-/// neither drift nor tilt explains.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Slopes {
-    pub zero: f64,
-    pub drift: (f64, f64),
-    pub tilt: (f64, f64),
-    pub step: (f64, f64),
+/// Points without contact: at the beginning of an approach and at the end of a retraction.
+pub(crate) struct FreeParts {
+    pub before: Option<usize>,
+    /// Number of points after contact at the end; 0 if there are few.
+    pub after: usize,
+    /// Time and displacement of each point, as shares of the whole curve.
+    pub shares: [Vec<f64>; 2],
 }
 
-impl Slopes {
-    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or
-    /// 0 before, force). Time and displacement are shares of the whole curve. Slopes that are not
-    /// selected are 0. Returns `None` if the points cannot separate the slopes.
-    pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
-        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
-        let mut columns = vec![vec![1.0; points.len()]];
-        columns.extend((0..3).filter(|of| is_asked[*of]).map(column));
-        let mut found = least_squares(&columns, &column(3))?.into_iter();
-        let zero = found.next()?.0;
-        let mut slope = |of: usize| {
-            if is_asked[of] {
-                found.next()
-            } else {
-                Some((0.0, 0.0))
-            }
+impl FreeParts {
+    pub fn of(
+        points: &Points,
+        options: &CurveOptions,
+        averaged: usize,
+        least: f64,
+    ) -> Result<Self, ExperimentError> {
+        let count = points.force.len();
+        let approach = &points.force[points.moving(0)];
+        let is_retraction = approach.is_empty();
+        let asked = options.free_points.map(|free| free / averaged);
+        let before = match asked.filter(|_| !is_retraction) {
+            Some(free) => Ok(free),
+            None => free_count(approach, least),
         };
-        Some(Slopes {
-            zero,
-            drift: slope(0)?,
-            tilt: slope(1)?,
-            step: slope(2)?,
+        let ends_apart = points.segment[count - 1] % 2 == 1;
+        let after = ends_apart.then(|| free_at_the_end(points, least)).flatten();
+        let after = asked.filter(|_| is_retraction).or(after).unwrap_or(0);
+        let needs_approach =
+            !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
+        let (number, of) = if needs_approach {
+            (before, approach.len())
+        } else {
+            (before.or(Ok(after)), count)
+        };
+        let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
+        if !(FEWEST..of).contains(&free) {
+            let place = if needs_approach { "before" } else { "without" };
+            let fault = format!("no part {place} contact: {free} of {of} points");
+            return refused(
+                fault,
+                format!("at least {FEWEST}, found or by --free-points"),
+            );
+        }
+        let (low, high) = ends(points.displacement.iter().copied());
+        let time = (0..count)
+            .map(|index| index as f64 / (count - 1) as f64)
+            .collect();
+        let displacement = points
+            .displacement
+            .iter()
+            .map(|at| (at - low) / (high - low))
+            .collect();
+        Ok(FreeParts {
+            before: before.ok(),
+            after,
+            shares: [time, displacement],
         })
     }
 
-    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the
-    /// deviation expected from the noise between neighbouring points.
-    pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
-        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
-        let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
-        let mut rests = column(3);
-        right_angled(&columns).iter().for_each(|one| {
-            take_off(&mut rests, one);
-        });
-        let changes: f64 = rests
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0]).powi(2))
-            .sum();
-        let count = rests.len() as f64;
-        (
-            (dot(&rests, &rests) / count).sqrt(),
-            (0.5 * changes / count).sqrt(),
-        )
+    /// Returns the index range of the points without contact that give the zero and the noise.
+    pub fn base(&self) -> Range<usize> {
+        let count = self.shares[0].len();
+        self.before
+            .map_or(count - self.after..count, |before| 0..before)
+    }
+
+    /// Returns the displacement in m at which the contact seems to begin, behind the part before
+    /// contact. For a retraction without an approach it lies where compression ends, or half way to
+    /// its end.
+    pub fn touch(&self, points: &Points) -> f64 {
+        if let Some(before) = self.before {
+            return points.displacement[before];
+        }
+        let in_contact = &points.force[points.of(1)];
+        let end = in_contact.len().saturating_sub(self.after).max(1);
+        let place = match in_contact[..end].iter().position(|force| *force <= 0.0) {
+            Some(0) => end / 2,
+            crossing => crossing.unwrap_or(end),
+        };
+        points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
     }
 }
 
-/// Returns least-squares coefficients of columns for these values, with standard errors; `None` if
-/// a column depends on the columns before it.
-pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
-    let basis = right_angled(columns);
-    let mut rests = values.to_vec();
-    let along: Vec<f64> = basis
-        .iter()
-        .map(|column| take_off(&mut rests, column))
-        .collect();
-    let count = (values.len().max(columns.len() + 1) - columns.len()) as f64;
-    let noise = (correlated(&rests) * dot(&rests, &rests) / count).sqrt();
-    // Back from the columns at right angles: each coefficient, and its share of each error.
-    let mut found = vec![(0.0, 0.0); columns.len()];
-    let triangle: Vec<Vec<f64>> = basis
-        .iter()
-        .map(|one| columns.iter().map(|column| dot(one, column)).collect())
-        .collect();
-    for index in (0..columns.len()).rev() {
-        let own = triangle[index][index];
-        if own.abs() <= 1e-6 * dot(&columns[index], &columns[index]).sqrt() {
-            return None;
+/// Returns the number of points after contact at the end; `None` if they cannot be found.
+fn free_at_the_end(points: &Points, least: f64) -> Option<usize> {
+    let last = points.moving(*points.segment.last()?);
+    let reversed: Vec<f64> = points.force[last].iter().rev().copied().collect();
+    free_count(&reversed, least).ok()
+}
+
+/// Returns true if the forces of a segment end without contact.
+pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
+    let change = |values: &[f64]| {
+        let free = free_count(values, least).ok()?;
+        Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
+    };
+    let reversed: Vec<f64> = force.iter().rev().copied().collect();
+    change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
+}
+
+/// Returns the error of a curve without a part before contact, according to the reason.
+fn refuse_baseline<T>(
+    why: NoBaseline,
+    points: &Points,
+    approach: &[f64],
+    least: f64,
+) -> Result<T, ExperimentError> {
+    let newton = |force: f64| format_quantity(force, "N");
+    let first: Vec<f64> = approach.iter().rev().copied().collect();
+    match why {
+        NoBaseline::Few if approach.is_empty() => refused(
+            "no part without contact after the retraction",
+            "a retraction that ends without contact",
+        ),
+        NoBaseline::Few => refused(
+            format!(
+                "{} points in the approach are too few to find the contact",
+                approach.len()
+            ),
+            format!("at least {}, or --free-points COUNT", 2 * FEWEST),
+        ),
+        NoBaseline::InContact
+            if points.segment.contains(&1) && free_count(&first, least).is_ok() =>
+        {
+            refused(
+                "the first segment begins in contact and ends without it: a retraction",
+                "an approach first, in the order of time",
+            )
         }
-        let others: f64 = (index + 1..columns.len())
-            .map(|other| triangle[index][other] * found[other].0)
-            .sum();
-        let value = (along[index] - others) / own;
-        // Squares of a row of the inverse of the triangle.
-        let mut row = vec![0.0; columns.len()];
-        row[index] = 1.0 / own;
-        for other in index + 1..columns.len() {
-            let sum: f64 = (index..other)
-                .map(|between| row[between] * triangle[between][other])
-                .sum();
-            row[other] = -sum / triangle[other][other];
-        }
-        found[index] = (value, noise * dot(&row, &row).sqrt());
+        NoBaseline::InContact => refused(
+            "no part before contact: the force changes from the first point on",
+            "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
+        ),
+        NoBaseline::Straight(range, noise) if range > 20.0 * noise => refused(
+            format!(
+                "no contact, or contact from the first point on: the force changes by {} along one straight line",
+                newton(range)
+            ),
+            "a part before contact, then another slope; --free-points COUNT for a weak contact",
+        ),
+        NoBaseline::Straight(_, noise) => refused(
+            format!(
+                "no contact: in the approach the force stays within its noise of {}",
+                newton(noise)
+            ),
+            "a change by more than the noise; --free-points COUNT for a weak contact",
+        ),
     }
-    Some(found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::rngs::ChaCha8Rng;
-    use rand::{RngExt, SeedableRng};
-
-    /// Values of a curve with normal noise of this standard deviation.
-    fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {
-        let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        let mut gauss = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;
-        values.map(|value| value + noise * gauss()).collect()
-    }
+    use crate::curve::numerics::tests::noisy;
 
     /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the
     /// points.
@@ -287,28 +335,5 @@ mod tests {
             let noise = Baseline::through(&values[..free]).noise / 0.002;
             assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
         }
-    }
-
-    #[test]
-    fn coefficients_are_found_with_their_errors() {
-        let columns: Vec<Vec<f64>> = (0..3)
-            .map(|power| {
-                (0..400)
-                    .map(|index| (f64::from(index) / 400.0).powi(power))
-                    .collect()
-            })
-            .collect();
-        let value = |index: usize| 1.0 - 2.0 * columns[1][index] + 3.0 * columns[2][index];
-        let found = least_squares(&columns, &noisy((0..400).map(value), 0.1, 7)).unwrap();
-        for ((value, error), expected) in found.into_iter().zip([1.0, -2.0, 3.0]) {
-            assert!(
-                (value - expected).abs() < 3.0 * error && error < 0.1,
-                "{value} ± {error}"
-            );
-        }
-        assert_eq!(
-            least_squares(&[columns[0].clone(), columns[0].clone()], &columns[1]),
-            None
-        );
     }
 }

@@ -1,10 +1,9 @@
 //! The points of a curve in the order of time, with signs such that pressing is positive.
 
-use crate::baseline::{Baseline, ends};
+use crate::curve::numerics::ends;
+use crate::curve::segments::Segments;
 use crate::error::{ExperimentError, refused};
-use crate::free::{FEWEST, free_count};
-use crate::read::options::{CurveOptions, Negate};
-use crate::segment::Segments;
+use crate::read::options::Negate;
 use asperity_data::{format_quantity, mean};
 use std::ops::Range;
 
@@ -131,13 +130,6 @@ impl Points {
         )
     }
 
-    /// Returns the number of points after contact at the end; `None` if they cannot be found.
-    pub fn free_at_the_end(&self, least: f64) -> Option<usize> {
-        let last = self.moving(*self.segment.last()?);
-        let reversed: Vec<f64> = self.force[last].iter().rev().copied().collect();
-        free_count(&reversed, least).ok()
-    }
-
     /// Returns the displacements in m at which the segments up to number `last` end. A single
     /// retraction begins at the largest displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
@@ -153,48 +145,4 @@ impl Points {
         };
         (0..=last).map(end).collect()
     }
-}
-
-/// Returns true if the forces of a segment end without contact.
-pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
-    let change = |values: &[f64]| {
-        let free = free_count(values, least).ok()?;
-        Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
-    };
-    let reversed: Vec<f64> = force.iter().rev().copied().collect();
-    change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
-}
-
-/// Returns the indices of the points of the chosen segments without pauses; of all segments if none
-/// is chosen.
-pub(crate) fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
-    let all = 0..points.force.len();
-    let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
-    if let Some(wrong) = options
-        .segments
-        .iter()
-        .find(|number| !numbers.contains(*number))
-    {
-        let allowed = numbers
-            .map(|number| number.to_string())
-            .collect::<Vec<_>>()
-            .join(", ");
-        return refused(
-            format!("--segments {wrong}: the curve has no such segment"),
-            allowed,
-        );
-    }
-    let is_chosen = |index: usize| {
-        options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1))
-    };
-    let is_kept = |index: &usize| is_chosen(*index) && !points.is_still[*index];
-    let kept: Vec<usize> = all.filter(is_kept).collect();
-    if kept.len() < 2 * FEWEST {
-        let fault = format!(
-            "{} points in the segments that are used, without pauses",
-            kept.len()
-        );
-        return refused(fault, format!("at least {}", 2 * FEWEST));
-    }
-    Ok(kept)
 }
