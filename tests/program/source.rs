@@ -474,7 +474,7 @@ fn few_files_name_a_pane_a_form_or_an_effect() {
         let constructing = [
             "scene::profile_builder",
             "scene::scene::effects",
-            "experiment::ensemble::other_bodies",
+            "experiment::fit::ensemble::other_bodies",
         ];
         files.retain(|file| !constructing.contains(&file.as_str()));
         assert_eq!(files, ["surface::line::form"], "{form}");

@@ -1,9 +1,9 @@
 //! Test: the intervals of many fits hold the known values of their curves.
 
 use crate::error::ExperimentError;
-use crate::fit_result::{FitResult, FittedParameter};
+use crate::fit::parameter::Parameter;
+use crate::fit::result::{FitResult, FittedParameter};
 use crate::made::{fitted, free, measured, noise, random, truth};
-use crate::parameter::Parameter;
 use asperity_data::on_threads;
 use std::fmt;
 

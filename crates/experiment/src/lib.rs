@@ -15,20 +15,9 @@
 //! * Errors: an [`ExperimentError`] says why a curve cannot be read or fitted.
 
 mod curve;
-mod ensemble;
 mod error;
 mod fit;
-mod fit_result;
-mod model;
-mod parameter;
-mod population;
 mod read;
-mod reason;
-mod scene;
-mod search;
-mod space;
-mod start;
-mod statistics;
 
 #[cfg(test)]
 mod coverage;
@@ -36,15 +25,15 @@ mod coverage;
 mod made;
 
 pub use curve::MeasuredCurve;
-pub use ensemble::find::fit_ensemble;
-pub use ensemble::posterior::IntervalEstimate;
-pub use ensemble::result::{
+pub use error::ExperimentError;
+pub use fit::Fit;
+pub use fit::ensemble::find::fit_ensemble;
+pub use fit::ensemble::posterior::IntervalEstimate;
+pub use fit::ensemble::result::{
     CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares,
     SummaryDeviation,
 };
-pub use error::ExperimentError;
-pub use fit::Fit;
-pub use fit_result::{FitResult, FittedParameter};
-pub use parameter::{Free, Parameter, ParameterRow};
+pub use fit::parameter::{Free, Parameter, ParameterRow};
+pub use fit::reason::Reason;
+pub use fit::result::{FitResult, FittedParameter};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};
-pub use reason::Reason;

@@ -2,10 +2,10 @@
 
 use crate::curve::MeasuredCurve;
 use crate::fit::Fit;
-use crate::fit_result::FitResult;
-use crate::parameter::{Free, Parameter};
+use crate::fit::parameter::{Free, Parameter};
+use crate::fit::result::FitResult;
+use crate::fit::scene::radius_of;
 use crate::read::options::{CurveOptions, Drift};
-use crate::scene::radius_of;
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::Control;
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};

@@ -169,7 +169,7 @@ fn compare(name: &str, with_errors: bool) {
     }
     println!("{table}");
     // The page has the rows of rough spheres.
-    let docs = include_str!("../../../../docs/experiment.md");
+    let docs = include_str!("../../../../../docs/experiment.md");
     assert!(
         count < 60 || name != "rough-sphere" || docs.contains(&table),
         "{table}"

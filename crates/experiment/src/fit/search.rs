@@ -13,10 +13,10 @@
 
 use crate::curve::numerics::{dot, ends};
 use crate::error::{ExperimentError, refused};
-use crate::model::Model;
-use crate::parameter::{Coordinate, Parameter};
-use crate::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
-use crate::space::Space;
+use crate::fit::model::Model;
+use crate::fit::parameter::{Coordinate, Parameter};
+use crate::fit::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
+use crate::fit::space::Space;
 use asperity_contact::ContactError;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};

@@ -11,8 +11,8 @@ use super::shifts::Shifts;
 use super::table::{End, Table, Workers, nodes};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
-use crate::reason::{Reason, of_profile};
-use crate::scene::wrong;
+use crate::fit::reason::{Reason, of_profile};
+use crate::fit::scene::wrong;
 use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, mean};
 use asperity_scene::{
@@ -332,7 +332,7 @@ fn check(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::specimens::{curve, document, scene};
+    use crate::fit::ensemble::specimens::{curve, document, scene};
 
     const OPTIONS: EnsembleOptions = EnsembleOptions {
         lines: 16,

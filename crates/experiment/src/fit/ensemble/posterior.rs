@@ -400,7 +400,7 @@ fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::summary::SUMMARIES;
+    use crate::fit::ensemble::summary::SUMMARIES;
 
     /// Learned values that are the parameters themselves, whose deviations over the profiles have
     /// this standard deviation and this correlation of ln γ and ln E*.

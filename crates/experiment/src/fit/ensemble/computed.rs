@@ -3,7 +3,7 @@
 use super::branches::{Branches, Point};
 use super::summary::{Summaries, summaries};
 use crate::error::ExperimentError;
-use crate::model::Sampling;
+use crate::fit::model::Sampling;
 use asperity_contact::motion::{Body, MovingBody};
 use asperity_contact::{ContactError, CurvePoint, Modulus, Move};
 use asperity_scene::instrument::DisplacementCurve;

@@ -3,11 +3,11 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::ends;
 use crate::error::{ExperimentError, refused};
-use crate::parameter::{Coordinate, Free, Parameter, Values};
-use crate::population::WRONG_SIDE;
-use crate::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
-use crate::start::{Known, Starts};
-use crate::statistics::{PARTS, scale};
+use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::population::WRONG_SIDE;
+use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use crate::fit::start::{Known, Starts};
+use crate::fit::statistics::{PARTS, scale};
 use asperity_data::format_quantity;
 use asperity_scene::{Document, Simulation, Solver};
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! The result of a comparison of curves with random profiles.
 
 use super::posterior::IntervalEstimate;
-use crate::reason::Reason;
+use crate::fit::reason::Reason;
 
 /// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random
 /// profiles.

@@ -3,7 +3,7 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::ends;
 use crate::error::ExperimentError;
-use crate::parameter::{Parameter, Values};
+use crate::fit::parameter::{Parameter, Values};
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
 use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
@@ -354,10 +354,10 @@ impl Sampling {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::scene::radius_of;
+    use crate::fit::statistics::scale;
     use crate::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
     use crate::read::options::Drift;
-    use crate::scene::radius_of;
-    use crate::statistics::scale;
 
     /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of
     /// coarse forces.

@@ -1,9 +1,9 @@
 //! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
 //! scene that was found.
 
-use crate::parameter::Parameter;
-use crate::reason::Reason;
-use crate::search::MISFIT;
+use crate::fit::parameter::Parameter;
+use crate::fit::reason::Reason;
+use crate::fit::search::MISFIT;
 use asperity_data::{Warning, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};

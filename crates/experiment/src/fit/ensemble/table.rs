@@ -156,9 +156,9 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::branches::Branches;
-    use crate::ensemble::computed::Protocol;
-    use crate::ensemble::specimens::{curve, scene};
+    use crate::fit::ensemble::branches::Branches;
+    use crate::fit::ensemble::computed::Protocol;
+    use crate::fit::ensemble::specimens::{curve, scene};
 
     /// A table that was extended is the larger table from the beginning, by any number of threads.
     #[test]

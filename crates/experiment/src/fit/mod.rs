@@ -1,18 +1,30 @@
 //! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit
 //! also finds the parameters that the curve cannot separate.
 
+pub(crate) mod ensemble;
+pub(crate) mod model;
+pub(crate) mod parameter;
+pub(crate) mod population;
+pub(crate) mod reason;
+pub(crate) mod result;
+pub(crate) mod scene;
+pub(crate) mod search;
+pub(crate) mod space;
+pub(crate) mod start;
+pub(crate) mod statistics;
+
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{correlated, dot};
 use crate::error::ExperimentError;
-use crate::fit_result::{FitResult, FittedParameter};
-use crate::model::Model;
-use crate::parameter::{Coordinate, Free, Parameter, Values};
-use crate::population::WRONG_SIDE;
-use crate::reason::reason;
-use crate::scene::{with_values, wrong};
-use crate::search::{Found, MISFIT, Search};
-use crate::space::Space;
-use crate::statistics::{Spread, block_error, correlation, spread, widen};
+use crate::fit::model::Model;
+use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::population::WRONG_SIDE;
+use crate::fit::reason::reason;
+use crate::fit::result::{FitResult, FittedParameter};
+use crate::fit::scene::{with_values, wrong};
+use crate::fit::search::{Found, MISFIT, Search};
+use crate::fit::space::Space;
+use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
 use asperity_scene::{Document, Simulation};
 
@@ -349,11 +361,11 @@ fn searched(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::reason::Reason;
     use crate::made::{
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
     use crate::read::options::Drift;
-    use crate::reason::Reason;
     use asperity_contact::Move;
 
     /// Asserts that the values differ from the truth by at most a few standard errors, and that the

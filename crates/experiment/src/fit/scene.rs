@@ -3,7 +3,7 @@
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
-use crate::parameter::{Parameter, Values};
+use crate::fit::parameter::{Parameter, Values};
 use asperity_data::{format_quantity, round_to};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};

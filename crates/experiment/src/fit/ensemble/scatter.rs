@@ -159,7 +159,7 @@ impl Scatter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ensemble::summary::SUMMARIES;
+    use crate::fit::ensemble::summary::SUMMARIES;
 
     /// A table whose first summary is a cubic of the place, with a scatter of 1 over two lines.
     fn cubic(place: Place, line: usize) -> f64 {

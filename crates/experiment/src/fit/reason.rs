@@ -3,8 +3,8 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{dot, ends, least_squares, right_angled, take_off};
 use crate::error::ExperimentError;
-use crate::model::Model;
-use crate::parameter::{Parameter, Values};
+use crate::fit::model::Model;
+use crate::fit::parameter::{Parameter, Values};
 use asperity_data::{Warning, format_quantity, median};
 use asperity_scene::{CheckedScene, Simulation};
 use serde::{Serialize, Serializer};
@@ -295,9 +295,9 @@ fn branches_differ(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::scene::values_of;
     use crate::made::from_text;
     use crate::read::options::CurveOptions;
-    use crate::scene::values_of;
     use asperity_scene::{Document, open};
     use std::fmt::Write;
 
