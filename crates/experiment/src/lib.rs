@@ -27,12 +27,9 @@ mod made;
 pub use curve::MeasuredCurve;
 pub use error::ExperimentError;
 pub use fit::Fit;
-pub use fit::ensemble::find::fit_ensemble;
-pub use fit::ensemble::posterior::IntervalEstimate;
-pub use fit::ensemble::result::{
-    CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares,
-    SummaryDeviation,
-};
+pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};
+pub use fit::ensemble::posterior::{CurveOfEnsemble, IntervalEstimate};
+pub use fit::ensemble::{EnsembleFit, EnsembleOptions, Prospect, Shares, fit_ensemble};
 pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
 pub use fit::result::{FitResult, FittedParameter};

@@ -1,9 +1,9 @@
 //! Test: the intervals of comparisons hold the known values of specimens.
 
-use super::find::fit_ensemble;
+use super::fit_ensemble;
 use super::posterior::IntervalEstimate;
-use super::result::{EnsembleFit, EnsembleOptions};
 use super::specimens::{curve, document, scene};
+use super::{EnsembleFit, EnsembleOptions};
 use asperity_data::Control;
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use rand::rngs::ChaCha8Rng;

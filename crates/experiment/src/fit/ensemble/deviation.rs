@@ -1,12 +1,11 @@
-//! Whether random profiles describe the curves: the mean of each summary is compared with the mean
-//! in the table.
+//! Whether random profiles describe the curves, and the effect of errors of the roughness.
 
-use super::computed::Place;
-use super::result::SummaryDeviation;
-use super::scatter::Scatter;
-use super::summary::{NAMES, SUMMARIES, Summaries};
-use super::table::Table;
-use asperity_data::quantile;
+use super::posterior::Compared;
+use super::summary::{Mean, Measured, NAMES, SUMMARIES, Summaries};
+use super::table::{Place, Scatter, Specimen, Table, Workers};
+use crate::error::ExperimentError;
+use asperity_data::{mean, quantile};
+use asperity_scene::{Roughness, RunError};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -16,6 +15,26 @@ const DRAWS: usize = 1000;
 const DESCRIBED: f64 = 0.99;
 /// Step of a logarithm for the derivatives of the means.
 const STEP: f64 = 0.05;
+/// Steps of the logarithm of the rms height and of the Hurst exponent.
+const HEIGHT_STEP: f64 = 0.05;
+const HURST_STEP: f64 = 0.05;
+
+/// Difference between the measured curves and the random profiles in one summary. A summary is a
+/// number computed from a curve, such as its pull-off force.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct SummaryDeviation {
+    /// Name of the summary, such as `pull-off force`.
+    pub summary: &'static str,
+    /// Mean of the natural logarithm of the summary over the measured curves, minus the mean over
+    /// the random profiles with the fitted γ and E*.
+    pub logarithm: f64,
+    /// [`Self::logarithm`] divided by its standard error.
+    pub deviation: f64,
+    /// True if the difference is significant. If random profiles describe the curves, the
+    /// probability that at least one of all summaries has a significant difference is 1 %.
+    pub deviates: bool,
+}
 
 /// How learned values and parameters change together at a place.
 pub(crate) struct Response {
@@ -68,12 +87,6 @@ impl Response {
         };
         [product(change) / product(work), 0.0]
     }
-}
-
-/// Mean of the summaries of the measured curves, and the number of curves.
-pub(crate) struct Mean {
-    pub summaries: Summaries,
-    pub curves: usize,
 }
 
 /// Compares the means of all summaries with the means of the table at the most probable place.
@@ -152,4 +165,103 @@ pub(crate) fn deviations(
         }
     };
     (0..SUMMARIES).map(of).collect()
+}
+
+/// Derivatives of ln γ and ln E* with respect to ln h and to H, the rms height and Hurst exponent
+/// of the scene. They show how far a wrong roughness shifts the result.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct RoughnessShifts {
+    /// Derivative of ln γ with respect to ln h.
+    pub work_by_height: f64,
+    /// Derivative of ln γ with respect to H.
+    pub work_by_hurst: f64,
+    /// Derivative of ln E* with respect to ln h.
+    pub modulus_by_height: f64,
+    /// Derivative of ln E* with respect to H.
+    pub modulus_by_hurst: f64,
+}
+
+/// Data from which the derivatives of the result are computed.
+pub(crate) struct Shifts<'a> {
+    pub workers: &'a Workers<'a>,
+    pub compared: &'a Compared,
+    pub measured: &'a Measured,
+    pub response: &'a Response,
+}
+
+impl Shifts<'_> {
+    /// Returns the derivatives at a place, from `lines` random profiles; `None` for a measured
+    /// roughness.
+    pub fn at(&self, place: Place, lines: u64) -> Result<Option<RoughnessShifts>, ExperimentError> {
+        let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
+        else {
+            return Ok(None);
+        };
+        let step = HURST_STEP.min(0.5 * hurst).min(0.5 * (1.0 - hurst));
+        let [work_by_height, modulus_by_height] =
+            self.between(place, lines, HEIGHT_STEP, &|roughness, change| {
+                if let Roughness::SelfAffine {
+                    rms_height,
+                    rms_gradient,
+                    ..
+                } = roughness
+                {
+                    rms_height
+                        .iter_mut()
+                        .chain(rms_gradient)
+                        .for_each(|of| *of *= change.exp());
+                }
+            })?;
+        let [work_by_hurst, modulus_by_hurst] =
+            self.between(place, lines, step, &|roughness, change| {
+                if let Roughness::SelfAffine { hurst, .. } = roughness {
+                    *hurst += change;
+                }
+            })?;
+        Ok(Some(RoughnessShifts {
+            work_by_height,
+            work_by_hurst,
+            modulus_by_height,
+            modulus_by_hurst,
+        }))
+    }
+
+    /// Computes the derivatives of ln γ and ln E* with respect to a change of the roughness.
+    fn between(
+        &self,
+        place: Place,
+        lines: u64,
+        step: f64,
+        change: &dyn Fn(&mut Roughness, f64),
+    ) -> Result<[f64; 2], ExperimentError> {
+        let at = |change_by: f64| {
+            let scene = self.workers.specimen.scene.with(|scene| {
+                if let Some(roughness) = &mut scene.roughness {
+                    change(roughness, change_by);
+                }
+            });
+            let scene = scene.map_err(RunError::from)?;
+            let others = Workers {
+                specimen: Specimen {
+                    scene: &scene,
+                    ..self.workers.specimen
+                },
+                ..*self.workers
+            };
+            let curves = others.curves(lines, &[place.range], &[place.modulus])?;
+            let of = |(line, curve): (usize, &Vec<_>)| {
+                self.compared.of_line(line, &curve[0], self.measured)
+            };
+            let all: Vec<[f64; 2]> = curves.iter().enumerate().map(of).collect();
+            let of = |index: usize| mean(&all.iter().map(|of| of[index]).collect::<Vec<_>>());
+            Ok::<_, ExperimentError>([of(0), of(1)])
+        };
+        let [low, high] = [at(-step)?, at(step)?];
+        // A model whose values are larger needs parameters that make them smaller again.
+        let shift = self
+            .response
+            .explain([0, 1].map(|index| low[index] - high[index]));
+        Ok(shift.map(|shift| shift / (2.0 * step)))
+    }
 }

@@ -1,13 +1,13 @@
 //! Test: the intervals of γ and E* hold the known values of bodies, seeds and noise that are not
 //! those of the fit.
 
-use super::computed::seed_of;
-use super::find::fit_ensemble;
-use super::measured::Measured;
+use super::fit_ensemble;
 use super::posterior::IntervalEstimate;
-use super::result::{EnsembleFit, EnsembleOptions};
 use super::specimens::{document, scene};
+use super::summary::Measured;
 use super::summary::{NAMES, Summaries};
+use super::table::seed_of;
+use super::{EnsembleFit, EnsembleOptions};
 use crate::curve::MeasuredCurve;
 use crate::made::gauss;
 use crate::read::options::{CurveOptions, Negate};
@@ -334,7 +334,7 @@ fn computed_curves_have_the_summaries_of_measured_ones() {
             )
         };
         let measured = Measured::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
-        let table = super::computed::Specimen {
+        let table = super::table::Specimen {
             scene: &truth,
             stiffness: truth.loading_stiffness.unwrap_or(f64::INFINITY),
             closing: 1.0,

@@ -1,9 +1,17 @@
-//! The probability of the parameters from the mean prediction over the measured curves.
+//! The probability of the parameters. Polynomials, learned from computed curves, predict the
+//! parameters of a curve from its summaries, and the mean prediction over the measured curves is
+//! compared with the predictions over random profiles.
 
-use super::computed::Place;
-use super::scatter::{Scatter, distance};
-use super::table::{End, Table};
+use super::summary::{Described, LOOP_AREA, Measured, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF};
+use super::table::{End, Place, Scatter, Table, distance};
+use crate::curve::MeasuredCurve;
+use asperity_data::{Cholesky, mean, standard_deviation};
 
+/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut
+/// off.
+const LARGEST: f64 = 4.0;
+/// Penalty of the size of the coefficients, divided by the mean weight of the curves.
+const RIDGE: f64 = 1e-5;
 /// Number of cells of a grid along each axis.
 const CELLS: usize = 96;
 /// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth
@@ -26,6 +34,123 @@ const EDGE: f64 = 0.1;
 const NOT_EXCLUDED: f64 = 0.146_5;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
+/// Squared distance of a curve from the others that one curve of a thousand exceeds: quantiles of
+/// χ² for one and for two values.
+const FOREIGN: [f64; 2] = [10.8, 13.8];
+/// Smallest pull-off force that is reported, in standard deviations of the noise.
+const LEAST_PULL_OFF: f64 = 5.0;
+const FEWEST_FOR_SCATTER: usize = 4;
+
+/// Two polynomials of second degree in the summaries. Each is learned from one half of the random
+/// profiles, and predicts the parameters of the other half.
+pub(crate) struct Learned {
+    /// Mean and standard deviation of each summary.
+    standard: Vec<(f64, f64)>,
+    halves: [Vec<[f64; 2]>; 2],
+    centre: [f64; 2],
+}
+
+impl Learned {
+    /// Learns from computed curves, each with the number of its random profile, ln γ and ln E*.
+    pub fn from(curves: &[(u64, Described, [f64; 2])]) -> Self {
+        let standard = (0..SUMMARIES + 1)
+            .map_while(|index| {
+                let of: Option<Vec<f64>> = curves
+                    .iter()
+                    .map(|curve| curve.1.values().nth(index))
+                    .collect();
+                let of = of?;
+                let mean = mean(&of);
+                Some((mean, standard_deviation(&of, mean).max(f64::MIN_POSITIVE)))
+            })
+            .collect();
+        let of_parameter = |index: usize| {
+            mean(
+                &curves
+                    .iter()
+                    .map(|curve| curve.2[index])
+                    .collect::<Vec<f64>>(),
+            )
+        };
+        let centre = [of_parameter(0), of_parameter(1)];
+        let mut learned = Learned {
+            standard,
+            halves: [Vec::new(), Vec::new()],
+            centre,
+        };
+        learned.halves = [0, 1].map(|half| learned.coefficients(curves, half));
+        learned
+    }
+
+    fn coefficients(&self, curves: &[(u64, Described, [f64; 2])], half: u64) -> Vec<[f64; 2]> {
+        let columns = self.terms(&curves[0].1).len();
+        let (mut products, mut right) = (
+            vec![0.0; columns * columns],
+            [0, 1].map(|_| vec![0.0; columns]),
+        );
+        for (_, described, parameters) in curves.iter().filter(|curve| curve.0 % 2 == half) {
+            let terms = self.terms(described);
+            for (row, one) in terms.iter().enumerate() {
+                let sums = products[row * columns..][..=row].iter_mut();
+                sums.zip(&terms)
+                    .for_each(|(sum, other)| *sum += one * other);
+                for (parameter, sums) in right.iter_mut().enumerate() {
+                    sums[row] += one * (parameters[parameter] - self.centre[parameter]);
+                }
+            }
+        }
+        let on_diagonal = |index: usize| index * (columns + 1);
+        let trace: f64 = (0..columns).map(|index| products[on_diagonal(index)]).sum();
+        (0..columns)
+            .for_each(|index| products[on_diagonal(index)] += RIDGE * trace / columns as f64);
+        let Some(factor) = Cholesky::new(products, columns) else {
+            return vec![[0.0; 2]; columns];
+        };
+        let [work, modulus] = right.map(|right| factor.solve(right));
+        work.into_iter()
+            .zip(modulus)
+            .map(<[f64; 2]>::from)
+            .collect()
+    }
+
+    /// Returns 1, the standardised summaries and all their products.
+    fn terms(&self, described: &Described) -> Vec<f64> {
+        let standardised = described.values().zip(&self.standard);
+        let all: Vec<f64> = std::iter::once(1.0)
+            .chain(standardised.map(|(value, (mean, deviation))| {
+                ((value - mean) / deviation).clamp(-LARGEST, LARGEST)
+            }))
+            .collect();
+        (0..all.len())
+            .flat_map(|one| (0..=one).map(move |other| (one, other)))
+            .map(|(one, other)| all[one] * all[other])
+            .collect()
+    }
+
+    fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
+        let sum = |parameter: usize| {
+            terms
+                .iter()
+                .zip(&self.halves[half])
+                .map(|(term, of)| term * of[parameter])
+                .sum::<f64>()
+        };
+        [self.centre[0] + sum(0), self.centre[1] + sum(1)]
+    }
+
+    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the
+    /// other half.
+    pub fn of_line(&self, line: u64, described: &Described) -> [f64; 2] {
+        self.by_half(&self.terms(described), 1 - (line % 2) as usize)
+    }
+
+    /// Predicts ln γ and ln E* of another curve, as the mean of both polynomials.
+    pub fn of_curve(&self, described: &Described) -> [f64; 2] {
+        let terms = self.terms(described);
+        let [one, other] = [0, 1].map(|half| self.by_half(&terms, half));
+        [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])]
+    }
+}
 
 /// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 %
 /// interval.
@@ -397,10 +522,233 @@ fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
     values[values.len() - 1]
 }
 
+/// Results of one measured curve when it is used without the others.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct CurveOfEnsemble {
+    /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
+    pub name: String,
+    /// Preload of the curve, which is its largest force, N.
+    pub preload: f64,
+    /// Largest tensile force of the retraction as a positive number, N; `None` if it is at most 5
+    /// times the noise of the force.
+    pub pull_off_force: Option<f64>,
+    /// Energy dissipated in the loop, J: area between approach and retraction over the displacement
+    /// of the instrument.
+    pub loop_area: f64,
+    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change
+    /// of the displacement while the force falls from the preload to half the preload.
+    pub stiffness: f64,
+    /// Work of adhesion found from this single curve, J/m².
+    pub work: IntervalEstimate,
+    /// True if the interval of [`Self::work`] ends where the values end for which curves were
+    /// computed. The true interval is then wider.
+    pub at_end_of_table: bool,
+    /// True if the values of γ and E* found from this curve are further from the mean of the random
+    /// profiles than the values found from 999 of 1000 random profiles (Mahalanobis distance).
+    pub foreign: bool,
+}
+
+/// Table of computed curves with the polynomials learned from it.
+pub(crate) struct Compared {
+    polynomials: Learned,
+    has_one_modulus: bool,
+    /// Predicted ln γ and ln E* of each random profile at each node.
+    pub learned: Vec<Vec<[f64; 2]>>,
+    pub scatter: Scatter,
+    likelihood: Likelihood,
+    /// Predicted ln γ and ln E* of each measured curve.
+    of_curves: Vec<[f64; 2]>,
+}
+
+impl Compared {
+    pub fn new(table: &Table, measured: &Measured, known: Option<f64>) -> Self {
+        let places: Vec<Place> = table.places().collect();
+        let curves: Vec<_> = table
+            .lines
+            .iter()
+            .enumerate()
+            .flat_map(|(line, curves)| {
+                let of = curves.iter().zip(&places);
+                of.map(move |(curve, place)| {
+                    (
+                        line as u64,
+                        measured.described(*curve, line),
+                        place.parameters(),
+                    )
+                })
+            })
+            .collect();
+        let polynomials = Learned::from(&curves);
+        let has_one_modulus = table.moduli.len() == 1;
+        let of_line = |(line, described, _): &(u64, Described, [f64; 2])| {
+            alone(polynomials.of_line(*line, described), has_one_modulus)
+        };
+        let learned: Vec<Vec<[f64; 2]>> = curves
+            .chunks(places.len())
+            .map(|line| line.iter().map(of_line).collect())
+            .collect();
+        let scatter = Scatter::of(table, |line, node| learned[line][node]);
+        let likelihood = Likelihood::new(table, &scatter, known);
+        let of_curve = |(index, curve): (usize, &Summaries)| {
+            alone(
+                polynomials.of_curve(&measured.described(*curve, index)),
+                has_one_modulus,
+            )
+        };
+        let of_curves = measured
+            .summaries
+            .iter()
+            .enumerate()
+            .map(of_curve)
+            .collect();
+        Compared {
+            polynomials,
+            has_one_modulus,
+            learned,
+            scatter,
+            likelihood,
+            of_curves,
+        }
+    }
+
+    /// Predicts ln γ and ln E* of another computed curve of a random profile.
+    pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measured) -> [f64; 2] {
+        let described = measured.described(*curve, line);
+        alone(
+            self.polynomials.of_line(line as u64, &described),
+            self.has_one_modulus,
+        )
+    }
+
+    /// Returns the probability of the parameters given all measured curves.
+    pub fn posterior(&self, measured: &Measured) -> Posterior {
+        let of = |index: usize| {
+            mean(
+                &self
+                    .of_curves
+                    .iter()
+                    .map(|of| of[index])
+                    .collect::<Vec<_>>(),
+            )
+        };
+        self.likelihood
+            .posterior([of(0), of(1)], measured.summaries.len() as f64)
+    }
+
+    /// Returns the standard deviation of the measured curves divided by the standard deviation of
+    /// the random profiles.
+    pub fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
+        let count = self.of_curves.len();
+        let inverse = self.scatter.at(best).inverse().0;
+        let centre = [0, 1].map(|index| {
+            mean(
+                &self
+                    .of_curves
+                    .iter()
+                    .map(|of| of[index])
+                    .collect::<Vec<_>>(),
+            )
+        });
+        let sum: f64 = self
+            .of_curves
+            .iter()
+            .map(|of| distance(centre, inverse, *of))
+            .sum();
+        let values = if self.has_one_modulus { 1.0 } else { 2.0 };
+        (measured.summaries.len() >= FEWEST_FOR_SCATTER)
+            .then(|| (sum / (count as f64 - 1.0) / values).sqrt())
+    }
+
+    /// Returns the results of each curve used without the others.
+    pub fn rows(
+        &self,
+        curves: &[(String, MeasuredCurve)],
+        measured: &Measured,
+        best: Place,
+    ) -> Vec<CurveOfEnsemble> {
+        let moments = self.scatter.at(best);
+        let inverse = moments.inverse().0;
+        let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
+            let (of, at) = (measured.summaries[index], self.of_curves[index]);
+            let posterior = self.likelihood.posterior(at, 1.0);
+            let away =
+                distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
+            CurveOfEnsemble {
+                name: name.clone(),
+                preload: measured.preloads[index],
+                pull_off_force: Some(of[PULL_OFF].exp())
+                    .filter(|force| *force > LEAST_PULL_OFF * measured.protocols[index].noise),
+                loop_area: of[LOOP_AREA].exp(),
+                stiffness: 0.5 * measured.protocols[index].preload / of[WAY_TO_HALF].exp(),
+                work: posterior.estimate(0),
+                at_end_of_table: !posterior.beyond().is_empty(),
+                foreign: away > FOREIGN[usize::from(!self.has_one_modulus)],
+            }
+        };
+        curves.iter().enumerate().map(row).collect()
+    }
+}
+
+/// Returns the predicted values, with 0 for the second one if the table has one modulus.
+fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
+    if has_one_modulus {
+        [values[0], 0.0]
+    } else {
+        values
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::ensemble::summary::SUMMARIES;
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+
+    /// A relation of second degree is learned, by each half from its own lines.
+    #[test]
+    fn a_polynomial_of_second_degree_is_learned() {
+        let mut generator = ChaCha8Rng::seed_from_u64(1);
+        let mut random = || {
+            let summaries: Summaries = std::array::from_fn(|_| generator.random_range(-1.0..1.0));
+            Described {
+                summaries,
+                preload: Some(generator.random_range(5.0..6.0)),
+            }
+        };
+        let parameters = |of: &Described| {
+            let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
+            [3.0 + one - 2.0 * other * third, 7.0 * one * one - other]
+        };
+        let curves: Vec<_> = (0..2000)
+            .map(|index| {
+                let of = random();
+                // The lines of one half are off by 1: the other half does not learn it.
+                let [work, modulus] = parameters(&of);
+                (
+                    index % 16,
+                    of,
+                    [work + f64::from(u8::from(index % 2 == 0)), modulus],
+                )
+            })
+            .collect();
+        let learned = Learned::from(&curves);
+        let of = random();
+        let [work, modulus] = parameters(&of);
+        for (found, expected) in [
+            (learned.of_line(0, &of), [work, modulus]),
+            (learned.of_line(1, &of), [work + 1.0, modulus]),
+            (learned.of_curve(&of), [work + 0.5, modulus]),
+        ] {
+            assert!(
+                found
+                    .iter()
+                    .zip(expected)
+                    .all(|(one, other)| (one - other).abs() < 0.01),
+                "{found:?} {expected:?}"
+            );
+        }
+    }
 
     /// Learned values that are the parameters themselves, whose deviations over the profiles have
     /// this standard deviation and this correlation of ln γ and ln E*.
