@@ -19,10 +19,12 @@ mod error;
 mod fit;
 mod read;
 
+// Fixtures of the tests of this crate and of its executables of tests.
 #[cfg(test)]
-mod coverage;
+extern crate self as asperity_experiment;
 #[cfg(test)]
-mod made;
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 pub use curve::MeasuredCurve;
 pub use error::ExperimentError;

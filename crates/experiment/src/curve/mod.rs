@@ -475,7 +475,7 @@ fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(),
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made::{from_text, lines, of_spring, text_of_spring};
+    use crate::common::{from_text, lines, of_spring, text_of_spring};
 
     #[test]
     fn many_points_are_averaged_and_missing_ones_counted() {

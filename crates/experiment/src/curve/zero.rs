@@ -225,8 +225,8 @@ impl FreeParts {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::{from_text, lines, of_spring};
     use crate::curve::MeasuredCurve;
-    use crate::made::{from_text, lines, of_spring};
 
     /// The curve of the spring with a drift, a tilt and a step after contact, all in nN.
     fn made(drift: f64, tilt: f64, step: f64) -> String {

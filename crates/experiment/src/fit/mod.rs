@@ -361,10 +361,10 @@ fn searched(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::reason::Reason;
-    use crate::made::{
+    use crate::common::{
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
+    use crate::fit::reason::Reason;
     use crate::read::options::Drift;
     use asperity_contact::Move;
 

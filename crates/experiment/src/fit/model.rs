@@ -354,9 +354,9 @@ impl Sampling {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
     use crate::fit::scene::radius_of;
     use crate::fit::statistics::scale;
-    use crate::made::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
     use crate::read::options::Drift;
 
     /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of

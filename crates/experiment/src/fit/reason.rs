@@ -295,8 +295,8 @@ fn branches_differ(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::common::from_text;
     use crate::fit::scene::values_of;
-    use crate::made::from_text;
     use crate::read::options::CurveOptions;
     use asperity_scene::{Document, open};
     use std::fmt::Write;

@@ -216,7 +216,7 @@ pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made::{on_rubber, read, rubber};
+    use crate::common::{on_rubber, read, rubber};
     use crate::read::options::Drift;
 
     #[test]

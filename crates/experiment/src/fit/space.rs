@@ -255,7 +255,7 @@ impl<'a> Space<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::made::{on_rubber, read, rubber};
+    use crate::common::{on_rubber, read, rubber};
     use crate::read::options::Drift;
     use std::f64::consts::PI;
 

@@ -488,10 +488,29 @@ fn number_in(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+    use crate::common::{from_bytes, from_text, lines, of_spring, text_of_spring};
     use crate::curve::MeasuredCurve;
-    use crate::made::{assert_same, from_bytes, from_text, lines, of_spring, text_of_spring};
+
+    /// Asserts that two curves have the same points, segments and part before contact.
+    pub(crate) fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
+        let both = found
+            .force
+            .iter()
+            .zip(&expected.force)
+            .chain(found.displacement.iter().zip(&expected.displacement));
+        assert!(
+            both.into_iter()
+                .all(|(one, other)| (one - other).abs() < 1e-20),
+            "{name}"
+        );
+        assert_eq!(
+            (found.free, &found.segment),
+            (expected.free, &expected.segment),
+            "{name}"
+        );
+    }
 
     fn columns(names: &[&str]) -> CurveOptions {
         CurveOptions {

@@ -150,9 +150,10 @@ impl Above {
 
 #[cfg(test)]
 mod tests {
+    use crate::common::{from_text, lines, of_spring};
     use crate::curve::MeasuredCurve;
-    use crate::made::{assert_same, from_text, lines, of_spring};
     use crate::read::options::CurveOptions;
+    use crate::read::tests::assert_same;
 
     /// Head and rows of a text, joined by line ends.
     fn joined(head: &str, count: usize, line: &dyn Fn(usize) -> String) -> String {

@@ -12,13 +12,6 @@ pub(crate) mod posterior;
 pub(crate) mod summary;
 pub(crate) mod table;
 
-#[cfg(test)]
-mod coverage;
-#[cfg(test)]
-mod other_bodies;
-#[cfg(test)]
-mod specimens;
-
 use self::deviation::{Response, RoughnessShifts, Shifts, SummaryDeviation, deviations};
 use self::posterior::{Compared, CurveOfEnsemble, IntervalEstimate};
 use self::summary::Measured;
@@ -444,8 +437,8 @@ fn check(
 
 #[cfg(test)]
 mod tests {
-    use super::specimens::{curve, document, scene};
     use super::*;
+    use crate::common::specimens::{curve, document, scene};
 
     const OPTIONS: EnsembleOptions = EnsembleOptions {
         lines: 16,

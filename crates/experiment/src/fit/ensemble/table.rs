@@ -624,7 +624,10 @@ pub(crate) fn placed(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::ensemble::specimens::{curve, scene};
+    use crate::common::bodies::{self, Body};
+    use crate::common::specimens::{curve, scene};
+    use crate::fit::ensemble::summary::NAMES;
+    use asperity_data::{mean, standard_deviation};
 
     /// A table that was extended is the larger table from the beginning, by any number of threads.
     #[test]
@@ -736,5 +739,58 @@ mod tests {
         assert!((sum - 6.0).abs() < 1e-12);
         let [one, both, other] = moments.covariance;
         assert!((determinant.exp() - (one * other - both * both)).abs() < 1e-12);
+    }
+
+    /// Measured curves and computed curves of the same profiles have the same summaries, up to their
+    /// noise and a small part of the scatter over profiles.
+    #[test]
+    fn computed_curves_have_the_summaries_of_measured_ones() {
+        const LINES: u64 = 32;
+        for body in [Body::Cone, Body::Sphere, Body::Flat] {
+            let specimen = bodies::Specimen {
+                noise: 0.003,
+                ..bodies::Specimen::new(body, 0)
+            };
+            let truth = specimen.truth.clone().checked().unwrap();
+            let mut simulation = Simulation::default();
+            let curve = |line: u64| {
+                (
+                    line.to_string(),
+                    specimen.curve(&mut simulation, seed_of(&truth, line)),
+                )
+            };
+            let measured = Measured::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
+            let table = Specimen {
+                scene: &truth,
+                stiffness: truth.loading_stiffness.unwrap_or(f64::INFINITY),
+                closing: 1.0,
+                protocols: &measured.protocols,
+                stop: &|| false,
+            };
+            let [range, modulus] = [
+                (specimen.work() / specimen.modulus()).ln(),
+                specimen.modulus().ln(),
+            ];
+            let computed = |line: u64| {
+                table
+                    .curves(&mut simulation, line, &[range], &[modulus])
+                    .unwrap()[0]
+            };
+            let computed: Vec<Summaries> = (0..LINES).map(computed).collect();
+            for (index, name) in NAMES.into_iter().enumerate() {
+                let pairs = computed.iter().zip(&measured.summaries);
+                let differences: Vec<f64> = pairs
+                    .map(|(one, other)| other[index] - one[index])
+                    .collect();
+                let values: Vec<f64> = computed.iter().map(|summaries| summaries[index]).collect();
+                let scatter = standard_deviation(&values, mean(&values));
+                let difference = mean(&differences);
+                let error = standard_deviation(&differences, difference) / (LINES as f64).sqrt();
+                assert!(
+                    difference.abs() < 0.05 * scatter + 4.0 * error,
+                    "{body:?}, {name}: {difference} ± {error}, scatter {scatter}"
+                );
+            }
+        }
     }
 }

@@ -1,10 +1,8 @@
 //! Test: the intervals of many fits hold the known values of their curves.
 
-use crate::error::ExperimentError;
-use crate::fit::parameter::Parameter;
-use crate::fit::result::{FitResult, FittedParameter};
-use crate::made::{fitted, free, measured, noise, random, truth};
+use crate::common::{fitted, free, measured, noise, random, truth};
 use asperity_data::on_threads;
+use asperity_experiment::{ExperimentError, FitResult, FittedParameter, Parameter};
 use std::fmt;
 
 /// Numbers of intervals, and of intervals that hold the truth.
@@ -57,7 +55,9 @@ fn intervals_hold_the_truth_of_most_spheres() {
     for (seed, (made, curve, of_seed, first)) in (0..).zip(fits) {
         seconds.push(of_seed);
         // The zero of the reading is off by the mean of the noise before contact.
-        let zero = -noise(&made, seed)[..curve.free].iter().sum::<f64>() / curve.free as f64;
+        let is_first_touch = |displacement: &f64| *displacement == curve.touch;
+        let before = curve.displacement.iter().position(is_first_touch).unwrap();
+        let zero = -noise(&made, seed)[..before].iter().sum::<f64>() / before as f64;
         let count_held = |held: &mut Held, fit: &FitResult, one: &FittedParameter| {
             let truth = if one.parameter == Parameter::Zero {
                 zero
@@ -109,6 +109,6 @@ fn intervals_hold_the_truth_of_most_spheres() {
         all: all[0].all + all[1].all,
     };
     assert!(first.share() >= 0.93);
-    let docs = include_str!("../../../docs/experiment.md");
+    let docs = include_str!("../../../../docs/experiment.md");
     assert!(count < 200 || docs.contains(&table));
 }

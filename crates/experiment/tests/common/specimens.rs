@@ -1,9 +1,8 @@
 //! Curves of specimens with known values, for tests.
 
-use crate::curve::MeasuredCurve;
-use crate::made::{from_text, gauss, lines};
-use crate::read::options::{CurveOptions, Negate};
+use super::{from_text, gauss, lines};
 use asperity_contact::{CurvePoint, Move};
+use asperity_experiment::{CurveOptions, MeasuredCurve, Negate};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
 
 /// Number of points of each branch, and of the fine curve from which they are taken.
@@ -11,7 +10,7 @@ const POINTS: usize = 400;
 const FINE: u64 = 1 << 14;
 
 /// Returns the scene of specimens by its name, with preload and stiffness of the instrument.
-pub(super) fn scene(name: &str) -> Scene {
+pub(crate) fn scene(name: &str) -> Scene {
     let mut scene = Scene::clone(open(name).unwrap().scene());
     let (stiffness, preload) = if name == "rough-sphere" {
         (Some(200.0), 2e-4)
@@ -30,13 +29,13 @@ pub(super) fn scene(name: &str) -> Scene {
     scene
 }
 
-pub(super) fn document(scene: &Scene) -> Document {
+pub(crate) fn document(scene: &Scene) -> Document {
     Document::from_scene(scene, "specimen").unwrap()
 }
 
 /// Makes the curve of one place of a specimen: with a profile of its own, noise as a share of the
 /// preload, an offset and a zero.
-pub(super) fn curve(
+pub(crate) fn curve(
     simulation: &mut Simulation,
     scene: &Scene,
     seed: u64,

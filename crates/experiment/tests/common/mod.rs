@@ -1,13 +1,13 @@
 //! Test curves of scenes with known values.
 
-use crate::curve::MeasuredCurve;
-use crate::fit::Fit;
-use crate::fit::parameter::{Free, Parameter};
-use crate::fit::result::FitResult;
-use crate::fit::scene::radius_of;
-use crate::read::options::{CurveOptions, Drift};
+#![allow(dead_code, reason = "each executable of tests uses a part")]
+
+pub(crate) mod bodies;
+pub(crate) mod specimens;
+
 use asperity_contact::{CurvePoint, Move};
 use asperity_data::Control;
+use asperity_experiment::{CurveOptions, Drift, Fit, FitResult, Free, MeasuredCurve, Parameter};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -156,25 +156,6 @@ pub(crate) fn text_of_spring(
         .fold(header.to_owned(), |text, (d, f)| text + &form(d, f) + "\n")
 }
 
-/// Asserts that two curves have the same points, segments and part before contact.
-pub(crate) fn assert_same(found: &MeasuredCurve, expected: &MeasuredCurve, name: &str) {
-    let both = found
-        .force
-        .iter()
-        .zip(&expected.force)
-        .chain(found.displacement.iter().zip(&expected.displacement));
-    assert!(
-        both.into_iter()
-            .all(|(one, other)| (one - other).abs() < 1e-20),
-        "{name}"
-    );
-    assert_eq!(
-        (found.free, &found.segment),
-        (expected.free, &expected.segment),
-        "{name}"
-    );
-}
-
 /// Text of points with displacements in nm and forces in nN.
 pub(crate) fn lines(points: impl IntoIterator<Item = (f64, f64)>) -> String {
     let line = |text: String, (d, f): (f64, f64)| text + &format!("{d},{f}\n");
@@ -252,7 +233,7 @@ pub(crate) fn random(seed: u64, points: u64) -> Made {
     let (modulus, work) = (2.7e6 * between(0.5, 2.0), 0.05 * between(0.5, 2.0));
     (scene.material, scene.adhesion) =
         (Material::effective(modulus), Some(Adhesion::by_work(work)));
-    let radius = radius_of(&scene).unwrap();
+    let radius = *scene.form.clone().unwrap().radius_mut().unwrap();
     scene.loading = vec![
         Move::ToForce(1.5 * PI * work * radius * between(1.0, 4.0)),
         Move::ToSeparation,

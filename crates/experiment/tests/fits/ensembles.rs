@@ -1,10 +1,8 @@
 //! Test: the intervals of comparisons hold the known values of specimens.
 
-use super::fit_ensemble;
-use super::posterior::IntervalEstimate;
-use super::specimens::{curve, document, scene};
-use super::{EnsembleFit, EnsembleOptions};
+use crate::common::specimens::{curve, document, scene};
 use asperity_data::Control;
+use asperity_experiment::{EnsembleFit, EnsembleOptions, IntervalEstimate, fit_ensemble};
 use asperity_scene::{Adhesion, Material, Roughness, Scene, Simulation};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
@@ -169,7 +167,7 @@ fn compare(name: &str, with_errors: bool) {
     }
     println!("{table}");
     // The page has the rows of rough spheres.
-    let docs = include_str!("../../../../../docs/experiment.md");
+    let docs = include_str!("../../../../docs/experiment.md");
     assert!(
         count < 60 || name != "rough-sphere" || docs.contains(&table),
         "{table}"
