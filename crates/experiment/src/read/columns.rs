@@ -3,10 +3,11 @@
 
 use crate::read::metadata::Metadata;
 use crate::read::names::{
-    OF_BODY, QUANTITIES, SEGMENT, direction, is_one_of, is_unit, letters, unit,
+    APPROACH, DISPLACEMENT, FORCE, OF_BODY, QUANTITIES, Quantity, RETRACTION, SEGMENT, direction,
+    letters, names_unit, unit,
 };
 use crate::read::options::CurveOptions;
-use asperity_data::text_table::TextColumn;
+use asperity_data::text_table::{TextColumn, is_one_of};
 use asperity_data::{format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
@@ -59,224 +60,345 @@ impl Choice {
         stated: Stated<'_>,
         options: &CurveOptions,
     ) -> Result<Self, SurfaceError> {
-        let count = columns.len();
-        let is_unnamed = columns.iter().all(|column| column.name.is_empty());
-        let has_units =
-            !options.units.is_empty() || columns.iter().any(|column| column.unit.is_some());
-        let units = if is_unnamed && !has_units { UNITS } else { "" };
-        let wrong = |fault: String| refused(Place::File, fault, COLUMNS.to_owned() + units);
-        let names = columns
-            .iter()
-            .map(|column| &*column.name)
-            .filter(|name| !name.is_empty());
-        let all = match &*names.map(shown).collect::<Vec<_>>().join(", ") {
-            "" => format!("{count} columns without names"),
-            names => format!("{count} columns {names}"),
-        };
-        let named: Vec<Named> = columns.iter().map(Named::of).collect();
-        let known = known(&named);
-        let place = |wanted: &String| {
-            let letters = letters(wanted);
-            let is_it =
-                |column: &TextColumn| !letters.is_empty() && self::letters(&column.name) == letters;
-            let found = columns.iter().position(is_it);
-            let number = || {
-                wanted
-                    .parse()
-                    .ok()
-                    .filter(|number| (1..=count).contains(number))
-            };
-            let place = found.or_else(|| Some(number()? - 1));
-            place.ok_or_else(|| wrong(format!("{all}: none is {:?}", shown(wanted))))
-        };
-        let is_unknown = !named
-            .iter()
-            .any(|one| QUANTITIES.iter().any(|row| is_one_of(&one.rest, row.3)));
-        let ramp = options.ramp.or(stated.metadata.ramp).filter(|_| count == 1);
-        if count == 1 && ramp.is_none() {
-            let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
-            return Err(refused(Place::File, "one column of numbers", allowed));
-        }
-        let (places, mut segment) = match &options.columns[..] {
-            _ if ramp.is_some() => (vec![[0, 0]], None),
-            [] if count == 2 && (is_unnamed || is_unknown && options.units.len() == 2) => {
-                (vec![[0, 1]], None)
-            }
-            [] => {
-                let places = known
-                    .clone()
-                    .map_err(|term| wrong(format!("{all}: none is known as the {term}")))?;
-                (places, None)
-            }
-            [at, force] => (vec![[place(at)?, place(force)?]], None),
-            [at, force, segment] => (vec![[place(at)?, place(force)?]], Some(place(segment)?)),
-            [at, force, back, back_force] => (
-                vec![
-                    [place(at)?, place(force)?],
-                    [place(back)?, place(back_force)?],
-                ],
-                None,
-            ),
-            other => return Err(wrong(format!("--columns with {}", other.len()))),
-        };
-        if places.len() == 1 && segment.is_none() {
-            let is_segment = |one: &Named| one.direction.is_none() && is_one_of(&one.rest, SEGMENT);
-            segment = named.iter().position(is_segment);
-        }
+        let table = Table::new(columns, stated, options);
+        let ramp = table.ramp()?;
+        let Roles { places, segment } = table.roles(ramp)?;
+
         let mut statements = Vec::new();
-        let name = |place: usize| match &*columns[place].name {
-            "" => (place + 1).to_string(),
-            name => shown(name),
-        };
-        if let (Ok(by_name), false) = (&known, options.columns.is_empty())
-            && *by_name != places
-        {
-            let [at, force] = by_name[0].map(name);
-            statements.push(format!(
-                "Columns by --columns; by the names of the file they are {at} and {force}."
-            ));
-        }
-        let mut words = Vec::new();
-        let mut pair = |places: [usize; 2]| {
+        statements.extend(table.overruled_names(&places));
+        let mut pairs = Vec::with_capacity(places.len());
+        let mut descriptions = Vec::new();
+        for &places in &places {
             let mut units = [1.0; 2];
             for (quantity, place) in places.into_iter().enumerate() {
-                if let Some(ramp) = ramp.filter(|_| quantity == 0) {
+                if quantity == DISPLACEMENT
+                    && let Some(ramp) = ramp
+                {
                     units[quantity] = OF_ROW;
-                    words.push(format!(
-                        "none of the displacement ({} there and back)",
-                        format_quantity(ramp, "m")
+                    let length = format_quantity(ramp, "m");
+                    descriptions.push(format!(
+                        "none of the displacement ({length} there and back)"
                     ));
                     continue;
                 }
-                let unit = columns[place]
-                    .unit
-                    .as_deref()
-                    .or(named[place].unit.as_deref());
-                let (value, word) = of_one(quantity, unit, stated, options, &mut statements)?;
-                units[quantity] = value;
-                words.push(format!("{} ({word})", name(place)));
+                let unit = table.unit(quantity, place)?;
+                units[quantity] = unit.value;
+                descriptions.push(format!("{} ({})", table.name(place), unit.description));
+                statements.extend(unit.statement);
             }
-            Ok(Pair { places, units })
-        };
-        let pairs = places
-            .iter()
-            .map(|places| pair(*places))
-            .collect::<Result<_, SurfaceError>>()?;
-        statements.dedup();
-        let mut assumed = format!("Columns: {}", words[..2].join(", "));
-        if let Some(beside) = words.get(2..).filter(|beside| !beside.is_empty()) {
-            assumed += &format!(", the retraction in {}", beside.join(", "));
+            pairs.push(Pair { places, units });
         }
-        // A number in place of the name overrules what the name says.
-        let is_by_name = options
-            .columns
-            .first()
-            .is_none_or(|typed| typed.parse::<usize>().is_err());
-        let first = places[0][0];
-        let of_body = (is_by_name && is_one_of(&named[first].rest, OF_BODY)).then(|| name(first));
+        statements.dedup();
+
+        let mut assumed = format!("Columns: {}", descriptions[..2].join(", "));
+        if descriptions.len() > 2 {
+            let retraction = descriptions[2..].join(", ");
+            assumed += &format!(", the retraction in {retraction}");
+        }
         Ok(Choice {
+            of_body: table.displacement_of_body(places[0][DISPLACEMENT]),
             pairs,
             segment,
             ramp,
-            of_body,
             assumed,
             statements,
         })
     }
 }
 
-/// Returns the SI value of 1 in a column of a quantity, and the unit in words. The options have
-/// precedence over the file. A deflection becomes a force by the stiffness that the file states.
-fn of_one(
-    quantity: usize,
-    stated: Option<&str>,
-    file: Stated<'_>,
-    options: &CurveOptions,
-    statements: &mut Vec<String>,
-) -> Result<(f64, String), SurfaceError> {
-    let (term, si, example, _) = QUANTITIES[quantity];
-    let option = options.units.get(quantity).map(String::as_str);
-    let wrong = |fault: String, allowed: &str| refused(Place::File, fault, allowed);
-    let text = option
-        .or(stated)
-        .or(file.is_si.then_some(si))
-        .ok_or_else(|| {
-            wrong(
-                format!("no unit of the {term} is stated"),
-                "--units nm,nN for displacement and force",
-            )
-        })?;
-    if quantity == 1
-        && option.is_none()
-        && let Some(of_one) = of_deflection(text, file.metadata)
-    {
-        let (value, by) = of_one?;
-        return Ok((value, format!("{} by {by}", shown(text))));
-    }
-    let is_multiple = text.starts_with(|first: char| first.is_ascii_digit());
-    let value = if is_multiple && option.is_some() {
-        parse_quantity(text, si).ok().filter(|of_one| *of_one > 0.0)
-    } else {
-        unit(text, si)
-    };
-    let value = value.ok_or_else(|| {
-        wrong(
-            format!("{:?} is not a unit of the {term}", shown(text)),
-            &format!("{example} and the like, or the value of 1, such as --units nm,3.01nN"),
-        )
-    })?;
-    let other = stated
-        .or(file.is_si.then_some(si))
-        .filter(|other| unit(other, si) != Some(value));
-    if let Some((other, option)) = other.zip(option) {
-        let other = shown(other);
-        statements.push(format!(
-            "Unit of the {term} by --units: {}; the file states {other}.",
-            shown(option)
-        ));
-    }
-    Ok((value, shown(text)))
+/// Columns of displacement and force, once or for approach and retraction apart, and the column of
+/// the segments.
+struct Roles {
+    places: Vec<[usize; 2]>,
+    segment: Option<usize>,
 }
 
-/// Returns the SI value of 1 in a column of a deflection, which is a length or a voltage, and what
-/// makes it a force. Returns `None` for another unit.
-fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<(f64, String), SurfaceError>> {
-    let (of_length, of_voltage) = (unit(text, "m"), unit(text, "V"));
-    let stiffness = metadata.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
-    let sensitivity = of_voltage.and(metadata.sensitivity);
-    let deflection = of_length.or(of_voltage
-        .zip(sensitivity)
-        .map(|(volts, sensitivity)| volts * sensitivity));
-    let missing = |what: &str| {
-        let fault = format!(
-            "the force is a deflection in {}, and the file states no {what}",
-            shown(text)
-        );
-        Err(refused(
-            Place::File,
-            fault,
-            "the force of 1 in the column, such as --units nm,3.01nN",
-        ))
-    };
-    Some(match (of_length.or(of_voltage)?, deflection, stiffness) {
-        (_, Some(deflection), Some(stiffness)) => {
-            let by = sensitivity.map_or_else(String::new, |found| {
-                format!("{} and ", format_quantity(found, "m/V"))
-            });
-            Ok((
-                deflection * stiffness,
-                format!("{by}{}", format_quantity(stiffness, "N/m")),
-            ))
+/// Unit of a column.
+struct Unit {
+    /// SI value of 1 in the column.
+    value: f64,
+    description: String,
+    /// Sentence on the unit of the file, if an option replaces it.
+    statement: Option<String>,
+}
+
+/// The columns of a file, with everything that decides on their roles.
+struct Table<'a> {
+    columns: &'a [TextColumn],
+    named: Vec<Named>,
+    stated: Stated<'a>,
+    options: &'a CurveOptions,
+}
+
+impl<'a> Table<'a> {
+    fn new(columns: &'a [TextColumn], stated: Stated<'a>, options: &'a CurveOptions) -> Self {
+        Table {
+            columns,
+            named: columns.iter().map(Named::of).collect(),
+            stated,
+            options,
         }
-        (_, Some(_), None) => missing("stiffness of the instrument"),
-        (_, None, _) => missing("sensitivity"),
-    })
+    }
+
+    /// Returns the travel of the piezo for a file with forces only.
+    fn ramp(&self) -> Result<Option<f64>, SurfaceError> {
+        if self.columns.len() != 1 {
+            return Ok(None);
+        }
+        let ramp = self.options.ramp.or(self.stated.metadata.ramp);
+        if ramp.is_none() {
+            let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
+            return Err(refused(Place::File, "one column of numbers", allowed));
+        }
+        Ok(ramp)
+    }
+
+    /// Returns the roles of the columns: as `--columns` states them, or by their names.
+    fn roles(&self, ramp: Option<f64>) -> Result<Roles, SurfaceError> {
+        if ramp.is_some() {
+            return Ok(self.with_named_segment(vec![[0, 0]]));
+        }
+        match &self.options.columns[..] {
+            [] if self.is_pair_in_order() => Ok(self.with_named_segment(vec![[0, 1]])),
+            [] => {
+                let places = known(&self.named).map_err(|term| {
+                    self.wrong(format!("{}: none is known as the {term}", self.listed()))
+                })?;
+                Ok(self.with_named_segment(places))
+            }
+            [displacement, force] => {
+                let places = [self.place(displacement)?, self.place(force)?];
+                Ok(self.with_named_segment(vec![places]))
+            }
+            [displacement, force, segment] => Ok(Roles {
+                places: vec![[self.place(displacement)?, self.place(force)?]],
+                segment: Some(self.place(segment)?),
+            }),
+            [displacement, force, retracted, retracting_force] => {
+                let approach = [self.place(displacement)?, self.place(force)?];
+                let retraction = [self.place(retracted)?, self.place(retracting_force)?];
+                Ok(Roles {
+                    places: vec![approach, retraction],
+                    segment: None,
+                })
+            }
+            other => Err(self.wrong(format!("--columns with {}", other.len()))),
+        }
+    }
+
+    /// Returns roles with the column whose name means the segment. Approach and retraction in
+    /// columns of their own need no such column.
+    fn with_named_segment(&self, places: Vec<[usize; 2]>) -> Roles {
+        let mut segment = None;
+        if places.len() == 1 {
+            segment = self
+                .named
+                .iter()
+                .position(|column| column.direction.is_none() && is_one_of(&column.rest, SEGMENT));
+        }
+        Roles { places, segment }
+    }
+
+    /// Returns true for two columns that are displacement and force in this order, because their
+    /// names say nothing else.
+    fn is_pair_in_order(&self) -> bool {
+        if self.columns.len() != 2 {
+            return false;
+        }
+        self.is_unnamed() || self.is_unknown() && self.options.units.len() == 2
+    }
+
+    fn is_unnamed(&self) -> bool {
+        self.columns.iter().all(|column| column.name.is_empty())
+    }
+
+    /// Returns true if no name is known as a displacement or a force.
+    fn is_unknown(&self) -> bool {
+        for column in &self.named {
+            for quantity in &QUANTITIES {
+                if is_one_of(&column.rest, quantity.names) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Returns the index of the column with a name or a number from 1.
+    fn place(&self, wanted: &str) -> Result<usize, SurfaceError> {
+        let wanted_letters = letters(wanted);
+        if !wanted_letters.is_empty() {
+            for (place, column) in self.columns.iter().enumerate() {
+                if letters(&column.name) == wanted_letters {
+                    return Ok(place);
+                }
+            }
+        }
+        match wanted.parse::<usize>() {
+            Ok(number) if (1..=self.columns.len()).contains(&number) => Ok(number - 1),
+            _ => Err(self.wrong(format!("{}: none is {:?}", self.listed(), shown(wanted)))),
+        }
+    }
+
+    /// Returns the name of a column, or its number if it has no name.
+    fn name(&self, place: usize) -> String {
+        match &*self.columns[place].name {
+            "" => (place + 1).to_string(),
+            name => shown(name),
+        }
+    }
+
+    /// Returns a list of the columns for a message.
+    fn listed(&self) -> String {
+        let count = self.columns.len();
+        if self.is_unnamed() {
+            return format!("{count} columns without names");
+        }
+        let mut names = Vec::with_capacity(count);
+        for column in self.columns {
+            if !column.name.is_empty() {
+                names.push(shown(&column.name));
+            }
+        }
+        format!("{count} columns {}", names.join(", "))
+    }
+
+    /// Returns the sentence on columns that `--columns` chooses against their names.
+    fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
+        if self.options.columns.is_empty() {
+            return None;
+        }
+        let by_name = known(&self.named).ok()?;
+        if by_name == places {
+            return None;
+        }
+        let [displacement, force] = by_name[0].map(|place| self.name(place));
+        Some(format!(
+            "Columns by --columns; by the names of the file they are {displacement} and {force}."
+        ))
+    }
+
+    /// Returns the name of the column of the displacement if it excludes the deflection of the
+    /// instrument. A number in place of the name overrules what the name says.
+    fn displacement_of_body(&self, place: usize) -> Option<String> {
+        if let Some(typed) = self.options.columns.first()
+            && typed.parse::<usize>().is_ok()
+        {
+            return None;
+        }
+        is_one_of(&self.named[place].rest, OF_BODY).then(|| self.name(place))
+    }
+
+    /// Returns the error of columns that are not recognised.
+    fn wrong(&self, found: String) -> SurfaceError {
+        let has_units = !self.options.units.is_empty()
+            || self.columns.iter().any(|column| column.unit.is_some());
+        let mut allowed = COLUMNS.to_owned();
+        if self.is_unnamed() && !has_units {
+            allowed += UNITS;
+        }
+        refused(Place::File, found, allowed)
+    }
+
+    /// Returns the unit of a column of a quantity. The options have precedence over the file. A
+    /// deflection becomes a force by the stiffness that the file states.
+    fn unit(&self, quantity: usize, place: usize) -> Result<Unit, SurfaceError> {
+        let Quantity {
+            term,
+            si_unit,
+            unit_example,
+            ..
+        } = QUANTITIES[quantity];
+        let option = self.options.units.get(quantity).map(String::as_str);
+        let of_column = self.columns[place].unit.as_deref();
+        let of_name = self.named[place].unit.as_deref();
+        let of_file = self.stated.is_si.then_some(si_unit);
+        let stated = of_column.or(of_name).or(of_file);
+
+        let Some(text) = option.or(stated) else {
+            let found = format!("no unit of the {term} is stated");
+            let allowed = "--units nm,nN for displacement and force";
+            return Err(refused(Place::File, found, allowed));
+        };
+        if quantity == FORCE
+            && option.is_none()
+            && let Some(deflection) = of_deflection(text, self.stated.metadata)
+        {
+            return deflection;
+        }
+
+        let Some(value) = unit_value(text, si_unit, option.is_some()) else {
+            let found = format!("{:?} is not a unit of the {term}", shown(text));
+            let allowed = format!(
+                "{unit_example} and the like, or the value of 1, such as --units nm,3.01nN"
+            );
+            return Err(refused(Place::File, found, allowed));
+        };
+        let mut statement = None;
+        if let (Some(option), Some(stated)) = (option, stated)
+            && unit(stated, si_unit) != Some(value)
+        {
+            statement = Some(format!(
+                "Unit of the {term} by --units: {}; the file states {}.",
+                shown(option),
+                shown(stated)
+            ));
+        }
+        Ok(Unit {
+            value,
+            description: shown(text),
+            statement,
+        })
+    }
+}
+
+/// Returns the SI value of 1 in a column. An option may state a multiple of a unit, such as 3.01nN.
+fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
+    if is_option && text.starts_with(|first: char| first.is_ascii_digit()) {
+        let value = parse_quantity(text, si_unit).ok()?;
+        return (value > 0.0).then_some(value);
+    }
+    unit(text, si_unit)
+}
+
+/// Returns the unit of a column of a deflection, which is a length or a voltage. It is the force in
+/// N of a deflection of 1. Returns `None` for another unit.
+fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, SurfaceError>> {
+    let mut factors = String::new();
+    let deflection = match unit(text, "m") {
+        Some(length) => length,
+        None => {
+            let voltage = unit(text, "V")?;
+            let Some(sensitivity) = metadata.sensitivity else {
+                return Some(Err(no_force(text, "sensitivity")));
+            };
+            factors = format!("{} and ", format_quantity(sensitivity, "m/V"));
+            voltage * sensitivity
+        }
+    };
+    let Some((_, stiffness)) = &metadata.stiffness else {
+        return Some(Err(no_force(text, "stiffness of the instrument")));
+    };
+    factors += &format_quantity(*stiffness, "N/m");
+    Some(Ok(Unit {
+        value: deflection * *stiffness,
+        description: format!("{} by {factors}", shown(text)),
+        statement: None,
+    }))
+}
+
+/// Returns the error of a deflection from which no force follows.
+fn no_force(unit: &str, missing: &str) -> SurfaceError {
+    let unit = shown(unit);
+    let found = format!("the force is a deflection in {unit}, and the file states no {missing}");
+    let allowed = "the force of 1 in the column, such as --units nm,3.01nN";
+    refused(Place::File, found, allowed)
 }
 
 /// Quantity and unit that follow from the name of a column.
 #[derive(Clone, Debug)]
 struct Named {
-    /// 0 approach, 1 retraction.
+    /// [`APPROACH`], [`RETRACTION`] or neither.
     direction: Option<usize>,
     /// Letters of the words that state neither direction nor unit.
     rest: String,
@@ -286,23 +408,24 @@ struct Named {
 
 impl Named {
     fn of(column: &TextColumn) -> Named {
-        let words: Vec<&str> = column
-            .name
-            .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty())
-            .collect();
-        let is_unit = |word: &&&str| {
-            **word == "V"
-                || word.chars().count() > 1 && (is_unit(word) || unit(word, "V").is_some())
-        };
-        let unit = words.iter().skip(1).find(is_unit).copied();
-        let rest = words
-            .iter()
-            .filter(|word| direction(word).is_none() && Some(**word) != unit);
+        let words = column.name.split(|c: char| !c.is_alphanumeric());
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        // The first word is the quantity, even if it looks like a unit.
+        let unit_of_name = words.iter().skip(1).copied().find(|word| names_unit(word));
+
+        let mut direction_of_column = None;
+        let mut rest = String::new();
+        for word in words {
+            match direction(word) {
+                Some(found) => direction_of_column = direction_of_column.or(Some(found)),
+                None if unit_of_name == Some(word) => {}
+                None => rest += &letters(word),
+            }
+        }
         Named {
-            direction: words.iter().find_map(|word| direction(word)),
-            rest: rest.map(|word| letters(word)).collect(),
-            unit: column.unit.clone().or(unit.map(str::to_owned)),
+            direction: direction_of_column,
+            rest,
+            unit: column.unit.clone().or(unit_of_name.map(str::to_owned)),
         }
     }
 
@@ -321,31 +444,62 @@ impl Named {
 /// approach and retraction are side by side. The error is the name of the quantity that no column
 /// names.
 fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
-    let of = |quantity: usize, direction: Option<usize>| {
-        let is = |known: &str| {
-            let fits = |(_, one): &(usize, &Named)| one.direction == direction && one.rest == known;
-            let ranked = named.iter().enumerate().filter(fits);
-            ranked
-                .min_by_key(|(_, one)| if quantity == 1 { one.rank() } else { 0 })
-                .map(|(place, _)| place)
-        };
-        let found = QUANTITIES[quantity].3.split(' ').find_map(is);
-        // A column may be named by its direction alone.
-        found.or_else(|| direction.filter(|_| quantity == 1).and_then(|_| is("")))
-    };
-    let beside = |of_direction: usize| {
-        let displacement = of(0, Some(of_direction)).or_else(|| of(0, None))?;
-        Some([displacement, of(1, Some(of_direction))?])
-    };
-    if let Some(pairs) = beside(0).zip(beside(1)) {
-        return Ok(vec![pairs.0, pairs.1]);
+    if let Some(approach) = pair_of_direction(named, APPROACH)
+        && let Some(retraction) = pair_of_direction(named, RETRACTION)
+    {
+        return Ok(vec![approach, retraction]);
     }
-    match ([of(0, None), of(1, None)], named.len()) {
-        ([Some(displacement), Some(force)], _) => Ok(vec![[displacement, force]]),
+    let displacement = find_column(named, DISPLACEMENT, None);
+    let force = find_column(named, FORCE, None);
+    match (displacement, force) {
+        (Some(displacement), Some(force)) => Ok(vec![[displacement, force]]),
         // Of two columns the other one.
-        ([Some(displacement), None], 2) => Ok(vec![[displacement, 1 - displacement]]),
-        ([None, Some(force)], 2) => Ok(vec![[1 - force, force]]),
-        ([None, _], _) => Err(QUANTITIES[0].0),
-        ([_, None], _) => Err(QUANTITIES[1].0),
+        (Some(displacement), None) if named.len() == 2 => {
+            Ok(vec![[displacement, 1 - displacement]])
+        }
+        (None, Some(force)) if named.len() == 2 => Ok(vec![[1 - force, force]]),
+        (None, _) => Err(QUANTITIES[DISPLACEMENT].term),
+        (_, None) => Err(QUANTITIES[FORCE].term),
     }
+}
+
+/// Returns the columns of displacement and force of a direction. Both directions may share the
+/// column of displacements, and the name of a column of forces may be its direction alone.
+fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
+    let direction = Some(direction);
+    let displacement = find_column(named, DISPLACEMENT, direction)
+        .or_else(|| find_column(named, DISPLACEMENT, None))?;
+    let force = find_column(named, FORCE, direction)
+        .or_else(|| best_column(named, FORCE, direction, ""))?;
+    Some([displacement, force])
+}
+
+/// Returns the column that is named as a quantity, by the most preferred name.
+fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Option<usize> {
+    for name in QUANTITIES[quantity].names.split(' ') {
+        if let Some(place) = best_column(named, quantity, direction, name) {
+            return Some(place);
+        }
+    }
+    None
+}
+
+/// Returns the first column with a name and a direction. Among forces the best unit comes first.
+fn best_column(
+    named: &[Named],
+    quantity: usize,
+    direction: Option<usize>,
+    name: &str,
+) -> Option<usize> {
+    let mut best: Option<(usize, usize)> = None;
+    for (place, column) in named.iter().enumerate() {
+        if column.direction != direction || column.rest != name {
+            continue;
+        }
+        let rank = if quantity == FORCE { column.rank() } else { 0 };
+        if best.is_none_or(|(_, best_rank)| rank < best_rank) {
+            best = Some((place, rank));
+        }
+    }
+    best.map(|(place, _)| place)
 }

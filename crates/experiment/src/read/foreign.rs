@@ -4,105 +4,121 @@ use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
-/// For each binary format: ends of file names, first bytes, name, and the way to a text file.
-const FORMATS: [(&[&str], &[u8], &str, &str); 12] = [
-    (
-        &["jpk-force", "jpk-force-map", "jpk-qi-data", "jpk-qi-series"],
-        b"",
-        "curves of a JPK instrument",
-        "the text of JPK Data Processing (File, Export)",
-    ),
-    (
-        &["ibw", "pxp"],
-        b"",
-        "a wave of Igor Pro",
-        "the text of Igor Pro (Data, Save Waves, Save Delimited Text)",
-    ),
-    (
-        &["h5", "hdf5", "hdf"],
-        b"\x89HDF",
-        "a file of HDF5",
-        "the table that PyJibe exports (.tab)",
-    ),
-    (
-        &["nid"],
-        b"",
-        "a file of Nanosurf",
-        "the text of Nanosurf Studio (File, Export, CSV)",
-    ),
-    (
-        &["spm", "pfc", "000", "001", "002"],
-        b"\\*F",
-        "a file of Nanoscope",
-        "the text of NanoScope Analysis (Export, ASCII, with the columns Ramp and Defl)",
-    ),
-    (
-        &["tdms"],
-        b"TDSm",
-        "a file of LabVIEW",
-        "the text of DIAdem, or of Python's npTDMS",
-    ),
-    (
-        &["mdt"],
-        b"\x01\xb0\x93\xff",
-        "a file of NT-MDT",
-        "the text of Nova (File, Export, ASCII)",
-    ),
-    (&["xlsx"], b"", "a table of Excel", "the table saved as CSV"),
-    (
-        &["xls"],
-        b"\xd0\xcf\x11\xe0",
-        "a table of Excel",
-        "the table saved as CSV",
-    ),
-    (
-        &["mat"],
-        b"MATLAB",
-        "a file of MATLAB",
-        "a table by writematrix",
-    ),
-    (
-        &["npz"],
-        b"",
-        "an archive of NumPy arrays",
-        "one array by numpy.save, with a column each",
-    ),
-    (&["zip"], b"PK", "an archive", "the files in it"),
+/// Binary format of an instrument or a program.
+struct Format {
+    /// Ends of the names of its files.
+    extensions: &'static [&'static str],
+    /// First bytes of its files; empty if they are not known.
+    signature: &'static [u8],
+    name: &'static str,
+    /// Way to a text file.
+    way: &'static str,
+}
+
+const FORMATS: [Format; 12] = [
+    Format {
+        extensions: &["jpk-force", "jpk-force-map", "jpk-qi-data", "jpk-qi-series"],
+        signature: b"",
+        name: "curves of a JPK instrument",
+        way: "the text of JPK Data Processing (File, Export)",
+    },
+    Format {
+        extensions: &["ibw", "pxp"],
+        signature: b"",
+        name: "a wave of Igor Pro",
+        way: "the text of Igor Pro (Data, Save Waves, Save Delimited Text)",
+    },
+    Format {
+        extensions: &["h5", "hdf5", "hdf"],
+        signature: b"\x89HDF",
+        name: "a file of HDF5",
+        way: "the table that PyJibe exports (.tab)",
+    },
+    Format {
+        extensions: &["nid"],
+        signature: b"",
+        name: "a file of Nanosurf",
+        way: "the text of Nanosurf Studio (File, Export, CSV)",
+    },
+    Format {
+        extensions: &["spm", "pfc", "000", "001", "002"],
+        signature: b"\\*F",
+        name: "a file of Nanoscope",
+        way: "the text of NanoScope Analysis (Export, ASCII, with the columns Ramp and Defl)",
+    },
+    Format {
+        extensions: &["tdms"],
+        signature: b"TDSm",
+        name: "a file of LabVIEW",
+        way: "the text of DIAdem, or of Python's npTDMS",
+    },
+    Format {
+        extensions: &["mdt"],
+        signature: b"\x01\xb0\x93\xff",
+        name: "a file of NT-MDT",
+        way: "the text of Nova (File, Export, ASCII)",
+    },
+    Format {
+        extensions: &["xlsx"],
+        signature: b"",
+        name: "a table of Excel",
+        way: "the table saved as CSV",
+    },
+    Format {
+        extensions: &["xls"],
+        signature: b"\xd0\xcf\x11\xe0",
+        name: "a table of Excel",
+        way: "the table saved as CSV",
+    },
+    Format {
+        extensions: &["mat"],
+        signature: b"MATLAB",
+        name: "a file of MATLAB",
+        way: "a table by writematrix",
+    },
+    Format {
+        extensions: &["npz"],
+        signature: b"",
+        name: "an archive of NumPy arrays",
+        way: "one array by numpy.save, with a column each",
+    },
+    Format {
+        extensions: &["zip"],
+        signature: b"PK",
+        name: "an archive",
+        way: "the files in it",
+    },
 ];
 
 /// Returns an error for a binary file. The error names the format and the way to a text file.
 pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), SurfaceError> {
-    let is_wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
-    if is_wide || !bytes.contains(&0) {
+    let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    if is_utf16 || !bytes.contains(&0) {
         return Ok(());
     }
-    let extension = path
-        .extension()
-        .map(|of| of.to_string_lossy().to_lowercase())
-        .unwrap_or_default();
+    let Some(format) = format_of(path, bytes) else {
+        let allowed = "text, CSV or an array of NumPy: the text that the program of the instrument \
+            exports, or the table that PyJibe exports";
+        return Err(refused(Place::File, "a binary file", allowed));
+    };
+    let found = format!("{}, which is no text", format.name);
+    let mut allowed = format!("text, CSV or an array of NumPy: {}", format.way);
+    if !format.way.contains("PyJibe") {
+        allowed += ", or the table that PyJibe exports";
+    }
+    Err(refused(Place::File, found, allowed))
+}
+
+/// Returns the format of a file by the end of its name, or else by its first bytes.
+fn format_of(path: &Path, bytes: &[u8]) -> Option<&'static Format> {
+    let extension = path.extension().unwrap_or_default();
+    let extension = extension.to_string_lossy().to_lowercase();
     let by_name = FORMATS
         .iter()
-        .find(|format| format.0.contains(&&*extension));
-    let by_bytes = || {
-        FORMATS
-            .iter()
-            .find(|format| !format.1.is_empty() && bytes.starts_with(format.1))
-    };
-    let (fault, way) = match by_name.or_else(by_bytes) {
-        Some((_, _, what, way)) => (format!("{what}, which is no text"), *way),
-        None => (
-            "a binary file".to_owned(),
-            "the text that the program of the instrument exports",
-        ),
-    };
-    let allowed =
-        format!("text, CSV or an array of NumPy: {way}, or the table that PyJibe exports");
-    let allowed = if way.contains("PyJibe") {
-        format!("text, CSV or an array of NumPy: {way}")
-    } else {
-        allowed
-    };
-    Err(refused(Place::File, fault, allowed))
+        .find(|format| format.extensions.contains(&&*extension));
+    let has_signature =
+        |format: &&Format| !format.signature.is_empty() && bytes.starts_with(format.signature);
+    by_name.or_else(|| FORMATS.iter().find(has_signature))
 }
 
 #[cfg(test)]

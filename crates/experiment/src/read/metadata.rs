@@ -1,10 +1,10 @@
 //! What the lines above the numbers of a curve say about the instrument.
 
+use crate::read::names::{letters, unit};
 use asperity_data::parse_quantity;
 use asperity_data::text_table::{Decimal, Separator, TextCell};
 
-/// Names of the stiffness of the instrument, of the deflection for 1 V, and of the travel of the
-/// piezo, as letters.
+/// Names of the stiffness of the instrument, as letters.
 const STIFFNESS: [&str; 6] = [
     "springconstant",
     "forceconstant",
@@ -13,6 +13,7 @@ const STIFFNESS: [&str; 6] = [
     "springk",
     "k",
 ];
+/// Names of the deflection for 1 V, as letters.
 const SENSITIVITY: [&str; 5] = [
     "sensitivity",
     "deflectionsensitivity",
@@ -20,6 +21,7 @@ const SENSITIVITY: [&str; 5] = [
     "sensdeflection",
     "lightlevergain",
 ];
+/// Names of the travel of the piezo, as letters.
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
 /// Stiffness and sensitivity of the instrument, and the travel of its piezo.
@@ -37,68 +39,89 @@ impl Metadata {
     /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind
     /// the key or the value; without a unit the value is in SI units.
     pub fn take(&mut self, line: &str) {
-        let parts = line
+        let Some(entry) = Entry::of(line) else {
+            return;
+        };
+        let names = letters(entry.name);
+        let names = &*names;
+        if STIFFNESS.contains(&names) {
+            if let Some(unit) = ratio(entry.unit, "N", "m") {
+                self.stiffness = Some((entry.name.to_owned(), entry.number * unit));
+            }
+        } else if SENSITIVITY.contains(&names) {
+            if let Some(sensitivity) = entry.sensitivity() {
+                self.sensitivity = Some(sensitivity);
+            }
+        } else if RAMP.contains(&names)
+            && let Ok(ramp) = parse_quantity(&format!("{:e} {}", entry.number, entry.unit), "m")
+        {
+            self.ramp = Some(ramp);
+        }
+    }
+}
+
+/// Positive number in the header of a file, with its name and its unit.
+struct Entry<'a> {
+    name: &'a str,
+    number: f64,
+    /// Empty if none is stated.
+    unit: &'a str,
+}
+
+impl<'a> Entry<'a> {
+    fn of(line: &'a str) -> Option<Self> {
+        let (key, value) = line
             .rsplit_once(": ")
-            .or_else(|| line.split_once([':', '=', '\t']));
-        let Some((key, value)) = parts else { return };
-        let (name, of_key) = key.split_once(['(', '[', ',']).unwrap_or((key, ""));
-        let name = name.trim_matches(|c: char| !c.is_alphanumeric());
-        let letters: String = name
-            .chars()
-            .filter(|c| c.is_alphanumeric())
-            .flat_map(char::to_lowercase)
-            .collect();
+            .or_else(|| line.split_once([':', '=', '\t']))?;
+        let (name, unit_of_key) = key.split_once(['(', '[', ',']).unwrap_or((key, ""));
         let value = value.trim_matches(|c: char| !(c.is_alphanumeric() || "+-./".contains(c)));
         // Instruments write `V 65.3 nm/V` for a value that depends on a voltage.
         let value = value.strip_prefix("V ").unwrap_or(value).trim();
         let end = value
             .find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))
             .unwrap_or(value.len());
-        let (number, of_value) = value.split_at(end);
+        let (number, unit_of_value) = value.split_at(end);
         let TextCell::Number(number) = Decimal::default().read(number, Separator::SPACE) else {
-            return;
+            return None;
         };
         if number <= 0.0 {
-            return;
+            return None;
         }
-        let unit = [of_value, of_key]
-            .map(|unit| unit.trim_matches(|c: char| !(c.is_alphabetic() || c == '/')));
-        let unit = unit
-            .into_iter()
-            .find(|unit| !unit.is_empty())
-            .unwrap_or_default();
-        let is = |names: &[&str]| names.contains(&&*letters);
-        if is(&STIFFNESS) {
-            if let Some(of_one) = ratio(unit, "N", "m") {
-                self.stiffness = Some((name.to_owned(), number * of_one));
-            }
-        } else if is(&SENSITIVITY) {
-            let inverse = ratio(unit, "V", "m").map(|of_one| 1.0 / (number * of_one));
-            // A gain of 1 mV/nm is that of an instrument without calibration.
-            let inverse = inverse.filter(|_| !unit.is_empty() && number != 1.0);
-            self.sensitivity = inverse
-                .or(ratio(unit, "m", "V").map(|of_one| number * of_one))
-                .or(self.sensitivity);
-        } else if is(&RAMP) {
-            self.ramp = parse_quantity(&format!("{number:e} {unit}"), "m")
-                .ok()
-                .or(self.ramp);
+        let mut unit = only_unit(unit_of_value);
+        if unit.is_empty() {
+            unit = only_unit(unit_of_key);
         }
+        Some(Entry {
+            name: name.trim_matches(|c: char| !c.is_alphanumeric()),
+            number,
+            unit,
+        })
+    }
+
+    /// Returns the deflection for 1 V in m/V, also from a voltage for 1 m.
+    fn sensitivity(&self) -> Option<f64> {
+        // A gain of 1 mV/nm is that of an instrument without calibration.
+        if !self.unit.is_empty()
+            && self.number != 1.0
+            && let Some(unit) = ratio(self.unit, "V", "m")
+        {
+            return Some(1.0 / (self.number * unit));
+        }
+        Some(self.number * ratio(self.unit, "m", "V")?)
     }
 }
 
+fn only_unit(text: &str) -> &str {
+    text.trim_matches(|c: char| !(c.is_alphabetic() || c == '/'))
+}
+
 /// Returns the SI value of 1 in a unit that is a ratio, such as nN/nm; 1 without a unit.
-fn ratio(unit: &str, over: &str, under: &str) -> Option<f64> {
-    if unit.is_empty() {
+fn ratio(text: &str, over: &str, under: &str) -> Option<f64> {
+    if text.is_empty() {
         return Some(1.0);
     }
-    let (above, below) = unit.split_once('/')?;
-    let of_one = |text: &str, unit: &str| {
-        parse_quantity(&format!("1 {text}"), unit)
-            .ok()
-            .filter(|_| text.ends_with(unit))
-    };
-    Some(of_one(above, over)? / of_one(below, under)?)
+    let (above, below) = text.split_once('/')?;
+    Some(unit(above, over)? / unit(below, under)?)
 }
 
 #[cfg(test)]

@@ -11,9 +11,9 @@ use crate::error::ExperimentError;
 use crate::read::columns::{Choice, Pair, Stated};
 use crate::read::foreign::check_is_text;
 use crate::read::metadata::Metadata;
-use crate::read::names::{is_pause, names_segment};
+use crate::read::names::{DISPLACEMENT, FORCE, QUANTITIES, is_pause, names_segment};
 use crate::read::options::CurveOptions;
-use crate::read::text::{Above, Shape, beginning, is_comment, segment_of};
+use crate::read::text::{Above, Beginning, Shape, beginning, is_comment, segment_of};
 use asperity_data::text_table::{Decimal, ONE_MARK, TextCell, TextColumn, each_line};
 use asperity_data::{PROVENANCE, grouped, npy, shown};
 use asperity_surface::files::{columns as npy_columns, refused, unpacked};
@@ -66,9 +66,9 @@ pub(crate) struct Columns {
     pub assumed: String,
     /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
-    /// Number of points left out because they repeat the point before, and the place of the first
-    /// of them.
+    /// Number of points left out because they repeat the point before.
     repeated: usize,
+    /// Place of the first repeated point.
     first_repeated: Option<Place>,
     /// Number of the line or of the point in the file, for each point.
     places: Vec<usize>,
@@ -83,18 +83,14 @@ impl Columns {
         options: &CurveOptions,
     ) -> Result<Self, ExperimentError> {
         let bytes = unpacked(bytes)?;
-        let is_array = bytes.starts_with(npy::SIGNATURE);
-        if !is_array {
-            check_is_text(name, &bytes)?;
+        if bytes.starts_with(npy::SIGNATURE) {
+            let columns = Columns::joined(of_array(&bytes, options)?);
+            columns.check_displacements(Place::Point)?;
+            return Ok(columns);
         }
-        let parts = if is_array {
-            of_array(&bytes, options)?
-        } else {
-            of_text(&bytes, options)?
-        };
-        let columns = Columns::joined(parts);
-        let place = if is_array { Place::Point } else { Place::Line };
-        columns.check_displacements(place)?;
+        check_is_text(name, &bytes)?;
+        let columns = Columns::joined(of_text(&bytes, options)?);
+        columns.check_displacements(Place::Line)?;
         Ok(columns)
     }
 
@@ -126,57 +122,54 @@ impl Columns {
 
     /// Returns the numbers of points left out, in words; empty if there are none.
     pub fn left_out(&self) -> Vec<String> {
-        let count = |count: usize| grouped(count as u64);
-        let mut words = Vec::new();
+        let mut sentences = Vec::new();
         if self.missing > 0 {
-            words.push(format!(
-                "{} left out since a value is missing",
-                count(self.missing)
-            ));
+            let count = grouped(self.missing as u64);
+            sentences.push(format!("{count} left out since a value is missing"));
         }
         if let Some(place) = &self.first_repeated {
+            let count = grouped(self.repeated as u64);
             let place = place.to_string();
             let place = place.trim_end_matches([':', ' ']);
-            words.push(format!(
-                "{} left out since they repeat the point before, first {place}",
-                count(self.repeated)
+            sentences.push(format!(
+                "{count} left out since they repeat the point before, first {place}"
             ));
         }
-        words
+        sentences
     }
 
-    /// Joins an approach with the retraction beside it. The retraction begins at its end that is
-    /// nearer to the end of the approach.
+    /// Joins an approach with the retraction beside it.
     fn joined(parts: Vec<Columns>) -> Columns {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
-        for mut part in parts {
-            let turn = joined.displacement.last().copied();
-            let ends = part
-                .displacement
-                .first()
-                .copied()
-                .zip(part.displacement.last().copied());
-            if let Some((turn, (first, last))) = turn.zip(ends)
-                && (last - turn).abs() < (first - turn).abs()
-            {
-                part.displacement.reverse();
-                part.force.reverse();
-                part.places.reverse();
-            }
-            joined.labels = vec![Label::of_part(0); joined.displacement.len()];
-            joined
-                .labels
-                .extend(vec![Label::of_part(1); part.displacement.len()]);
-            joined.displacement.extend(part.displacement);
-            joined.force.extend(part.force);
-            joined.places.extend(part.places);
-            joined.missing += part.missing;
-            joined.repeated += part.repeated;
-            joined.first_repeated = joined.first_repeated.or(part.first_repeated);
-            joined.is_beside = true;
+        for part in parts {
+            joined.append_retraction(part);
         }
         joined
+    }
+
+    /// Adds the retraction to an approach. It begins at its end that is nearer to the end of the
+    /// approach.
+    fn append_retraction(&mut self, mut retraction: Columns) {
+        if let Some(turn) = self.displacement.last()
+            && let Some(first) = retraction.displacement.first()
+            && let Some(last) = retraction.displacement.last()
+            && (last - turn).abs() < (first - turn).abs()
+        {
+            retraction.displacement.reverse();
+            retraction.force.reverse();
+            retraction.places.reverse();
+        }
+        self.labels = vec![Label::of_part(0); self.displacement.len()];
+        let labels = vec![Label::of_part(1); retraction.displacement.len()];
+        self.labels.extend(labels);
+        self.displacement.extend(retraction.displacement);
+        self.force.extend(retraction.force);
+        self.places.extend(retraction.places);
+        self.missing += retraction.missing;
+        self.repeated += retraction.repeated;
+        self.first_repeated = self.first_repeated.take().or(retraction.first_repeated);
+        self.is_beside = true;
     }
 
     /// Adds a point with these values of displacement and force in the units of the file. A point
@@ -187,81 +180,87 @@ impl Columns {
             self.missing += 1;
             return Ok(false);
         }
-        let [displacement, force] = [0, 1].map(|of| {
-            // A division by a whole number rounds once.
-            let (value, unit) = (values[of], pair.units[of]);
-            let divisor = (1.0 / unit).round();
-            if (divisor * unit - 1.0).abs() < 1e-12 {
-                value / divisor
-            } else {
-                value * unit
-            }
-        });
-        if (self.displacement.last(), self.force.last()) == (Some(&displacement), Some(&force)) {
+        let displacement = in_si(values[DISPLACEMENT], pair.units[DISPLACEMENT]);
+        let force = in_si(values[FORCE], pair.units[FORCE]);
+        if self.displacement.last() == Some(&displacement) && self.force.last() == Some(&force) {
             self.repeated += 1;
             self.first_repeated.get_or_insert(place);
             return Ok(false);
         }
-        let number = if let Place::Line(number) | Place::Point(number) = place {
-            number
-        } else {
-            0
-        };
-        for (value, largest, (term, unit)) in [
-            (displacement, LARGEST[0], ("displacement", "m")),
-            (force, LARGEST[1], ("force", "N")),
-        ] {
-            if !(-largest..=largest).contains(&value) {
-                let fault = format!("a {term} of {value:e} {unit}");
-                return Err(refused(
-                    place,
-                    fault,
-                    format!("at most {largest:e} {unit} either way"),
-                ));
-            }
-        }
+        check_magnitude(displacement, DISPLACEMENT, &place)?;
+        check_magnitude(force, FORCE, &place)?;
         self.displacement.push(displacement);
         self.force.push(force);
-        self.places.push(number);
+        self.places.push(match place {
+            Place::Line(number) | Place::Point(number) => number,
+            _ => 0,
+        });
         Ok(true)
     }
 
     /// Returns an error if a few displacements are far from all others. Such errors of a file would
-    /// determine the range.
+    /// determine the range. `place` makes the place in the file of a line or point with a number.
     fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
         let count = sorted.len();
-        let [Some(&low), Some(&high)] = [
-            sorted.get(count / 20),
-            sorted.get((count - count / 20).max(1) - 1),
-        ] else {
+        let twentieth = count / 20;
+        let (Some(&low), Some(&high)) = (
+            sorted.get(twentieth),
+            sorted.get((count - twentieth).max(1) - 1),
+        ) else {
             return Ok(());
         };
         let room = WILD * (high - low);
-        let is_wild = |at: &f64| *at < low - room || *at > high + room;
-        let wild = sorted.iter().filter(|at| is_wild(at)).count();
-        if room > 0.0
-            && (1..=(count / 50).max(1)).contains(&wild)
-            && let Some(first) = self.displacement.iter().position(&is_wild)
-        {
-            sorted.retain(|at| !is_wild(at));
-            let (low, high) = (sorted[0], sorted[sorted.len() - 1]);
-            return Err(refused(
-                place(self.places[first]),
-                format!(
-                    "a displacement of {:e} m far from all others",
-                    self.displacement[first]
-                ),
-                format!("near those from {low:e} m to {high:e} m; NaN leaves a point out"),
-            ));
+        let is_wild =
+            |displacement: &f64| *displacement < low - room || *displacement > high + room;
+        let Some(first_wild) = self.displacement.iter().position(is_wild) else {
+            return Ok(());
+        };
+        sorted.retain(|displacement| !is_wild(displacement));
+        let wild_count = count - sorted.len();
+        if room <= 0.0 || wild_count > (count / 50).max(1) {
+            return Ok(());
         }
-        Ok(())
+        let found = format!(
+            "a displacement of {:e} m far from all others",
+            self.displacement[first_wild]
+        );
+        let allowed = format!(
+            "near those from {:e} m to {:e} m; NaN leaves a point out",
+            sorted[0],
+            sorted[sorted.len() - 1]
+        );
+        Err(refused(place(self.places[first_wild]), found, allowed))
     }
 }
 
-/// Points of a file that are collected from its chosen columns.
-struct Points {
+/// Returns a value in SI units. A division by a whole number rounds once, while the unit itself,
+/// such as 1e-9, is rounded too.
+fn in_si(value: f64, unit: f64) -> f64 {
+    let divisor = (1.0 / unit).round();
+    if (divisor * unit - 1.0).abs() < 1e-12 {
+        value / divisor
+    } else {
+        value * unit
+    }
+}
+
+/// Returns an error for a value that no instrument measures.
+fn check_magnitude(value: f64, quantity: usize, place: &Place) -> Result<(), SurfaceError> {
+    let largest = LARGEST[quantity];
+    if (-largest..=largest).contains(&value) {
+        return Ok(());
+    }
+    let term = QUANTITIES[quantity].term;
+    let unit = QUANTITIES[quantity].si_unit;
+    let found = format!("a {term} of {value:e} {unit}");
+    let allowed = format!("at most {largest:e} {unit} either way");
+    Err(refused(place.clone(), found, allowed))
+}
+
+/// Rows of a file, from whose chosen columns the points are collected.
+struct Rows {
     choice: Choice,
     /// One set of columns, or two: one for an approach, one for the retraction beside it.
     parts: Vec<Columns>,
@@ -269,10 +268,10 @@ struct Points {
     /// Name of the present segment; empty before the first one.
     name: String,
     /// Number of rows so far.
-    rows: usize,
+    count: usize,
 }
 
-impl Points {
+impl Rows {
     fn new(
         columns: &[TextColumn],
         stated: Stated<'_>,
@@ -284,12 +283,12 @@ impl Points {
         parts[0].assumed = std::mem::take(&mut choice.assumed);
         parts[0].of_body = choice.of_body.take();
         parts[0].stiffness.clone_from(&stated.metadata.stiffness);
-        Ok(Points {
+        Ok(Rows {
             choice,
             parts,
             label: Label::default(),
             name: String::new(),
-            rows: 0,
+            count: 0,
         })
     }
 
@@ -304,8 +303,8 @@ impl Points {
         }
     }
 
-    /// Adds the point at a place of the file. `value` returns the number in a column, NaN if it is
-    /// missing, and `text` returns its text.
+    /// Adds the points of a row. `value` returns the number in a column, NaN if it is missing, and
+    /// `text` returns its text.
     fn take<'a>(
         &mut self,
         place: &Place,
@@ -315,140 +314,186 @@ impl Points {
         if let Some(column) = self.choice.segment {
             self.begin_segment(&text(column));
         }
-        let (is_beside, is_labelled) = (self.parts.len() > 1, !self.name.is_empty());
+        let is_beside = self.parts.len() > 1;
+        let is_labelled = !self.name.is_empty();
         for (part, pair) in self.parts.iter_mut().zip(&self.choice.pairs) {
-            let force = value(pair.places[1])?;
+            let force = value(pair.places[FORCE])?;
             // Without a column of displacements the rows count.
             let displacement = match self.choice.ramp {
-                Some(_) => self.rows as f64,
-                None => value(pair.places[0])?,
+                Some(_) => self.count as f64,
+                None => value(pair.places[DISPLACEMENT])?,
             };
-            let values = [displacement, force];
             // One of two segments side by side may be longer.
             if is_beside && pair.places.iter().all(|place| text(*place).is_empty()) {
                 continue;
             }
-            if part.push(values, pair, place.clone())? && is_labelled {
+            let is_added = part.push([displacement, force], pair, place.clone())?;
+            if is_added && is_labelled {
                 part.labels.push(self.label);
             }
         }
-        self.rows += 1;
+        self.count += 1;
         Ok(())
     }
 
-    /// Returns the points. Forces without a displacement get displacements that are evenly spaced
-    /// over the travel of the piezo, there and back.
+    /// Returns the columns of all rows.
     fn finished(mut self) -> Vec<Columns> {
-        if let (Some(ramp), Some(all)) = (self.choice.ramp, self.parts.first_mut()) {
-            let half = 0.5 * self.rows as f64;
-            let unit = self.choice.pairs[0].units[0];
-            let row = |at: &f64| (at / unit).round();
-            all.labels = all
-                .displacement
-                .iter()
-                .map(|at| Label::of_part(usize::from(row(at) >= half)))
-                .collect();
-            all.displacement.iter_mut().for_each(|at| {
-                let row = row(at);
-                *at =
-                    ramp * if row < half {
-                        row
-                    } else {
-                        2.0 * half - 1.0 - row
-                    } / (half - 1.0);
-            });
-            all.is_beside = true;
+        if let Some(ramp) = self.choice.ramp {
+            self.spread_over_ramp(ramp);
         }
         self.parts
     }
+
+    /// Gives forces without a displacement displacements that are evenly spaced over the travel of
+    /// the piezo in m, there and back.
+    fn spread_over_ramp(&mut self, ramp: f64) {
+        let Some(columns) = self.parts.first_mut() else {
+            return;
+        };
+        let half = 0.5 * self.count as f64;
+        let unit = self.choice.pairs[0].units[DISPLACEMENT];
+        columns.labels = Vec::with_capacity(columns.displacement.len());
+        for displacement in &mut columns.displacement {
+            let row = (*displacement / unit).round();
+            let is_retraction = row >= half;
+            let steps = if is_retraction {
+                2.0 * half - 1.0 - row
+            } else {
+                row
+            };
+            *displacement = ramp * steps / (half - 1.0);
+            columns
+                .labels
+                .push(Label::of_part(usize::from(is_retraction)));
+        }
+        columns.is_beside = true;
+    }
 }
 
+/// Reads the content of a NumPy file.
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
     // A force curve or a fit of this program, in SI units.
     let is_si = names
         .iter()
-        .any(|name| ["contact_length", "residual"].contains(&name.as_str()));
+        .any(|name| name == "contact_length" || name == "residual");
     let mut columns = vec![TextColumn::default(); values.len()];
-    columns
-        .iter_mut()
-        .zip(names)
-        .for_each(|(column, name)| column.name = name);
-    let mut points = Points::new(
-        &columns,
-        Stated {
-            metadata: &Metadata::default(),
-            is_si,
-        },
-        options,
-    )?;
-    (0..values.first().map_or(0, Vec::len)).try_for_each(|point| {
-        let value = |column: usize| values[column][point];
-        let text = |column: usize| value(column).to_string().into();
-        points.take(&Place::Point(point + 1), |column| Ok(value(column)), text)
-    })?;
-    Ok(points.parts)
+    for (column, name) in columns.iter_mut().zip(names) {
+        column.name = name;
+    }
+    let stated = Stated {
+        metadata: &Metadata::default(),
+        is_si,
+    };
+    let mut rows = Rows::new(&columns, stated, options)?;
+    let count = values.first().map_or(0, Vec::len);
+    for index in 0..count {
+        rows.take(
+            &Place::Point(index + 1),
+            |column| Ok(values[column][index]),
+            |column| values[column][index].to_string().into(),
+        )?;
+    }
+    Ok(rows.parts)
 }
 
+/// Reads the content of a text file.
 fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
-    let Some((first, shape)) = beginning(bytes)? else {
+    let Some(beginning) = beginning(bytes)? else {
         return Ok(Vec::new());
     };
-    let (mut above, mut points, mut decimal) =
-        (Above::default(), None::<Points>, Decimal::default());
-    // Name of a segment above its points.
-    let mut name = String::new();
-    each_line(bytes, |number, line| {
-        let place = Place::Line(number);
-        if let Some(segment) = segment_of(line).filter(|_| is_comment(line)) {
-            segment.clone_into(&mut name);
-        }
-        if number < first {
-            above.take(line, &shape);
-        }
-        if number < first || line.is_empty() || is_comment(line) {
-            return Ok(());
-        }
-        let points = match &mut points {
-            Some(points) => points,
-            none => {
-                let is_si = bytes.starts_with(PROVENANCE.as_bytes()) || above.is_of_afmformats();
-                let stated = Stated {
-                    metadata: &above.metadata,
-                    is_si,
-                };
-                none.insert(Points::new(&above.columns(&shape), stated, options)?)
-            }
-        };
-        let cells: Vec<&str> = shape.separator.split(line).collect();
-        let is_word = |cell: &&str| {
-            matches!(
-                Decimal::default().read(cell, shape.separator),
-                TextCell::NoNumber
-            )
-        };
-        if cells.len() != shape.count || cells.iter().all(is_word) {
-            if cells.iter().all(is_word) && names_segment(line) {
-                line.clone_into(&mut name);
-                return Ok(());
-            }
-            if cells.len() != shape.count {
-                let allowed = format!("{}, as in the first line of numbers", shape.count);
-                return Err(refused(place, format!("{} columns", cells.len()), allowed));
-            }
-        }
-        if !name.is_empty() && points.choice.segment.is_none() {
-            points.begin_segment(&name);
-        }
-        let value = |column: usize| number_in(cells[column], column, &shape, &mut decimal, &place);
-        points.take(&place, value, |column| cells[column].into())
-    })?;
-    decimal.check()?;
-    let mut parts = points.map_or_else(Vec::new, Points::finished);
-    if let Some(first) = parts.first_mut().filter(|_| above.has_merged()) {
+    let mut reader = TextReader {
+        options,
+        is_of_program: bytes.starts_with(PROVENANCE.as_bytes()),
+        beginning,
+        above: Above::default(),
+        rows: None,
+        decimal: Decimal::default(),
+        name: String::new(),
+    };
+    each_line(bytes, |number, line| reader.take(number, line))?;
+    reader.decimal.check()?;
+    let mut parts = reader.rows.map_or_else(Vec::new, Rows::finished);
+    if reader.above.has_merged()
+        && let Some(first) = parts.first_mut()
+    {
         first.missing += 1;
     }
     Ok(parts)
+}
+
+/// Reader of the lines of a text.
+struct TextReader<'a> {
+    options: &'a CurveOptions,
+    /// True for a table of this program, in SI units.
+    is_of_program: bool,
+    beginning: Beginning,
+    above: Above,
+    /// Rows so far; `None` before the first one.
+    rows: Option<Rows>,
+    decimal: Decimal,
+    /// Name of a segment above its points.
+    name: String,
+}
+
+impl TextReader<'_> {
+    /// Reads the line with a number from 1.
+    fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
+        if is_comment(line)
+            && let Some(segment) = segment_of(line)
+        {
+            segment.clone_into(&mut self.name);
+        }
+        if number < self.beginning.line {
+            self.above.take(line, &self.beginning.shape);
+            return Ok(());
+        }
+        if line.is_empty() || is_comment(line) {
+            return Ok(());
+        }
+        self.take_row(Place::Line(number), line)
+    }
+
+    /// Reads a line of numbers, or of the name of a segment between numbers.
+    fn take_row(&mut self, place: Place, line: &str) -> Result<(), SurfaceError> {
+        let mut rows = match self.rows.take() {
+            Some(rows) => rows,
+            None => self.first_rows()?,
+        };
+        let shape = &self.beginning.shape;
+        let cells: Vec<&str> = shape.separator.split(line).collect();
+        if cells.iter().all(|cell| shape.is_word(cell)) && names_segment(line) {
+            line.clone_into(&mut self.name);
+            self.rows = Some(rows);
+            return Ok(());
+        }
+        if cells.len() != shape.count {
+            let found = format!("{} columns", cells.len());
+            let allowed = format!("{}, as in the first line of numbers", shape.count);
+            return Err(refused(place, found, allowed));
+        }
+        if !self.name.is_empty() && rows.choice.segment.is_none() {
+            rows.begin_segment(&self.name);
+        }
+        let decimal = &mut self.decimal;
+        rows.take(
+            &place,
+            |column| number_in(cells[column], column, shape, decimal, &place),
+            |column| cells[column].into(),
+        )?;
+        self.rows = Some(rows);
+        Ok(())
+    }
+
+    /// Chooses the columns by the lines above the first row.
+    fn first_rows(&self) -> Result<Rows, SurfaceError> {
+        let stated = Stated {
+            metadata: &self.above.metadata,
+            is_si: self.is_of_program || self.above.is_of_afmformats(),
+        };
+        let columns = self.above.columns(&self.beginning.shape);
+        Rows::new(&columns, stated, self.options)
+    }
 }
 
 /// Returns the number in a column; NaN if it is missing.
@@ -480,11 +525,8 @@ fn number_in(
             "numbers of one decimal mark, NaN for a missing value",
         ),
     };
-    Err(refused(
-        place.clone(),
-        format!("column {}: {:?} is {fault}", column + 1, shown(cell)),
-        allowed,
-    ))
+    let found = format!("column {}: {:?} is {fault}", column + 1, shown(cell));
+    Err(refused(place.clone(), found, allowed))
 }
 
 #[cfg(test)]

@@ -191,41 +191,39 @@ impl fmt::Display for CurveOptions {
     /// Writes the options as arguments of the command line, each with a blank before it.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
-        for (name, values) in [
-            ("columns", &self.columns),
-            ("units", &self.units),
-            ("segments", &segments),
-        ] {
-            if !values.is_empty() {
-                write!(out, " --{name}={}", quoted(values.join(",")))?;
-            }
+        write_list(out, "columns", &self.columns)?;
+        write_list(out, "units", &self.units)?;
+        write_list(out, "segments", &segments)?;
+        if let Some(ramp) = self.ramp {
+            write!(out, " --ramp={ramp:?}m")?;
         }
-        let drift = match self.drift {
-            Drift::Keep => None,
-            Drift::Remove => Some("remove".to_owned()),
-            Drift::Known(force) => Some(format!("{force:?}N")),
-        };
-        let newtons = |force: Option<f64>| force.map(|force| format!("{force:?}N"));
-        let values = [
-            ("ramp", self.ramp.map(|length| format!("{length:?}m"))),
-            ("negate", self.negate.map(|one| one.to_string())),
-            ("zero", newtons(self.zero)),
-            ("drift", drift),
-            (
-                "tilt",
-                (self.tilt == Tilt::Remove).then(|| "remove".to_owned()),
-            ),
-            ("noise", newtons(self.noise)),
-            (
-                "free-points",
-                self.free_points.map(|count| count.to_string()),
-            ),
-        ];
-        let given = values
-            .into_iter()
-            .filter_map(|(name, value)| Some((name, value?)));
-        given
-            .into_iter()
-            .try_for_each(|(name, value)| write!(out, " --{name}={value}"))
+        if let Some(negate) = self.negate {
+            write!(out, " --negate={negate}")?;
+        }
+        if let Some(zero) = self.zero {
+            write!(out, " --zero={zero:?}N")?;
+        }
+        match self.drift {
+            Drift::Keep => {}
+            Drift::Remove => write!(out, " --drift=remove")?,
+            Drift::Known(force) => write!(out, " --drift={force:?}N")?,
+        }
+        if self.tilt == Tilt::Remove {
+            write!(out, " --tilt=remove")?;
+        }
+        if let Some(noise) = self.noise {
+            write!(out, " --noise={noise:?}N")?;
+        }
+        if let Some(count) = self.free_points {
+            write!(out, " --free-points={count}")?;
+        }
+        Ok(())
     }
+}
+
+fn write_list(out: &mut fmt::Formatter<'_>, name: &str, values: &[String]) -> fmt::Result {
+    if values.is_empty() {
+        return Ok(());
+    }
+    write!(out, " --{name}={}", quoted(values.join(",")))
 }

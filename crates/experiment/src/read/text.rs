@@ -24,7 +24,9 @@ impl Shape {
     /// missing.
     fn of(line: &str, least: usize) -> Option<Shape> {
         let separator = Separator::of(line);
-        let (mut words, mut count, mut numbers) = (Vec::new(), 0, 0);
+        let mut words = Vec::new();
+        let mut count = 0;
+        let mut numbers = 0;
         for cell in separator.split(line) {
             match Decimal::default().read(cell, separator) {
                 TextCell::Number(_) => numbers += 1,
@@ -33,44 +35,100 @@ impl Shape {
             }
             count += 1;
         }
-        (numbers > 0 && count - words.len() >= least).then_some(Shape {
+        let values = count - words.len();
+        if numbers == 0 || values < least {
+            return None;
+        }
+        Some(Shape {
             separator,
             count,
             words,
         })
     }
+
+    fn is_number(&self, cell: &str) -> bool {
+        let cell = Decimal::default().read(cell, self.separator);
+        matches!(cell, TextCell::Number(_))
+    }
+
+    /// Returns true for a cell that is neither a number nor a missing value.
+    pub fn is_word(&self, cell: &str) -> bool {
+        let cell = Decimal::default().read(cell, self.separator);
+        matches!(cell, TextCell::NoNumber)
+    }
 }
 
-/// Returns the line at which the points begin, and their form. The first few like rows decide, or
-/// else the first row. Returns `None` if there is no row of numbers.
-pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<(usize, Shape)>, TextFault> {
+/// Beginning of the points of a text.
+pub(crate) struct Beginning {
+    /// Number of the line, from 1.
+    pub line: usize,
+    pub shape: Shape,
+}
+
+/// Returns where the points of a text begin. The first few like rows decide, or else the first row.
+/// Returns `None` if there is no row of numbers.
+pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     for least in [2, 1] {
-        let (mut first, mut run) = (None, None::<(usize, Shape)>);
-        let (mut length, mut has_found) = (0, false);
+        let mut runs = Runs::default();
         each_line(bytes, |number, line| {
-            if has_found || line.is_empty() || is_comment(line) {
-                return Ok::<(), TextFault>(());
-            }
-            let Some(shape) = Shape::of(line, least) else {
-                run = None;
-                return Ok(());
-            };
-            match &run {
-                Some((_, same)) if *same == shape => length += 1,
-                _ => {
-                    first = first.take().or_else(|| Some((number, shape.clone())));
-                    (run, length) = (Some((number, shape)), 1);
-                }
-            }
-            has_found = length == RUN;
-            Ok(())
+            runs.take(number, line, least);
+            Ok::<(), TextFault>(())
         })?;
-        let found = if has_found { run } else { first };
-        if found.is_some() {
-            return Ok(found);
+        let beginning = runs.beginning();
+        if beginning.is_some() {
+            return Ok(beginning);
         }
     }
     Ok(None)
+}
+
+/// Runs of like rows of numbers.
+#[derive(Default)]
+struct Runs {
+    /// First row of all.
+    first: Option<Beginning>,
+    /// First row of the present run.
+    run: Option<Beginning>,
+    /// Number of rows of the present run.
+    length: usize,
+}
+
+impl Runs {
+    /// Reads a line, unless a run is already long enough. A row of numbers has `least` values.
+    fn take(&mut self, number: usize, line: &str, least: usize) {
+        if self.is_long() || line.is_empty() || is_comment(line) {
+            return;
+        }
+        let Some(shape) = Shape::of(line, least) else {
+            self.run = None;
+            return;
+        };
+        if let Some(run) = &self.run
+            && run.shape == shape
+        {
+            self.length += 1;
+            return;
+        }
+        if self.first.is_none() {
+            self.first = Some(Beginning {
+                line: number,
+                shape: shape.clone(),
+            });
+        }
+        self.run = Some(Beginning {
+            line: number,
+            shape,
+        });
+        self.length = 1;
+    }
+
+    fn is_long(&self) -> bool {
+        self.length == RUN
+    }
+
+    fn beginning(self) -> Option<Beginning> {
+        if self.is_long() { self.run } else { self.first }
+    }
 }
 
 pub(crate) fn is_comment(line: &str) -> bool {
@@ -80,15 +138,14 @@ pub(crate) fn is_comment(line: &str) -> bool {
 /// Returns the name of the segment that a comment states.
 pub(crate) fn segment_of(comment: &str) -> Option<&str> {
     let (key, name) = comment.trim_start_matches(COMMENT).split_once(':')?;
-    key.trim()
-        .eq_ignore_ascii_case("segment")
-        .then_some(name.trim())
+    let is_segment = key.trim().eq_ignore_ascii_case("segment");
+    is_segment.then_some(name.trim())
 }
 
 /// Lines above the points.
 #[derive(Default)]
 pub(crate) struct Above {
-    pub header: HeadLines,
+    header: HeadLines,
     pub metadata: Metadata,
     /// Names of columns followed by the first numbers, from a file without a line end between them.
     merged: Option<String>,
@@ -98,43 +155,17 @@ impl Above {
     pub fn take(&mut self, line: &str, shape: &Shape) {
         self.header.take(line);
         self.metadata.take(line);
-        let cells: Vec<&str> = shape
-            .separator
-            .split(line.trim_start_matches(COMMENT))
-            .collect();
-        let is_number = |cell: &&str| {
-            matches!(
-                Decimal::default().read(cell, shape.separator),
-                TextCell::Number(_)
-            )
-        };
-        let is_merged = is_comment(line)
-            && cells.len() == (2 * shape.count).saturating_sub(1)
-            && !cells[..shape.count].iter().any(is_number)
-            && cells[shape.count..].iter().any(is_number);
-        self.merged = is_merged.then(|| {
-            let last = cells[shape.count - 1];
-            let end = last
-                .find(|c: char| c.is_ascii_digit() || c == '-')
-                .unwrap_or(last.len());
-            [&cells[..shape.count - 1], &[&last[..end]]]
-                .concat()
-                .join("\t")
-        });
+        self.merged = names_before_numbers(line, shape);
     }
 
     /// Returns names and units of the columns.
     pub fn columns(&self, shape: &Shape) -> Vec<TextColumn> {
-        let of =
-            |header: &HeadLines| header.columns(shape.count, shape.count, shape.separator, is_unit);
-        match &self.merged {
-            None => of(&self.header),
-            Some(names) => {
-                let mut header = HeadLines::default();
-                header.take(names);
-                of(&header)
-            }
-        }
+        let Some(names) = &self.merged else {
+            return columns_of(&self.header, shape);
+        };
+        let mut header = HeadLines::default();
+        header.take(names);
+        columns_of(&header, shape)
     }
 
     /// Returns true if the names of the columns hide the first row.
@@ -146,6 +177,34 @@ impl Above {
     pub fn is_of_afmformats(&self) -> bool {
         self.header.has_line(OF_AFMFORMATS)
     }
+}
+
+fn columns_of(header: &HeadLines, shape: &Shape) -> Vec<TextColumn> {
+    header.columns(shape.count, shape.count, shape.separator, is_unit)
+}
+
+/// Returns the names of the columns of a comment to which the first row of numbers is attached. Its
+/// last name and the first number share a cell.
+fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
+    let text = line.trim_start_matches(COMMENT);
+    let cells: Vec<&str> = shape.separator.split(text).collect();
+    if !is_comment(line) || cells.len() != (2 * shape.count).saturating_sub(1) {
+        return None;
+    }
+    let (names, numbers) = cells.split_at(shape.count);
+    if names.iter().any(|cell| shape.is_number(cell)) {
+        return None;
+    }
+    if !numbers.iter().any(|cell| shape.is_number(cell)) {
+        return None;
+    }
+    let (shared, names) = names.split_last()?;
+    let end = shared
+        .find(|c: char| c.is_ascii_digit() || c == '-')
+        .unwrap_or(shared.len());
+    let mut names = names.to_vec();
+    names.push(&shared[..end]);
+    Some(names.join("\t"))
 }
 
 #[cfg(test)]
