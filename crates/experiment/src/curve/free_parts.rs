@@ -1,14 +1,15 @@
 //! The parts of a curve without contact, and the place at which the contact begins.
 
-use crate::curve::numerics::{Baseline, correlated, ends, growing};
+use crate::curve::numerics::{Baseline, Extent, correlated, growing};
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::CurveOptions;
 use asperity_data::format_quantity;
 use std::ops::Range;
 
-/// Smallest number of points without contact, and of points in contact.
+/// Smallest number of points without contact.
 pub(crate) const FEWEST: usize = 10;
+/// Smallest number of points in contact.
 const FEWEST_IN_CONTACT: usize = 4;
 /// Least gain by a contact over a straight line. The gain is the number of points times the
 /// decrease of the logarithm of the sum of squared residuals. A smaller gain is attributed to
@@ -19,91 +20,94 @@ const GAIN: f64 = 40.0;
 const DEVIATES: f64 = 4.0;
 /// Values of n: the last n-th of the points without contact is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// A segment is in contact from its first point if two shares are exceeded: the slope of its
-/// beginning by the first share of the slope in contact, and the change of the force before contact
-/// by the second share of the range of the force.
+/// A segment is in contact from its first point if the slope of its beginning exceeds this share of
+/// the slope in contact, and the change of the force before contact is notable.
 const STEEP: f64 = 0.5;
+/// Share of the range of the force above which a change of the force is notable.
 const NOTABLE: f64 = 0.05;
 
 /// Reason why a segment has no part without contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum NoBaseline {
-    /// The segment has too few points: this number.
+pub(crate) enum NoFreePart {
+    /// The segment has too few points.
     Few,
     /// The segment is a straight line, with this range and this noise of the force in N.
-    Straight(f64, f64),
+    Straight { range: f64, noise: f64 },
     /// The force changes from the first point on.
     InContact,
 }
 
-/// Returns the number of values before contact at the beginning of a segment. The noise is assumed
-/// to be at least `least`.
+/// Returns the number of forces before contact at the beginning of a segment. The noise is assumed
+/// to be at least `least_noise`.
 ///
-/// The contact begins where a straight line before it and a parabola behind it describe the segment
+/// The contact begins where a straight line before it and a parabola after it describe the segment
 /// best. This place lies in the steep part of the contact. Its weak beginning is found by going
 /// back until the last points no longer deviate from the line through the points before.
-pub(crate) fn free_count(values: &[f64], least: f64) -> Result<usize, NoBaseline> {
-    let count = values.len();
+pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
+    let count = forces.len();
     if count < 2 * FEWEST {
-        return Err(NoBaseline::Few);
+        return Err(NoFreePart::Few);
     }
-    let before = growing(values.iter().copied(), 2);
-    let mut behind = growing(values.iter().rev().copied(), 3);
-    behind.reverse();
-    // Sums of squares below those of the least noise say nothing.
-    let floor = count as f64 * least * least;
-    let sum = |end: &usize| before[*end - 1] + behind[*end] + floor;
+    // Residuals of a line up to each place, and of a parabola from there.
+    let before = growing(forces.iter().copied(), 2);
+    let mut after = growing(forces.iter().rev().copied(), 3);
+    after.reverse();
+    // Sums of squares below those of the least noise mean nothing.
+    let floor = count as f64 * least_noise * least_noise;
+    let residual = |place: usize| before[place - 1] + after[place] + floor;
     let places = FEWEST..=count - FEWEST_IN_CONTACT;
-    let best = places
-        .min_by(|one, other| sum(one).total_cmp(&sum(other)))
+    let contact = places
+        .min_by(|place, next| residual(*place).total_cmp(&residual(*next)))
         .unwrap_or(FEWEST);
     let whole = before[count - 1] + floor;
-    if count as f64 * (whole / sum(&best)).ln() < GAIN {
-        let (low, high) = ends(values.iter().copied());
-        return Err(NoBaseline::Straight(
-            high - low,
-            Baseline::through(values).noise,
-        ));
+    if count as f64 * (whole / residual(contact)).ln() < GAIN {
+        return Err(NoFreePart::Straight {
+            range: range_of(forces),
+            noise: Baseline::through(forces).noise,
+        });
     }
-    let free = without_weak_contact(values, best, least);
-    let slope = Baseline::through(&values[..free]).slope.abs();
-    let range = |values: &[f64]| -> f64 {
-        let (low, high) = ends(values.iter().copied());
-        high - low
-    };
-    let is_steep = slope > STEEP * range(&values[free..]) / (count - free) as f64;
-    // A short part that is curved is the beginning of a contact.
-    let is_curved = || {
-        let curved = growing(values[..free].iter().copied(), 3)[free - 1] + floor;
-        10 * free < count && free as f64 * ((before[free - 1] + floor) / curved).ln() > GAIN
-    };
-    if free <= FEWEST || is_steep && slope * free as f64 > NOTABLE * range(values) || is_curved() {
-        return Err(NoBaseline::InContact);
+
+    let free = without_weak_contact(forces, contact, least_noise);
+    if free <= FEWEST
+        || begins_steep(forces, free)
+        || begins_curved(forces, free, before[free - 1], floor)
+    {
+        return Err(NoFreePart::InContact);
     }
     Ok(free)
 }
 
-/// Reduces the number `free` of values without contact until the last of these values do not
-/// deviate from the line through the values before.
-fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
-    let deviates = |free: usize, last: usize| {
-        let line = Baseline::through(&values[..free - last]);
-        let rests: Vec<f64> = line.rests(&values[..free]).collect();
-        let (before, behind) = rests.split_at(free - last);
-        let count = before.len() as f64;
-        let mean = behind.iter().sum::<f64>() / last as f64;
-        // The error of the line grows beyond its end.
-        let ahead = 0.5 * free as f64;
-        let variance = 1.0 / last as f64 + 1.0 / count + ahead * ahead * 12.0 / count.powi(3);
-        mean.abs() > DEVIATES * line.noise.max(least) * (correlated(before) * variance).sqrt()
-    };
+fn range_of(forces: &[f64]) -> f64 {
+    Extent::of(forces.iter().copied()).width()
+}
+
+/// Returns true if the force changes before contact nearly as fast as in contact.
+fn begins_steep(forces: &[f64], free: usize) -> bool {
+    let slope = Baseline::through(&forces[..free]).slope.abs();
+    let slope_in_contact = range_of(&forces[free..]) / (forces.len() - free) as f64;
+    slope > STEEP * slope_in_contact && slope * free as f64 > NOTABLE * range_of(forces)
+}
+
+/// Returns true if the part before contact is short and curved, as the beginning of a contact is.
+/// `squares` is the sum of squared residuals of its straight line.
+fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool {
+    if 10 * free >= forces.len() {
+        return false;
+    }
+    let squares_of_parabola = growing(forces[..free].iter().copied(), 3)[free - 1];
+    free as f64 * ((squares + floor) / (squares_of_parabola + floor)).ln() > GAIN
+}
+
+/// Reduces the number `free` of forces without contact until the last of these forces do not
+/// deviate from the line through the forces before.
+fn without_weak_contact(forces: &[f64], mut free: usize, least_noise: f64) -> usize {
     while free > 2 * FEWEST {
         let parts = PARTS.map(|part| (free / part).max(3));
-        let Some(last) = parts
+        let deviating = parts
             .into_iter()
             .chain([1])
-            .find(|last| deviates(free, *last))
-        else {
+            .find(|last| end_deviates(&forces[..free], *last, least_noise));
+        let Some(last) = deviating else {
             break;
         };
         free -= last.div_ceil(3);
@@ -111,8 +115,25 @@ fn without_weak_contact(values: &[f64], mut free: usize, least: f64) -> usize {
     free
 }
 
+/// Returns true if the mean of the last forces deviates from the line through the forces before.
+fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
+    let free = forces.len();
+    let line = Baseline::through(&forces[..free - last]);
+    let residuals = line.residuals(forces);
+    let (before, end) = residuals.split_at(free - last);
+    let count = before.len() as f64;
+    let mean = end.iter().sum::<f64>() / last as f64;
+    // The error of the line grows beyond its end.
+    let ahead = 0.5 * free as f64;
+    let variance = 1.0 / last as f64 + 1.0 / count + ahead * ahead * 12.0 / count.powi(3);
+    let error = line.noise.max(least_noise) * (correlated(before) * variance).sqrt();
+    mean.abs() > DEVIATES * error
+}
+
 /// Points without contact: at the beginning of an approach and at the end of a retraction.
 pub(crate) struct FreeParts {
+    /// Number of points before contact; `None` for a retraction without an approach, or if contact
+    /// is not found in the approach and only other segments are used.
     pub before: Option<usize>,
     /// Number of points after contact at the end; 0 if there are few.
     pub after: usize,
@@ -121,144 +142,177 @@ pub(crate) struct FreeParts {
 }
 
 impl FreeParts {
+    /// Finds the points without contact. `averaged` is the number of points of the file that a
+    /// point averages.
     pub fn of(
         points: &Points,
         options: &CurveOptions,
         averaged: usize,
-        least: f64,
+        least_noise: f64,
     ) -> Result<Self, ExperimentError> {
         let count = points.force.len();
         let approach = &points.force[points.moving(0)];
         let is_retraction = approach.is_empty();
         let asked = options.free_points.map(|free| free / averaged);
-        let before = match asked.filter(|_| !is_retraction) {
-            Some(free) => Ok(free),
-            None => free_count(approach, least),
+        let before = match asked {
+            Some(free) if !is_retraction => Ok(free),
+            _ => free_count(approach, least_noise),
         };
-        let ends_apart = points.segment[count - 1] % 2 == 1;
-        let after = ends_apart.then(|| free_at_the_end(points, least)).flatten();
-        let after = asked.filter(|_| is_retraction).or(after).unwrap_or(0);
+        let after = match asked {
+            Some(free) if is_retraction => free,
+            _ => count_after_contact(points, least_noise),
+        };
+
         let needs_approach =
             !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
-        let (number, of) = if needs_approach {
-            (before, approach.len())
+        let deciding = if needs_approach {
+            before
         } else {
-            (before.or(Ok(after)), count)
+            before.or(Ok(after))
         };
-        let free = number.map_or_else(|why| refuse_baseline(why, points, approach, least), Ok)?;
-        if !(FEWEST..of).contains(&free) {
+        let most = if needs_approach {
+            approach.len()
+        } else {
+            count
+        };
+        let free = match deciding {
+            Ok(free) => free,
+            Err(reason) => return refuse(reason, points, approach, least_noise),
+        };
+        if !(FEWEST..most).contains(&free) {
             let place = if needs_approach { "before" } else { "without" };
-            let fault = format!("no part {place} contact: {free} of {of} points");
-            return refused(
-                fault,
-                format!("at least {FEWEST}, found or by --free-points"),
-            );
+            let found = format!("no part {place} contact: {free} of {most} points");
+            let allowed = format!("at least {FEWEST}, found or by --free-points");
+            return refused(found, allowed);
         }
-        let (low, high) = ends(points.displacement.iter().copied());
-        let time = (0..count)
-            .map(|index| index as f64 / (count - 1) as f64)
-            .collect();
-        let displacement = points
-            .displacement
-            .iter()
-            .map(|at| (at - low) / (high - low))
-            .collect();
         Ok(FreeParts {
             before: before.ok(),
             after,
-            shares: [time, displacement],
+            shares: [shares_of_time(count), shares_of_range(&points.displacement)],
         })
     }
 
     /// Returns the index range of the points without contact that give the zero and the noise.
     pub fn base(&self) -> Range<usize> {
         let count = self.shares[0].len();
-        self.before
-            .map_or(count - self.after..count, |before| 0..before)
+        match self.before {
+            Some(before) => 0..before,
+            None => count - self.after..count,
+        }
     }
 
-    /// Returns the displacement in m at which the contact seems to begin, behind the part before
+    /// Returns the displacement in m at which the contact seems to begin, after the part before
     /// contact. For a retraction without an approach it lies where compression ends, or half way to
     /// its end.
-    pub fn touch(&self, points: &Points) -> f64 {
+    pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
         }
-        let in_contact = &points.force[points.of(1)];
-        let end = in_contact.len().saturating_sub(self.after).max(1);
-        let place = match in_contact[..end].iter().position(|force| *force <= 0.0) {
+        let retraction = points.range_of(1);
+        let forces = &points.force[retraction.clone()];
+        let end = forces.len().saturating_sub(self.after).max(1);
+        let place = match forces[..end].iter().position(|force| *force <= 0.0) {
             Some(0) => end / 2,
-            crossing => crossing.unwrap_or(end),
+            Some(crossing) => crossing,
+            None => end,
         };
-        points.displacement[points.of(1).start + place.min(in_contact.len() - 1)]
+        points.displacement[retraction.start + place.min(forces.len() - 1)]
     }
 }
 
-/// Returns the number of points after contact at the end; `None` if they cannot be found.
-fn free_at_the_end(points: &Points, least: f64) -> Option<usize> {
-    let last = points.moving(*points.segment.last()?);
-    let reversed: Vec<f64> = points.force[last].iter().rev().copied().collect();
-    free_count(&reversed, least).ok()
+fn shares_of_time(count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|index| index as f64 / (count - 1) as f64)
+        .collect()
+}
+
+fn shares_of_range(displacements: &[f64]) -> Vec<f64> {
+    let range = Extent::of(displacements.iter().copied());
+    displacements
+        .iter()
+        .map(|displacement| (displacement - range.low) / range.width())
+        .collect()
+}
+
+/// Returns the number of points after contact at the end of a curve that ends with a retraction; 0
+/// if they cannot be found.
+fn count_after_contact(points: &Points, least_noise: f64) -> usize {
+    let last = points.last_segment();
+    if last.is_multiple_of(2) {
+        return 0;
+    }
+    let forces = &points.force[points.moving(last)];
+    free_count(&reversed(forces), least_noise).unwrap_or(0)
+}
+
+fn reversed(forces: &[f64]) -> Vec<f64> {
+    forces.iter().rev().copied().collect()
 }
 
 /// Returns true if the forces of a segment end without contact.
-pub(crate) fn ends_free(force: &[f64], least: f64) -> bool {
-    let change = |values: &[f64]| {
-        let free = free_count(values, least).ok()?;
-        Some(Baseline::through(&values[..free]).slope.abs() * free as f64)
+pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
+    let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
+        return false;
     };
-    let reversed: Vec<f64> = force.iter().rev().copied().collect();
-    change(&reversed).is_some_and(|after| change(force).is_none_or(|before| after < before))
+    match free_change(forces, least_noise) {
+        Some(change_at_begin) => change_at_end < change_at_begin,
+        None => true,
+    }
+}
+
+/// Returns the change of the force in N over the part before contact, along its straight line.
+fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
+    let free = free_count(forces, least_noise).ok()?;
+    Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
 }
 
 /// Returns the error of a curve without a part before contact, according to the reason.
-fn refuse_baseline<T>(
-    why: NoBaseline,
+fn refuse<T>(
+    reason: NoFreePart,
     points: &Points,
     approach: &[f64],
-    least: f64,
+    least_noise: f64,
 ) -> Result<T, ExperimentError> {
-    let newton = |force: f64| format_quantity(force, "N");
-    let first: Vec<f64> = approach.iter().rev().copied().collect();
-    match why {
-        NoBaseline::Few if approach.is_empty() => refused(
+    match reason {
+        NoFreePart::Few if approach.is_empty() => refused(
             "no part without contact after the retraction",
             "a retraction that ends without contact",
         ),
-        NoBaseline::Few => refused(
+        NoFreePart::Few => refused(
             format!(
                 "{} points in the approach are too few to find the contact",
                 approach.len()
             ),
             format!("at least {}, or --free-points COUNT", 2 * FEWEST),
         ),
-        NoBaseline::InContact
-            if points.segment.contains(&1) && free_count(&first, least).is_ok() =>
-        {
-            refused(
-                "the first segment begins in contact and ends without it: a retraction",
-                "an approach first, in the order of time",
-            )
-        }
-        NoBaseline::InContact => refused(
+        NoFreePart::InContact if is_retraction_first(points, approach, least_noise) => refused(
+            "the first segment begins in contact and ends without it: a retraction",
+            "an approach first, in the order of time",
+        ),
+        NoFreePart::InContact => refused(
             "no part before contact: the force changes from the first point on",
             "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
         ),
-        NoBaseline::Straight(range, noise) if range > 20.0 * noise => refused(
+        NoFreePart::Straight { range, noise } if range > 20.0 * noise => refused(
             format!(
                 "no contact, or contact from the first point on: the force changes by {} along one straight line",
-                newton(range)
+                format_quantity(range, "N")
             ),
             "a part before contact, then another slope; --free-points COUNT for a weak contact",
         ),
-        NoBaseline::Straight(_, noise) => refused(
+        NoFreePart::Straight { noise, .. } => refused(
             format!(
                 "no contact: in the approach the force stays within its noise of {}",
-                newton(noise)
+                format_quantity(noise, "N")
             ),
             "a change by more than the noise; --free-points COUNT for a weak contact",
         ),
     }
+}
+
+/// Returns true if the segment that should be an approach ends without contact.
+fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
+    points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
 }
 
 #[cfg(test)]
@@ -304,7 +358,7 @@ mod tests {
             }
             let flat = noisy((0..count).map(|index| 0.01 * index as f64), 1.0, seed);
             assert!(
-                matches!(free_count(&flat, 0.0), Err(NoBaseline::Straight(..))),
+                matches!(free_count(&flat, 0.0), Err(NoFreePart::Straight { .. })),
                 "{count}"
             );
         }

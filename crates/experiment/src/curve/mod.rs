@@ -8,7 +8,7 @@ pub(crate) mod segments;
 pub(crate) mod zero;
 
 use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
-use crate::curve::numerics::{ends, right_angled};
+use crate::curve::numerics::{Extent, right_angled};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
 use crate::error::{ExperimentError, refused};
@@ -155,85 +155,40 @@ impl MeasuredCurve {
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
     }
 
-    fn prepare(columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
+    fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
+        check(&columns, options)?;
         let left_out = columns.left_out();
-        let Columns {
-            mut displacement,
-            mut force,
-            labels,
-            is_beside,
-            missing,
-            mut statements,
-            ..
-        } = columns;
-        let count = displacement.len();
-        if count < FEWEST_POINTS {
-            let fault = format!("{count} points with displacement and force");
-            return refused(fault, format!("at least {FEWEST_POINTS}"));
-        }
-        if let Some(noise) = options
-            .noise
-            .filter(|noise| !(*noise > 0.0 && noise.is_finite()))
-        {
-            return refused(
-                format!("a noise of {noise} N"),
-                "a standard deviation above 0",
-            );
-        }
-        if are_shuffled(&displacement) {
-            let fault = "the displacement goes to and fro from point to point";
-            return refused(
-                fault,
-                "points in the order of time, and the column of the displacement by --columns",
-            );
-        }
-        let (low, high) = ends(force.iter().copied());
-        let least = NO_NOISE * (high - low);
-        let mut segments = Segments::of(&displacement, &labels);
-        let turned = in_order(
-            &mut displacement,
-            &mut force,
-            &mut segments,
-            is_beside,
-            least,
-        );
-        let moving = segments
-            .is_still
-            .iter()
-            .filter(|is_still| !**is_still)
-            .count();
-        let averaged = moving.div_ceil(MOST_POINTS).max(1);
-        let mut points = Points::averaged(&displacement, &force, &segments, averaged);
-        let is_single = points.segment.last() == Some(&0);
-        if is_single && ends_free(&points.force, least) {
-            points.segment.fill(1);
-            statements
-                .push("A retraction alone: the model is loaded up to its first point.".to_owned());
-        } else if is_single && options.segments != [1] {
-            let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
-                           contact; --segments 1 for an approach alone";
-            return refused("the displacement does not turn: one segment", allowed);
-        }
+        let least_noise = NO_NOISE * Extent::of(columns.force.iter().copied()).width();
+        let mut segments = Segments::of(&columns.displacement, &columns.labels);
+        let reordered = put_in_order(&mut columns, &mut segments, least_noise);
+        let averaged = points_in_mean(&segments);
+        let mut points =
+            Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
+
+        let mut statements = columns.statements;
+        statements.extend(recognise_retraction(&mut points, options, least_noise)?);
         let negate = points.reverse(options.negate)?;
-        let instrument = options
-            .instrument
-            .or(columns.stiffness.as_ref().map(|stated| stated.1));
-        let of_body = columns.of_body.filter(|name| {
-            instrument
-                .inspect(|stiffness| statements.push(points.put_on_spring(name, *stiffness)))
-                .is_none()
-        });
-        let free = FreeParts::of(&points, options, averaged, least)?;
-        let noise = options.noise.unwrap_or(free.line(&points).noise).max(least);
-        let (remaining, text) = free.take_off_lines(&mut points, options, noise)?;
+        let stated_stiffness = columns.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
+        let mut of_body = columns.of_body;
+        if let Some(name) = &of_body
+            && let Some(stiffness) = options.instrument.or(stated_stiffness)
+        {
+            statements.push(points.add_deflection(name, stiffness));
+            of_body = None;
+        }
+
+        let free = FreeParts::of(&points, options, averaged, least_noise)?;
+        let found_noise = free.line(&points).noise;
+        let noise = options.noise.unwrap_or(found_noise).max(least_noise);
+        let subtracted = free.subtract_lines(&mut points, options, noise)?;
         check_sign(&points, options, noise)?;
         let kept = kept(&points, options)?;
-        let last = points.segment[points.segment.len() - 1];
-        let turned = turned.map(str::to_owned);
-        let negated = (negate != Negate::None)
-            .then(|| format!("{negate} reversed, so that pressing is positive"));
+
         let mut assumed = vec![columns.assumed];
-        assumed.extend(turned.into_iter().chain(negated));
+        assumed.extend(reordered.map(str::to_owned));
+        if negate != Negate::None {
+            assumed.push(format!("{negate} reversed, so that pressing is positive"));
+        }
         assumed.extend(counted(&points, &kept, &free, options));
         assumed.extend(left_out);
         if averaged > 1 {
@@ -241,40 +196,24 @@ impl MeasuredCurve {
             assumed.push(format!("means of {averaged} points each, {means} of them"));
         }
         statements.insert(0, format!("{}.", assumed.join("; ")));
-        let found = match (options.noise, free.before) {
-            (Some(_), _) => "given",
-            (None, Some(_)) => "that before contact",
-            (None, None) => "that after contact",
-        };
         statements.push(format!(
-            "{text} Noise {}, {found}.",
-            format_quantity(noise, "N")
+            "{} {}",
+            subtracted.statement,
+            noise_in_words(noise, options, &free)
         ));
-        let chosen = options
-            .segments
-            .iter()
-            .max()
-            .map_or(last, |most| (most - 1).min(last));
-        // After the last approach that is used the body is pulled off.
-        let turns = points
-            .turns(chosen + usize::from(chosen.is_multiple_of(2) && (chosen < last || last == 0)));
-        let of_kept = |values: &[f64]| {
-            kept.iter()
-                .map(|index| values[*index])
-                .collect::<Vec<f64>>()
-        };
+        let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
-            displacement: of_kept(&points.displacement),
-            force: of_kept(&points.force),
+            displacement: values_of(&points.displacement),
+            force: values_of(&points.force),
             segment: kept.iter().map(|index| points.segment[*index]).collect(),
-            free: kept.partition_point(|index| free.before.is_some_and(|before| *index < before)),
-            touch: free.touch(&points),
+            free: count_before_contact(&kept, &free),
+            touch: free.contact_point(&points),
             noise,
             points: kept.iter().map(|index| points.counts[*index]).sum(),
-            missing,
-            turns,
-            remaining,
-            shares: free.shares.each_ref().map(|shares| of_kept(shares)),
+            missing: columns.missing,
+            turns: points.turns(last_turn(&points, options)),
+            remaining: subtracted.remaining,
+            shares: free.shares.each_ref().map(|shares| values_of(shares)),
             is_estimated: [
                 options.zero.is_none(),
                 options.drift == Drift::Remove,
@@ -297,12 +236,9 @@ impl MeasuredCurve {
     /// Returns the largest tensile force during the retractions in N, as a positive number; `None`
     /// if this force is at most 5 times the [`Self::noise`].
     pub fn pull_off_force(&self) -> Option<f64> {
-        let pulled = self
-            .force
-            .iter()
-            .zip(&self.segment)
-            .filter(|(_, segment)| *segment % 2 == 1);
-        let force = -ends(pulled.map(|(force, _)| *force)).0;
+        let points = self.force.iter().zip(&self.segment);
+        let pulled = points.filter(|(_, segment)| *segment % 2 == 1);
+        let force = -Extent::of(pulled.map(|(force, _)| *force)).low;
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
@@ -313,13 +249,13 @@ impl MeasuredCurve {
         if step < 2 {
             return None;
         }
-        let of = |values: &[f64]| values.iter().step_by(step).copied().collect::<Vec<f64>>();
+        let thin = |values: &[f64]| values.iter().step_by(step).copied().collect::<Vec<f64>>();
         Some(MeasuredCurve {
-            displacement: of(&self.displacement),
-            force: of(&self.force),
+            displacement: thin(&self.displacement),
+            force: thin(&self.force),
             segment: self.segment.iter().step_by(step).copied().collect(),
             free: self.free.div_ceil(step),
-            shares: self.shares.each_ref().map(|shares| of(shares)),
+            shares: self.shares.each_ref().map(|shares| thin(shares)),
             turns: self.turns.clone(),
             statements: self.statements.clone(),
             stiffness: self.stiffness.clone(),
@@ -332,77 +268,164 @@ impl MeasuredCurve {
     /// tilt, if these were estimated from the curve. Each model refines the estimates. `has_zero`
     /// is true if the zero is a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
-        let [time, displacement] = self.shares.clone();
-        let columns = [vec![1.0; time.len()], time, displacement];
+        let [time, displacement] = &self.shares;
         let [zero, drift, tilt] = self.is_estimated;
-        let used = columns.into_iter().zip([zero && !has_zero, drift, tilt]);
-        right_angled(
-            &used
-                .filter_map(|(column, is_used)| is_used.then_some(column))
-                .collect::<Vec<_>>(),
-        )
+        let mut columns = Vec::new();
+        if zero && !has_zero {
+            columns.push(vec![1.0; time.len()]);
+        }
+        if drift {
+            columns.push(time.clone());
+        }
+        if tilt {
+            columns.push(displacement.clone());
+        }
+        right_angled(&columns)
     }
+}
+
+/// Returns an error for columns or options from which no curve can be made.
+fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentError> {
+    let count = columns.displacement.len();
+    if count < FEWEST_POINTS {
+        let found = format!("{count} points with displacement and force");
+        return refused(found, format!("at least {FEWEST_POINTS}"));
+    }
+    if let Some(noise) = options.noise
+        && !(noise > 0.0 && noise.is_finite())
+    {
+        let found = format!("a noise of {noise} N");
+        return refused(found, "a standard deviation above 0");
+    }
+    if are_shuffled(&columns.displacement) {
+        let found = "the displacement goes to and fro from point to point";
+        let allowed =
+            "points in the order of time, and the column of the displacement by --columns";
+        return refused(found, allowed);
+    }
+    Ok(())
+}
+
+/// Returns the number of points that a mean has, so that not too many means are left.
+fn points_in_mean(segments: &Segments) -> usize {
+    let moving = segments
+        .is_still
+        .iter()
+        .filter(|is_still| !**is_still)
+        .count();
+    moving.div_ceil(MOST_POINTS).max(1)
+}
+
+/// Makes a single segment that ends without contact a retraction, and says so in a sentence.
+/// Returns an error for another single segment, unless it alone is chosen.
+fn recognise_retraction(
+    points: &mut Points,
+    options: &CurveOptions,
+    least_noise: f64,
+) -> Result<Option<String>, ExperimentError> {
+    if points.last_segment() != 0 {
+        return Ok(None);
+    }
+    if ends_free(&points.force, least_noise) {
+        points.segment.fill(1);
+        let statement = "A retraction alone: the model is loaded up to its first point.";
+        return Ok(Some(statement.to_owned()));
+    }
+    if options.segments == [1] {
+        return Ok(None);
+    }
+    let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
+                   contact; --segments 1 for an approach alone";
+    refused("the displacement does not turn: one segment", allowed)
 }
 
 /// Brings approach and retraction into the order of time, and says in words what was done. Columns
 /// side by side may begin at the turning point, and a file may begin with the retraction.
-fn in_order(
-    displacement: &mut [f64],
-    force: &mut [f64],
+fn put_in_order(
+    columns: &mut Columns,
     segments: &mut Segments,
-    is_beside: bool,
-    least: f64,
+    least_noise: f64,
 ) -> Option<&'static str> {
     let first = segments.numbers.partition_point(|number| *number == 0);
-    let reversed: Vec<f64> = force[first..].iter().rev().copied().collect();
+    let (first_forces, second_forces) = columns.force.split_at(first);
+    let reversed: Vec<f64> = second_forces.iter().rev().copied().collect();
     let has_two = segments.numbers.last() == Some(&1);
-    if !(has_two && ends_free(&force[..first], least) && ends_free(&reversed, least)) {
+    if !(has_two && ends_free(first_forces, least_noise) && ends_free(&reversed, least_noise)) {
         return None;
     }
-    if is_beside {
-        for values in [displacement, force] {
+    if columns.is_beside {
+        for values in [&mut columns.displacement, &mut columns.force] {
             values[..first].reverse();
             values[first..].reverse();
         }
         segments.is_still.fill(false);
         return Some("both parts begin at their turn and were reversed");
     }
-    displacement.rotate_left(first);
-    force.rotate_left(first);
+    columns.displacement.rotate_left(first);
+    columns.force.rotate_left(first);
     segments.exchange(first);
     Some("the retraction comes first and was put behind the approach")
+}
+
+/// Returns the number of the points used that lie before contact.
+fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
+    match free.before {
+        Some(before) => kept.partition_point(|index| *index < before),
+        None => 0,
+    }
+}
+
+/// Returns the index of the last segment through which the model runs. After the last approach that
+/// is used the body is pulled off.
+fn last_turn(points: &Points, options: &CurveOptions) -> usize {
+    let last = points.last_segment();
+    let chosen = match options.segments.iter().max() {
+        Some(most) => (most - 1).min(last),
+        None => last,
+    };
+    let is_approach = chosen.is_multiple_of(2);
+    if is_approach && (chosen < last || last == 0) {
+        return chosen + 1;
+    }
+    chosen
+}
+
+/// Returns the sentence on the noise and where it comes from.
+fn noise_in_words(noise: f64, options: &CurveOptions, free: &FreeParts) -> String {
+    let source = if options.noise.is_some() {
+        "given"
+    } else if free.before.is_some() {
+        "that before contact"
+    } else {
+        "that after contact"
+    };
+    format!("Noise {}, {source}.", format_quantity(noise, "N"))
 }
 
 /// Returns the indices of the points of the chosen segments without pauses; of all segments if none
 /// is chosen.
 fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
-    let all = 0..points.force.len();
-    let numbers = points.segment[0] + 1..=points.segment[all.end - 1] + 1;
-    if let Some(wrong) = options
-        .segments
-        .iter()
-        .find(|number| !numbers.contains(*number))
-    {
-        let allowed = numbers
-            .map(|number| number.to_string())
-            .collect::<Vec<_>>()
-            .join(", ");
-        return refused(
-            format!("--segments {wrong}: the curve has no such segment"),
-            allowed,
-        );
+    let numbers = points.segment[0] + 1..=points.last_segment() + 1;
+    for number in &options.segments {
+        if !numbers.contains(number) {
+            let found = format!("--segments {number}: the curve has no such segment");
+            let allowed: Vec<String> = numbers.map(|number| number.to_string()).collect();
+            return refused(found, allowed.join(", "));
+        }
     }
-    let is_chosen = |index: usize| {
-        options.segments.is_empty() || options.segments.contains(&(points.segment[index] + 1))
-    };
-    let is_kept = |index: &usize| is_chosen(*index) && !points.is_still[*index];
-    let kept: Vec<usize> = all.filter(is_kept).collect();
+    let mut kept = Vec::with_capacity(points.force.len());
+    for (index, segment) in points.segment.iter().enumerate() {
+        let is_chosen = options.segments.is_empty() || options.segments.contains(&(segment + 1));
+        if is_chosen && !points.is_still[index] {
+            kept.push(index);
+        }
+    }
     if kept.len() < 2 * FEWEST {
-        let fault = format!(
+        let found = format!(
             "{} points in the segments that are used, without pauses",
             kept.len()
         );
-        return refused(fault, format!("at least {}", 2 * FEWEST));
+        return refused(found, format!("at least {}", 2 * FEWEST));
     }
     Ok(kept)
 }
@@ -415,61 +438,68 @@ fn counted(
     free: &FreeParts,
     options: &CurveOptions,
 ) -> Vec<String> {
-    let sum = |of: &dyn Fn(usize) -> bool| {
-        let counted = (0..points.counts.len())
-            .filter(|index| of(*index))
-            .map(|index| points.counts[index]);
-        counted.sum::<usize>() as u64
-    };
-    let (first, last) = (points.segment[0], points.segment[points.segment.len() - 1]);
-    let place = match (first, free.before) {
-        (0, Some(free)) => format!("{} before contact", grouped(sum(&|index| index < free))),
-        _ => format!(
-            "{} after contact",
-            grouped(sum(&|index| index >= points.counts.len() - free.after))
-        ),
-    };
-    let segments = match &options.segments[..] {
-        [] if first == last => "1 segment".to_owned(),
-        [] => format!("{} segments", last + 1),
-        [one] => format!("segment {one}"),
-        several => {
-            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
-            format!("segments {}", numbers.join(", "))
+    let count = points.counts.len();
+    let place = match free.before {
+        Some(before) if points.begins_with_approach() => {
+            format!("{} before contact", points_of_file(points, 0..before))
+        }
+        _ => {
+            let after = count - free.after..count;
+            format!("{} after contact", points_of_file(points, after))
         }
     };
-    let used = grouped(sum(&|index| kept.binary_search(&index).is_ok()));
+    let used = points_of_file(points, kept.iter().copied());
+    let segments = segments_in_words(points, options);
     let mut words = vec![format!("{used} points used in {segments}, {place}")];
-    let still = sum(&|index| points.is_still[index]);
-    if still > 0 {
-        words.push(format!("{} of pauses left out", grouped(still)));
+    if points.is_still.contains(&true) {
+        let still = points_of_file(points, (0..count).filter(|index| points.is_still[*index]));
+        words.push(format!("{still} of pauses left out"));
     }
     words
 }
 
+/// Returns the number of points of the file that these points average.
+fn points_of_file(points: &Points, indices: impl Iterator<Item = usize>) -> String {
+    let count: usize = indices.map(|index| points.counts[index]).sum();
+    grouped(count as u64)
+}
+
+/// Returns the number of segments, or the numbers of those that are chosen.
+fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
+    let last = points.last_segment();
+    match &options.segments[..] {
+        [] if points.segment[0] == last => "1 segment".to_owned(),
+        [] => format!("{} segments", last + 1),
+        [number] => format!("segment {number}"),
+        several => {
+            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+            format!("segments {}", numbers.join(", "))
+        }
+    }
+}
+
 /// Returns an error if the force is negative where the body is pressed most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
-    let first = points.of(points.segment[0]);
+    let first = points.range_of(points.segment[0]);
     let count = (first.len() / 20).max(1);
-    let pressed = if points.segment[0] == 0 {
-        first.end - count..first.end
+    let is_approach = points.begins_with_approach();
+    let pressed = if is_approach {
+        mean(&points.force[first.end - count..first.end])
     } else {
-        0..count
+        mean(&points.force[..count])
     };
-    let pressed = mean(&points.force[pressed]);
     if options.negate.is_some() || pressed >= PULLS * noise {
         return Ok(());
     }
-    let place = if points.segment[0] == 0 {
+    let place = if is_approach {
         "end of the approach"
     } else {
         "beginning of the retraction"
     };
-    let found = format_quantity(pressed, "N");
-    refused(
-        format!("the force is negative where the body presses: {found} at the {place}"),
-        "--negate force where tension counts as positive, --negate none for a body that is pulled there",
-    )
+    let force = format_quantity(pressed, "N");
+    let found = format!("the force is negative where the body presses: {force} at the {place}");
+    let allowed = "--negate force where tension counts as positive, --negate none for a body that is pulled there";
+    refused(found, allowed)
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ const RANGES: usize = 20;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Baseline {
     count: f64,
-    pub mean: f64,
+    mean: f64,
     pub slope: f64,
     /// Standard deviation of the values about the line.
     pub noise: f64,
@@ -18,103 +18,146 @@ pub(crate) struct Baseline {
 impl Baseline {
     pub fn through(values: &[f64]) -> Baseline {
         let count = values.len() as f64;
-        let place = |index: usize| index as f64 - 0.5 * (count - 1.0);
         let mean = mean(values);
-        let product: f64 = values
-            .iter()
-            .enumerate()
-            .map(|(index, value)| place(index) * value)
-            .sum();
+        let middle = 0.5 * (count - 1.0);
+        let mut product = 0.0;
+        for (index, value) in values.iter().enumerate() {
+            product += (index as f64 - middle) * value;
+        }
         let slope = product / (count * (count * count - 1.0) / 12.0);
-        let rest = |(index, value): (usize, &f64)| (value - mean - slope * place(index)).powi(2);
-        let noise = (values.iter().enumerate().map(rest).sum::<f64>() / (count - 2.0)).sqrt();
+        let mut squares = 0.0;
+        for (index, value) in values.iter().enumerate() {
+            squares += (value - mean - slope * (index as f64 - middle)).powi(2);
+        }
         Baseline {
             count,
             mean,
             slope,
-            noise,
+            noise: (squares / (count - 2.0)).sqrt(),
         }
     }
 
     /// Returns the deviations of `values` from the line. The first value lies at the beginning of
     /// the line.
-    pub fn rests(self, values: &[f64]) -> impl Iterator<Item = f64> {
+    pub fn residuals(self, values: &[f64]) -> Vec<f64> {
         let middle = 0.5 * (self.count - 1.0);
         values
             .iter()
             .enumerate()
-            .map(move |(index, value)| value - self.mean - self.slope * (index as f64 - middle))
+            .map(|(index, value)| value - self.mean - self.slope * (index as f64 - middle))
+            .collect()
     }
 }
 
 /// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first
-/// sum belongs to the first value, the second to the first two values, and so on. Each new row is
-/// rotated into the triangular matrix of the rows before.
+/// sum belongs to the first value, the second to the first two values, and so on.
 pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) -> Vec<f64> {
     let count = values.len() as f64;
-    let (mut triangle, mut sum) = ([[0.0; 4]; 3], 0.0);
-    let add = |(index, value): (usize, f64)| {
-        let at = index as f64 / count;
-        let mut row = [1.0, at, at * at, value];
-        for term in 0..terms {
-            let (old, new): (f64, f64) = (triangle[term][term], row[term]);
+    let mut triangle = Triangle::default();
+    let mut sums = Vec::with_capacity(values.len());
+    let mut sum = 0.0;
+    for (index, value) in values.enumerate() {
+        let place = index as f64 / count;
+        let residual = triangle.add([1.0, place, place * place, value], terms);
+        sum += residual * residual;
+        sums.push(sum);
+    }
+    sums
+}
+
+/// Triangular matrix of a least-squares polynomial. The last column belongs to the values.
+#[derive(Default)]
+struct Triangle {
+    rows: [[f64; 4]; 3],
+}
+
+impl Triangle {
+    /// Rotates a row into the triangle of the rows before, and returns what remains of its value
+    /// (Givens rotations).
+    fn add(&mut self, mut row: [f64; 4], terms: usize) -> f64 {
+        for (term, old_row) in self.rows.iter_mut().enumerate().take(terms) {
+            let old = old_row[term];
+            let new = row[term];
             let length = old.hypot(new);
             if length > 0.0 {
-                let (cosine, sine) = (old / length, new / length);
+                let cosine = old / length;
+                let sine = new / length;
                 for column in term..4 {
-                    let (above, below) = (triangle[term][column], row[column]);
-                    triangle[term][column] = cosine * above + sine * below;
+                    let above = old_row[column];
+                    let below = row[column];
+                    old_row[column] = cosine * above + sine * below;
                     row[column] = cosine * below - sine * above;
                 }
             }
         }
-        sum += row[3] * row[3];
-        sum
-    };
-    values.enumerate().map(add).collect()
+        row[3]
+    }
 }
 
 /// Returns orthonormal columns that span the given columns. A column that depends on the columns
 /// before it becomes zero.
 pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(columns.len());
     for column in columns {
-        let mut column = column.clone();
-        let whole = dot(&column, &column).sqrt();
-        basis.iter().for_each(|other| {
-            take_off(&mut column, other);
-        });
-        let length = dot(&column, &column).sqrt();
+        let mut remainder = column.clone();
+        let whole = dot(column, column).sqrt();
+        subtract_all(&mut remainder, &basis);
+        let length = dot(&remainder, &remainder).sqrt();
         // What remains of a column that depends on the others is rounding.
-        let is_other = length > 1e-9 * whole;
-        column
-            .iter_mut()
-            .for_each(|one| *one = if is_other { *one / length } else { 0.0 });
-        basis.push(column);
+        let is_independent = length > 1e-9 * whole;
+        for value in &mut remainder {
+            *value = if is_independent { *value / length } else { 0.0 };
+        }
+        basis.push(remainder);
     }
     basis
 }
 
 /// Subtracts from the values their component along a column of length 1, and returns the component.
-pub(crate) fn take_off(values: &mut [f64], column: &[f64]) -> f64 {
-    let along = dot(values, column);
-    values
-        .iter_mut()
-        .zip(column)
-        .for_each(|(value, one)| *value -= along * one);
-    along
+pub(crate) fn subtract(values: &mut [f64], column: &[f64]) -> f64 {
+    let component = dot(values, column);
+    for (value, direction) in values.iter_mut().zip(column) {
+        *value -= component * direction;
+    }
+    component
 }
 
-/// Sum of the products of two columns, up to the length of the shorter one.
-pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
+/// Subtracts from the values their components along orthonormal columns, one after another.
+pub(crate) fn subtract_all(values: &mut [f64], columns: &[Vec<f64>]) {
+    for column in columns {
+        subtract(values, column);
+    }
 }
 
-/// Smallest and largest of the values.
-pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    })
+/// Returns the sum of the products of two columns, up to the length of the shorter one.
+pub(crate) fn dot(first: &[f64], second: &[f64]) -> f64 {
+    first.iter().zip(second).map(|(x, y)| x * y).sum()
+}
+
+/// Smallest and largest of some values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Extent {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Extent {
+    /// Returns the extent of values. Without values the lower end is ∞ and the upper end −∞.
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let mut extent = Extent {
+            low: f64::INFINITY,
+            high: f64::NEG_INFINITY,
+        };
+        for value in values {
+            extent.low = extent.low.min(value);
+            extent.high = extent.high.max(value);
+        }
+        extent
+    }
+
+    pub fn width(self) -> f64 {
+        self.high - self.low
+    }
 }
 
 /// Returns the factor by which correlation of the residuals along the curve increases the variance
@@ -122,52 +165,78 @@ pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
-    let correlations =
-        (1..residuals.len() / RANGES).map(|lag| dot(residuals, &residuals[lag..]) / square);
-    1.0 + 2.0
-        * correlations
-            .take_while(|correlation| *correlation > least)
-            .sum::<f64>()
+    let mut sum = 0.0;
+    for lag in 1..residuals.len() / RANGES {
+        let correlation = dot(residuals, &residuals[lag..]) / square;
+        // Without noise the square is 0, and the correlation is no number.
+        if correlation.is_nan() || correlation <= least {
+            break;
+        }
+        sum += correlation;
+    }
+    1.0 + 2.0 * sum
 }
 
-/// Returns least-squares coefficients of columns for these values, with standard errors; `None` if
-/// a column depends on the columns before it.
-pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<(f64, f64)>> {
+/// Coefficient of a column with its standard error.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Coefficient {
+    pub value: f64,
+    pub error: f64,
+}
+
+/// Returns least-squares coefficients of columns for these values; `None` if a column depends on
+/// the columns before it.
+pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<Coefficient>> {
     let basis = right_angled(columns);
-    let mut rests = values.to_vec();
-    let along: Vec<f64> = basis
+    let mut residuals = values.to_vec();
+    let components: Vec<f64> = basis
         .iter()
-        .map(|column| take_off(&mut rests, column))
+        .map(|column| subtract(&mut residuals, column))
         .collect();
-    let count = (values.len().max(columns.len() + 1) - columns.len()) as f64;
-    let noise = (correlated(&rests) * dot(&rests, &rests) / count).sqrt();
-    // Back from the columns at right angles: each coefficient, and its share of each error.
-    let mut found = vec![(0.0, 0.0); columns.len()];
+    let count = columns.len();
+    let degrees_of_freedom = (values.len().max(count + 1) - count) as f64;
+    let square = correlated(&residuals) * dot(&residuals, &residuals);
+    let noise = (square / degrees_of_freedom).sqrt();
     let triangle: Vec<Vec<f64>> = basis
         .iter()
-        .map(|one| columns.iter().map(|column| dot(one, column)).collect())
+        .map(|direction| {
+            columns
+                .iter()
+                .map(|column| dot(direction, column))
+                .collect()
+        })
         .collect();
-    for index in (0..columns.len()).rev() {
-        let own = triangle[index][index];
-        if own.abs() <= 1e-6 * dot(&columns[index], &columns[index]).sqrt() {
+
+    // Back substitution, from the last column to the first.
+    let mut coefficients = vec![Coefficient::default(); count];
+    for index in (0..count).rev() {
+        let diagonal = triangle[index][index];
+        if diagonal.abs() <= 1e-6 * dot(&columns[index], &columns[index]).sqrt() {
             return None;
         }
-        let others: f64 = (index + 1..columns.len())
-            .map(|other| triangle[index][other] * found[other].0)
+        let later: f64 = (index + 1..count)
+            .map(|other| triangle[index][other] * coefficients[other].value)
             .sum();
-        let value = (along[index] - others) / own;
-        // Squares of a row of the inverse of the triangle.
-        let mut row = vec![0.0; columns.len()];
-        row[index] = 1.0 / own;
-        for other in index + 1..columns.len() {
-            let sum: f64 = (index..other)
-                .map(|between| row[between] * triangle[between][other])
-                .sum();
-            row[other] = -sum / triangle[other][other];
-        }
-        found[index] = (value, noise * dot(&row, &row).sqrt());
+        let row = inverse_row(&triangle, index);
+        coefficients[index] = Coefficient {
+            value: (components[index] - later) / diagonal,
+            error: noise * dot(&row, &row).sqrt(),
+        };
     }
-    Some(found)
+    Some(coefficients)
+}
+
+/// Returns a row of the inverse of an upper triangular matrix.
+fn inverse_row(triangle: &[Vec<f64>], index: usize) -> Vec<f64> {
+    let mut row = vec![0.0; triangle.len()];
+    row[index] = 1.0 / triangle[index][index];
+    for column in index + 1..triangle.len() {
+        let sum: f64 = (index..column)
+            .map(|between| row[between] * triangle[between][column])
+            .sum();
+        row[column] = -sum / triangle[column][column];
+    }
+    row
 }
 
 #[cfg(test)]
@@ -216,7 +285,7 @@ pub(crate) mod tests {
             .collect();
         let value = |index: usize| 1.0 - 2.0 * columns[1][index] + 3.0 * columns[2][index];
         let found = least_squares(&columns, &noisy((0..400).map(value), 0.1, 7)).unwrap();
-        for ((value, error), expected) in found.into_iter().zip([1.0, -2.0, 3.0]) {
+        for (Coefficient { value, error }, expected) in found.into_iter().zip([1.0, -2.0, 3.0]) {
             assert!(
                 (value - expected).abs() < 3.0 * error && error < 0.1,
                 "{value} ± {error}"

@@ -1,7 +1,9 @@
 //! The zero, the drift and the tilt of the force, from the points without contact.
 
 use crate::curve::free_parts::{FEWEST, FreeParts};
-use crate::curve::numerics::{Baseline, dot, least_squares, right_angled, take_off};
+use crate::curve::numerics::{
+    Baseline, Coefficient, dot, least_squares, right_angled, subtract_all,
+};
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::{CurveOptions, Drift, Tilt};
@@ -10,67 +12,131 @@ use asperity_data::{format_quantity, mean};
 /// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
 const REMAINS: f64 = 5.0;
 /// Residual of the lines of drift, tilt and step, divided by the noise between neighbouring points,
-/// above which the parts without contact are not straight. Lines that exceed this residual by the
-/// second number still count as drift or tilt.
+/// above which the parts without contact are not straight.
 const CURVED: f64 = 1.5;
+/// Change along a line, divided by the residual of parts that are not straight, above which it
+/// still counts as drift or tilt.
 const DOMINATES: f64 = 20.0;
 
-/// Drift, tilt and step of the force without contact in N, each with a standard error. The drift is
-/// the change from the first to the last point of the curve. The tilt is the change over the range
-/// of the displacement. The step is the difference of the force after and before contact that
-/// neither drift nor tilt explains.
+/// Point without contact.
+struct FreePoint {
+    /// Time and displacement, as shares of the whole curve.
+    time: f64,
+    displacement: f64,
+    is_after_contact: bool,
+    /// Force, N.
+    force: f64,
+}
+
+impl FreePoint {
+    fn new(points: &Points, free: &FreeParts, index: usize) -> Self {
+        let [time, displacement] = &free.shares;
+        FreePoint {
+            time: time[index],
+            displacement: displacement[index],
+            is_after_contact: !free.base().contains(&index),
+            force: points.force[index],
+        }
+    }
+
+    /// Returns 1 after contact, 0 before.
+    fn step(&self) -> f64 {
+        f64::from(u8::from(self.is_after_contact))
+    }
+}
+
+/// Changes of the force along which points without contact are fitted.
+#[derive(Clone, Copy)]
+struct Terms {
+    drift: bool,
+    tilt: bool,
+    step: bool,
+}
+
+/// Zero, drift, tilt and step of the force without contact in N. The drift is the change from the
+/// first to the last point of the curve. The tilt is the change over the range of the displacement.
+/// The step is the difference of the force after and before contact that neither drift nor tilt
+/// explains. Terms that were not fitted are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Slopes {
-    pub zero: f64,
-    pub drift: (f64, f64),
-    pub tilt: (f64, f64),
-    pub step: (f64, f64),
+struct Slopes {
+    zero: f64,
+    drift: Coefficient,
+    tilt: Coefficient,
+    step: Coefficient,
 }
 
 impl Slopes {
-    /// Fits the slopes that `is_asked` selects to points of (time, displacement, 1 after contact or
-    /// 0 before, force). Time and displacement are shares of the whole curve. Slopes that are not
-    /// selected are 0. Returns `None` if the points cannot separate the slopes.
-    pub fn through(points: &[[f64; 4]], is_asked: [bool; 3]) -> Option<Slopes> {
-        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
+    /// Returns `None` if the points cannot separate the terms.
+    fn through(points: &[FreePoint], terms: Terms) -> Option<Slopes> {
         let mut columns = vec![vec![1.0; points.len()]];
-        columns.extend((0..3).filter(|of| is_asked[*of]).map(column));
-        let mut found = least_squares(&columns, &column(3))?.into_iter();
-        let zero = found.next()?.0;
-        let mut slope = |of: usize| {
-            if is_asked[of] {
-                found.next()
-            } else {
-                Some((0.0, 0.0))
-            }
-        };
-        Some(Slopes {
-            zero,
-            drift: slope(0)?,
-            tilt: slope(1)?,
-            step: slope(2)?,
-        })
-    }
+        if terms.drift {
+            columns.push(points.iter().map(|point| point.time).collect());
+        }
+        if terms.tilt {
+            columns.push(points.iter().map(|point| point.displacement).collect());
+        }
+        if terms.step {
+            columns.push(points.iter().map(FreePoint::step).collect());
+        }
+        let forces: Vec<f64> = points.iter().map(|point| point.force).collect();
+        let mut coefficients = least_squares(&columns, &forces)?.into_iter();
 
-    /// Returns the root mean square deviation of points from drift, tilt and step in N, and the
-    /// deviation expected from the noise between neighbouring points.
-    pub fn rest(points: &[[f64; 4]]) -> (f64, f64) {
-        let column = |of: usize| points.iter().map(|point| point[of]).collect::<Vec<f64>>();
-        let columns = [vec![1.0; points.len()], column(0), column(1), column(2)];
-        let mut rests = column(3);
-        right_angled(&columns).iter().for_each(|one| {
-            take_off(&mut rests, one);
-        });
-        let changes: f64 = rests
+        let mut slopes = Slopes {
+            zero: coefficients.next()?.value,
+            ..Slopes::default()
+        };
+        if terms.drift {
+            slopes.drift = coefficients.next()?;
+        }
+        if terms.tilt {
+            slopes.tilt = coefficients.next()?;
+        }
+        if terms.step {
+            slopes.step = coefficients.next()?;
+        }
+        Some(slopes)
+    }
+}
+
+/// Deviation of points without contact from drift, tilt and step, N.
+struct Residual {
+    root_mean_square: f64,
+    /// Deviation expected from the noise between neighbouring points.
+    noise: f64,
+}
+
+impl Residual {
+    fn of(points: &[FreePoint]) -> Self {
+        let columns = [
+            vec![1.0; points.len()],
+            points.iter().map(|point| point.time).collect(),
+            points.iter().map(|point| point.displacement).collect(),
+            points.iter().map(FreePoint::step).collect(),
+        ];
+        let mut residuals: Vec<f64> = points.iter().map(|point| point.force).collect();
+        subtract_all(&mut residuals, &right_angled(&columns));
+        let changes: f64 = residuals
             .windows(2)
             .map(|pair| (pair[1] - pair[0]).powi(2))
             .sum();
-        let count = rests.len() as f64;
-        (
-            (dot(&rests, &rests) / count).sqrt(),
-            (0.5 * changes / count).sqrt(),
-        )
+        let count = residuals.len() as f64;
+        Residual {
+            root_mean_square: (dot(&residuals, &residuals) / count).sqrt(),
+            noise: (0.5 * changes / count).sqrt(),
+        }
     }
+
+    fn is_straight(&self) -> bool {
+        self.root_mean_square <= CURVED * self.noise
+    }
+}
+
+/// Zero, drift and tilt as they were subtracted from a curve.
+pub(crate) struct Subtracted {
+    /// Drift, tilt and step that remain, N; 0 for each that was not found.
+    pub remaining: [f64; 3],
+    /// Sentences on all of them.
+    pub statement: String,
 }
 
 impl FreeParts {
@@ -78,147 +144,274 @@ impl FreeParts {
         Baseline::through(&points.force[self.base()])
     }
 
-    /// Subtracts zero, drift and tilt as the options request. Returns the drift, tilt and step that
-    /// remain in N, and a statement on all of them.
-    pub fn take_off_lines(
+    /// Subtracts zero, drift and tilt as the options request.
+    pub fn subtract_lines(
         &self,
         points: &mut Points,
         options: &CurveOptions,
         noise: f64,
-    ) -> Result<([f64; 3], String), ExperimentError> {
+    ) -> Result<Subtracted, ExperimentError> {
         let [time, displacement] = &self.shares;
-        let (count, base) = (points.force.len(), self.base());
-        let middle = [time, displacement].map(|shares| mean(&shares[base.clone()]));
-        let known = if let Drift::Known(drift) = options.drift {
-            Some(drift)
+        let base = self.base();
+        let middle_time = mean(&time[base.clone()]);
+        let middle_displacement = mean(&displacement[base.clone()]);
+        let known_drift = known_drift(options);
+        for (force, time) in points.force.iter_mut().zip(time) {
+            *force -= known_drift.unwrap_or(0.0) * (time - middle_time);
+        }
+
+        let lines = Lines::fit(self, points, options, noise)?;
+        let drift = lines.slopes.drift.value;
+        let tilt = lines.slopes.tilt.value;
+        let zero_of_base = if lines.removed.drift || lines.removed.tilt {
+            lines.slopes.zero + drift * middle_time + tilt * middle_displacement
         } else {
-            None
+            mean(&points.force[base])
         };
-        points
-            .force
-            .iter_mut()
-            .zip(time)
-            .for_each(|(force, at)| *force -= known.unwrap_or(0.0) * (at - middle[0]));
-        let has_both = self.before.is_some() && self.after >= FEWEST;
-        let ends = if has_both {
+        let zero = options.zero.unwrap_or(lines.step_of_zero() + zero_of_base);
+        for (index, force) in points.force.iter_mut().enumerate() {
+            let line = drift * (time[index] - middle_time)
+                + tilt * (displacement[index] - middle_displacement);
+            *force -= zero + line;
+        }
+        Ok(Subtracted {
+            remaining: lines.remaining(),
+            statement: lines.statement(zero),
+        })
+    }
+
+    /// Returns the points without contact. Those after contact count if there are points before
+    /// contact too.
+    fn points(&self, points: &Points) -> Vec<FreePoint> {
+        let count = points.force.len();
+        let after = if self.has_both() {
             count - self.after..count
         } else {
             0..0
         };
-        let point = |index: usize| {
-            let is_after = f64::from(u8::from(!base.contains(&index)));
-            [
-                time[index],
-                displacement[index],
-                is_after,
-                points.force[index],
-            ]
-        };
-        let free: Vec<[f64; 4]> = base.clone().chain(ends).map(point).collect();
-        let is_removed = [options.drift == Drift::Remove, options.tilt == Tilt::Remove];
-        let (rest, noise_between) = Slopes::rest(&free);
-        let is_straight = rest <= CURVED * noise_between;
-        let remains = |(value, error): (f64, f64)| {
-            let least = if is_straight {
+        self.base()
+            .chain(after)
+            .map(|index| FreePoint::new(points, self, index))
+            .collect()
+    }
+
+    /// Returns true if there are enough points before and after contact to separate drift, tilt and
+    /// step.
+    fn has_both(&self) -> bool {
+        self.before.is_some() && self.after >= FEWEST
+    }
+}
+
+fn known_drift(options: &CurveOptions) -> Option<f64> {
+    match options.drift {
+        Drift::Known(drift) => Some(drift),
+        Drift::Keep | Drift::Remove => None,
+    }
+}
+
+/// Straight lines through the points without contact.
+struct Lines<'a> {
+    free: &'a FreeParts,
+    options: &'a CurveOptions,
+    /// Terms that are subtracted.
+    removed: Terms,
+    /// Slopes of the terms that are subtracted.
+    slopes: Slopes,
+    /// Slopes with a step, if a step is significant.
+    with_step: Option<Slopes>,
+    /// Slopes of all terms that the points can separate, which the statement names.
+    stated: Slopes,
+    is_straight: bool,
+    /// Change of the force in N up to which a slope does not count.
+    least_change: f64,
+}
+
+impl<'a> Lines<'a> {
+    fn fit(
+        free: &'a FreeParts,
+        points: &Points,
+        options: &'a CurveOptions,
+        noise: f64,
+    ) -> Result<Self, ExperimentError> {
+        let points = free.points(points);
+        let residual = Residual::of(&points);
+        let is_straight = residual.is_straight();
+        let mut lines = Lines {
+            free,
+            options,
+            removed: Terms {
+                drift: options.drift == Drift::Remove,
+                tilt: options.tilt == Tilt::Remove,
+                step: false,
+            },
+            slopes: Slopes::default(),
+            with_step: None,
+            stated: Slopes::default(),
+            is_straight,
+            least_change: if is_straight {
                 noise
             } else {
-                noise.max(DOMINATES * rest)
-            };
-            value.abs() > least.max(REMAINS * error)
+                noise.max(DOMINATES * residual.root_mean_square)
+            },
         };
-        let with_step =
-            Slopes::through(&free, [true; 3]).filter(|slopes| has_both && remains(slopes.step));
-        let Some(slopes) =
-            Slopes::through(&free, [is_removed[0], is_removed[1], with_step.is_some()])
-        else {
-            let fault = "drift and tilt are one line in the part before contact, and there is none after it";
-            return refused(fault, "one of --drift remove and --tilt remove");
+        lines.with_step = lines.significant_step(&points);
+        let terms = Terms {
+            step: lines.with_step.is_some(),
+            ..lines.removed
         };
-        let both =
-            with_step.or_else(|| Slopes::through(&free, [true, true, false]).filter(|_| has_both));
-        let stated = both
-            .or_else(|| Slopes::through(&free, [true, false, false]))
-            .unwrap_or_default();
-        let taken = [slopes.drift.0, slopes.tilt.0];
-        let found = slopes.zero + taken[0] * middle[0] + taken[1] * middle[1];
-        // A retraction alone has the zero of its own end.
-        let of_end = !options.segments.is_empty() && !options.segments.contains(&1) && has_both;
-        let step = with_step
-            .filter(|_| of_end)
-            .map_or(0.0, |slopes| slopes.step.0);
-        let found = step
-            + if is_removed == [false; 2] {
-                mean(&points.force[base.clone()])
-            } else {
-                found
-            };
-        let zero = options.zero.unwrap_or(found);
-        for (index, force) in points.force.iter_mut().enumerate() {
-            let lines =
-                taken[0] * (time[index] - middle[0]) + taken[1] * (displacement[index] - middle[1]);
-            *force -= zero + lines;
+        let Some(slopes) = Slopes::through(&points, terms) else {
+            let found = "drift and tilt are one line in the part before contact, and there is none after it";
+            return refused(found, "one of --drift remove and --tilt remove");
+        };
+        lines.slopes = slopes;
+        lines.stated = lines.separable(&points);
+        Ok(lines)
+    }
+
+    /// Returns the slopes with a step, if the force after contact differs from the force before.
+    fn significant_step(&self, points: &[FreePoint]) -> Option<Slopes> {
+        let all = Terms {
+            drift: true,
+            tilt: true,
+            step: true,
+        };
+        let slopes = Slopes::through(points, all)?;
+        (self.free.has_both() && self.remains(slopes.step)).then_some(slopes)
+    }
+
+    /// Returns the slopes of all terms that the points can separate.
+    fn separable(&self, points: &[FreePoint]) -> Slopes {
+        if let Some(slopes) = self.with_step {
+            return slopes;
         }
-        let newton = |force: f64| format_quantity(force, "N");
-        let does = |is_removed: bool| if is_removed { "was removed" } else { "stays" };
-        let drift = match known {
-            Some(drift) => format!("{} of it was removed as given", newton(drift)),
-            None => format!("it {}", does(is_removed[0])),
+        let drift = Terms {
+            drift: true,
+            tilt: false,
+            step: false,
         };
-        let (value, error) = (stated.drift.0 + known.unwrap_or(0.0), stated.drift.1);
+        let drift_and_tilt = Terms {
+            tilt: true,
+            ..drift
+        };
+        if self.free.has_both()
+            && let Some(slopes) = Slopes::through(points, drift_and_tilt)
+        {
+            return slopes;
+        }
+        Slopes::through(points, drift).unwrap_or_default()
+    }
+
+    /// Returns true if a slope is too large to be noise.
+    fn remains(&self, slope: Coefficient) -> bool {
+        slope.value.abs() > self.least_change.max(REMAINS * slope.error)
+    }
+
+    /// Returns the step in N by which the zero of a retraction alone differs from the zero of the
+    /// part before contact, because it has the zero of its own end.
+    fn step_of_zero(&self) -> f64 {
+        let segments = &self.options.segments;
+        let is_retraction_alone = !segments.is_empty() && !segments.contains(&1);
+        match self.with_step {
+            Some(slopes) if is_retraction_alone && self.free.has_both() => slopes.step.value,
+            _ => 0.0,
+        }
+    }
+
+    /// Returns true for a drift that stays in the curve.
+    fn keeps_drift(&self) -> bool {
+        self.remains(self.stated.drift) && !self.removed.drift
+    }
+
+    /// Returns true for a tilt that stays in the curve.
+    fn keeps_tilt(&self) -> bool {
+        self.remains(self.stated.tilt) && !self.removed.tilt
+    }
+
+    /// Returns drift, tilt and step that remain, N.
+    fn remaining(&self) -> [f64; 3] {
+        let mut remaining = [0.0, 0.0, self.stated.step.value];
+        if self.free.has_both() {
+            if self.keeps_drift() {
+                remaining[0] = self.stated.drift.value;
+            }
+            if self.keeps_tilt() {
+                remaining[1] = self.stated.tilt.value;
+            }
+        }
+        remaining
+    }
+
+    /// Returns sentences on the zero, on all slopes and on those that remain.
+    fn statement(&self, zero: f64) -> String {
         let mut text = format!("Zero of the force at {}. ", newton(zero));
-        if has_both {
-            let (tilt, tilt_error) = stated.tilt;
-            text += &format!(
-                "Drift over the whole curve, by the parts before and after contact: {} ± {}; {drift}. Tilt over the range of \
-                 the displacement: {} ± {}; it {}.",
-                newton(value),
-                newton(error),
-                newton(tilt),
-                newton(tilt_error),
-                does(is_removed[1])
-            );
-        } else {
-            let place = if self.before.is_some() {
-                "before"
-            } else {
-                "after"
-            };
-            text += &format!(
-                "Drift over the whole curve, or tilt, by the part {place} contact alone: {} ± {}; {}.",
-                newton(value),
-                newton(error),
-                if is_removed[1] {
-                    "it was removed".to_owned()
-                } else {
-                    drift
-                }
-            );
-        }
-        let mut remaining = [0.0, 0.0, stated.step.0];
-        if with_step.is_some() {
-            let step = newton(stated.step.0);
+        text += &self.slopes_in_words();
+        if self.with_step.is_some() {
+            let step = newton(self.stated.step.value);
             text += &format!(
                 " Beside these lines the force after contact differs by {step} from that before."
             );
         }
-        if has_both {
-            for (of, (slope, name)) in [(stated.drift, "drift"), (stated.tilt, "tilt")]
-                .into_iter()
-                .enumerate()
-            {
-                if remains(slope) && !is_removed[of] {
-                    remaining[of] = slope.0;
-                    text += &format!(" A {name} remains: --{name} remove takes it off.");
-                }
+        if self.free.has_both() {
+            if self.keeps_drift() {
+                text += " A drift remains: --drift remove takes it off.";
             }
-        } else if remains(stated.drift) && is_removed == [false; 2] && known.is_none() {
+            if self.keeps_tilt() {
+                text += " A tilt remains: --tilt remove takes it off.";
+            }
+        } else if self.keeps_drift() && !self.removed.tilt && known_drift(self.options).is_none() {
             text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
         }
-        if !is_straight && remaining == [0.0; 3] {
+        if !self.is_straight && self.remaining() == [0.0; 3] {
             text +=
                 " The parts without contact are no straight lines, as by interference of light.";
         }
-        Ok((remaining, text))
+        text
+    }
+
+    /// Returns the sentences on drift and tilt with their errors, and what was done to them.
+    fn slopes_in_words(&self) -> String {
+        let known_drift = known_drift(self.options);
+        let drift = newton(self.stated.drift.value + known_drift.unwrap_or(0.0));
+        let drift_error = newton(self.stated.drift.error);
+        let treatment_of_drift = match known_drift {
+            Some(known) => format!("{} of it was removed as given", newton(known)),
+            None => treatment(self.removed.drift).to_owned(),
+        };
+        if !self.free.has_both() {
+            let place = if self.free.before.is_some() {
+                "before"
+            } else {
+                "after"
+            };
+            let treatment_of_line = if self.removed.tilt {
+                treatment(true).to_owned()
+            } else {
+                treatment_of_drift
+            };
+            return format!(
+                "Drift over the whole curve, or tilt, by the part {place} contact alone: {drift} ± {drift_error}; {treatment_of_line}."
+            );
+        }
+        format!(
+            "Drift over the whole curve, by the parts before and after contact: {drift} ± {drift_error}; {treatment_of_drift}. \
+             Tilt over the range of the displacement: {} ± {}; {}.",
+            newton(self.stated.tilt.value),
+            newton(self.stated.tilt.error),
+            treatment(self.removed.tilt)
+        )
+    }
+}
+
+fn newton(force: f64) -> String {
+    format_quantity(force, "N")
+}
+
+/// Returns what was done to a slope, in words.
+fn treatment(is_removed: bool) -> &'static str {
+    if is_removed {
+        "it was removed"
+    } else {
+        "it stays"
     }
 }
 

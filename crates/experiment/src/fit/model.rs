@@ -1,7 +1,7 @@
 //! The force of a scene at the measured displacements, for any values of the parameters.
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::ends;
+use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use crate::fit::parameter::{Parameter, Values};
 use asperity_contact::motion::Leg;
@@ -154,7 +154,7 @@ impl<'a> Model<'a> {
                 );
                 let force = force_at(segment, place(index));
                 let near = jumps.iter().filter(|(at, _)| (low..=high).contains(at));
-                let (low, high) = ends(
+                let Extent { low, high } = Extent::of(
                     near.flat_map(|(_, forces)| *forces)
                         .map(|at| at - force)
                         .chain([0.0]),

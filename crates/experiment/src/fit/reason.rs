@@ -1,7 +1,7 @@
 //! The reason why a model does not describe a curve, found from the pattern of the residuals.
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::{dot, ends, least_squares, right_angled, take_off};
+use crate::curve::numerics::{Extent, dot, least_squares, right_angled, subtract_all};
 use crate::error::ExperimentError;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Parameter, Values};
@@ -146,9 +146,7 @@ pub(crate) fn reason(
         .map(|(force, model)| force - model)
         .collect();
     let lines = curve.lines(free.contains(&Parameter::Zero));
-    lines.iter().for_each(|line| {
-        take_off(&mut rests, line);
-    });
+    subtract_all(&mut rests, &lines);
     let squares = dot(&rests, &rests);
     let residual = (squares / rests.len() as f64).sqrt();
     let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
@@ -230,7 +228,7 @@ fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
         .then(|| least_squares(&columns, &forces))
         .flatten();
     // Less what the noise may add.
-    slope.map_or(0.0, |found| found[1].0 - 3.0 * found[1].1)
+    slope.map_or(0.0, |found| found[1].value - 3.0 * found[1].error)
 }
 
 /// Returns true if another modulus or work of adhesion on the retractions explains most of the
@@ -241,19 +239,19 @@ fn branches_differ(
     (values, free): (&Values, &[Parameter]),
     (forces, mut rests, mut columns): (&[f64], Vec<f64>, Vec<Vec<f64>>),
 ) -> Result<bool, ExperimentError> {
-    let (low, high) = ends(curve.force.iter().copied());
+    let range = Extent::of(curve.force.iter().copied()).width();
     let mut change = |parameter: Parameter| -> Result<Vec<f64>, ExperimentError> {
         let mut moved = *values;
         let unit = match parameter {
             Parameter::Offset => curve.turns[0] - values[Parameter::Offset as usize],
-            Parameter::Zero => high - low,
+            Parameter::Zero => range,
             _ => -values[parameter as usize],
         };
         moved[parameter as usize] += STEP * unit;
         let most = moved[Parameter::Work as usize];
         moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
         let changed = model.forces(&moved)?;
-        let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * (high - low);
+        let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * range;
         let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
         Ok(changes
             .map(|change| if is_leap(change) { 0.0 } else { change })
@@ -273,11 +271,7 @@ fn branches_differ(
         .iter_mut()
         .for_each(|rest| *rest = rest.clamp(-most, most));
     let basis = right_angled(&columns);
-    let rest_of = |column: &mut Vec<f64>| {
-        basis.iter().for_each(|one| {
-            take_off(column, one);
-        });
-    };
+    let rest_of = |column: &mut Vec<f64>| subtract_all(column, &basis);
     rest_of(&mut rests);
     let whole = dot(&rests, &rests);
     let explains = |mut column: Vec<f64>| {

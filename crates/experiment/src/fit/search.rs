@@ -11,7 +11,7 @@
 //! copies separate again. In the end the members are distributed as the noise allows. The start is
 //! no member, because a start close to the result would be copied to the whole population.
 
-use crate::curve::numerics::{dot, ends};
+use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused};
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
@@ -411,7 +411,7 @@ impl Search<'_> {
             let changes: Vec<f64> = pairs
                 .map(|(member, cost)| cost - self.cost(member, noise))
                 .collect();
-            let largest = ends(changes.iter().copied()).1;
+            let largest = Extent::of(changes.iter().copied()).high;
             changes
                 .iter()
                 .map(|change| (change - largest).exp())

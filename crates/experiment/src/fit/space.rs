@@ -1,7 +1,7 @@
 //! The coordinates in which a scene is fitted, and their ranges and starts from the curve.
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::ends;
+use crate::curve::numerics::Extent;
 use crate::error::{ExperimentError, refused};
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
 use crate::fit::population::WRONG_SIDE;
@@ -108,7 +108,7 @@ impl<'a> Space<'a> {
             );
         }
         let mut base = values_of(document.scene(), &governing);
-        let (low, high) = ends(curve.force.iter().copied());
+        let Extent { low, high } = Extent::of(curve.force.iter().copied());
         // Of the force.
         let extent = (high - low).max(curve.noise);
         for (parameter, start) in [
@@ -135,7 +135,7 @@ impl<'a> Space<'a> {
                 .filter(|free| free.parameter == parameter)
                 .find_map(|free| free.range);
             let range = given.unwrap_or_else(|| match parameter {
-                Parameter::Offset => (ends(curve.displacement.iter().copied()).0, turn),
+                Parameter::Offset => (Extent::of(curve.displacement.iter().copied()).low, turn),
                 Parameter::Zero => (-extent, extent),
                 Parameter::Work => (0.0, start * FACTOR),
                 Parameter::ClosingWork if is_free(Parameter::Work) => {
@@ -264,7 +264,9 @@ mod tests {
     #[test]
     fn a_fit_begins_with_the_work_of_a_smooth_body() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let pull_off = curve.noise.max(-ends(curve.force.iter().copied()).0);
+        let pull_off = curve
+            .noise
+            .max(-Extent::of(curve.force.iter().copied()).low);
         let (sphere, punch) = (
             pull_off / (1.5 * PI * 7.5e-6),
             pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)),

@@ -2,7 +2,7 @@
 //! the scene for free parameters have no effect.
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::ends;
+use crate::curve::numerics::Extent;
 use crate::error::ExperimentError;
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, Modulus};
@@ -50,7 +50,7 @@ impl Starts {
         contact: &Contact,
         known: Known,
     ) -> Result<Starts, ExperimentError> {
-        let (low, high) = ends(curve.force.iter().copied());
+        let Extent { low, high } = Extent::of(curve.force.iter().copied());
         let (pull_off, pressed) = (curve.noise.max(-low), high.max(curve.noise));
         let way = curve.turns[0] - curve.touch;
         let deflection = known.stiffness.map_or(0.0, |stiffness| pressed / stiffness);
