@@ -191,16 +191,10 @@ impl MeasuredCurve {
         }
         assumed.extend(counted(&points, &kept, &free, options));
         assumed.extend(left_out);
-        if averaged > 1 {
-            let means = grouped(points.force.len() as u64);
-            assumed.push(format!("means of {averaged} points each, {means} of them"));
-        }
+        assumed.extend(means_in_words(&points, averaged));
         statements.insert(0, format!("{}.", assumed.join("; ")));
-        statements.push(format!(
-            "{} {}",
-            subtracted.statement,
-            noise_in_words(noise, options, &free)
-        ));
+        let noise_statement = noise_in_words(noise, options, &free);
+        statements.push(format!("{} {noise_statement}", subtracted.statement));
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
             displacement: values_of(&points.displacement),
@@ -214,11 +208,7 @@ impl MeasuredCurve {
             turns: points.turns(last_turn(&points, options)),
             remaining: subtracted.remaining,
             shares: free.shares.each_ref().map(|shares| values_of(shares)),
-            is_estimated: [
-                options.zero.is_none(),
-                options.drift == Drift::Remove,
-                options.tilt == Tilt::Remove,
-            ],
+            is_estimated: is_estimated(options),
             stiffness: columns.stiffness,
             of_body,
             statements,
@@ -282,6 +272,23 @@ impl MeasuredCurve {
         }
         right_angled(&columns)
     }
+}
+
+/// Returns whether zero, drift and tilt are estimated from the points without contact.
+fn is_estimated(options: &CurveOptions) -> [bool; 3] {
+    let has_zero = options.zero.is_none();
+    let has_drift = options.drift == Drift::Remove;
+    let has_tilt = options.tilt == Tilt::Remove;
+    [has_zero, has_drift, has_tilt]
+}
+
+/// Returns the number of means in place of the points of the file, if several are averaged.
+fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
+    if averaged == 1 {
+        return None;
+    }
+    let means = grouped(points.force.len() as u64);
+    Some(format!("means of {averaged} points each, {means} of them"))
 }
 
 /// Returns an error for columns or options from which no curve can be made.

@@ -78,8 +78,8 @@ impl Segments {
     }
 }
 
-/// Returns true if the displacement jumps back and forth from point to point, as it does for rows in
-/// a wrong order.
+/// Returns true if the displacement jumps back and forth from point to point, as it does for rows
+/// in a wrong order.
 pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let range = Extent::of(displacement.iter().copied());
     let way: f64 = displacement

@@ -5,6 +5,7 @@ pub(crate) mod ensemble;
 pub(crate) mod model;
 pub(crate) mod parameter;
 pub(crate) mod population;
+pub(crate) mod posterior;
 pub(crate) mod reason;
 pub(crate) mod result;
 pub(crate) mod scene;
@@ -14,28 +15,22 @@ pub(crate) mod start;
 pub(crate) mod statistics;
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::{correlated, dot};
+use crate::curve::numerics::dot;
 use crate::error::ExperimentError;
 use crate::fit::model::Model;
-use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::parameter::{Free, Parameter};
 use crate::fit::population::WRONG_SIDE;
+use crate::fit::posterior::Posterior;
 use crate::fit::reason::reason;
-use crate::fit::result::{FitResult, FittedParameter};
+use crate::fit::result::FitResult;
 use crate::fit::scene::{with_values, wrong};
-use crate::fit::search::{Found, MISFIT, Search};
+use crate::fit::search::{MISFIT, Search, SearchResult};
 use crate::fit::space::Space;
-use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
 use asperity_data::{Control, format_rounded};
 use asperity_scene::{Document, Simulation};
 
-/// Correlation above which parameters are not separated, and half-width of the 95 % interval of a
-/// logarithm above which a parameter is undetermined.
-const CORRELATED: f64 = 0.95;
-const FLAT: f64 = 1.0;
 /// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
-/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
-const NORMAL: f64 = 1.96;
 
 /// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the
 /// computed force of the scene with a [`MeasuredCurve`].
@@ -120,241 +115,191 @@ impl<'a> Fit<'a> {
 }
 
 /// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
+///
+/// If the best work of adhesion lies at the end of a range that was not given, the fit is repeated
+/// with a wider range.
 fn find(
     curve: &MeasuredCurve,
-    document: &Document,
+    given: &Document,
     free: &[Free],
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
 ) -> Result<FitResult, ExperimentError> {
-    let given = document;
     let mut simulation = Simulation::new(given.resolve(""));
-    let instrument = curve.with_instrument(given).map_err(wrong)?.1;
+    let (_, instrument) = curve.with_instrument(given).map_err(wrong)?;
     let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
-    let is_fixed = space
+    let searched = search(curve, &document, &mut simulation, &space, report)?;
+    if let Some(wider) = space.extended(&searched.result.best.place, free) {
+        let before = searched.evaluations;
+        let mut report_all = |computed| report(before + computed);
+        let mut fit = find(curve, given, &wider, stop, &mut report_all)?;
+        fit.evaluations += before;
+        return Ok(fit);
+    }
+
+    let free: Vec<Parameter> = space
         .coordinates
         .iter()
-        .all(|one| one.parameter != Parameter::Offset);
-    let assumptions = instrument
-        .into_iter()
-        .chain(is_fixed.then(|| fixed_touch(curve)))
+        .map(|coordinate| coordinate.parameter)
         .collect();
-    let Searched {
-        found,
-        rests,
-        misfit,
-        evaluations,
-    } = searched(curve, &document, &mut simulation, &space, report)?;
-    if let Some(free) = space.extended(&found.best.at, free) {
-        let mut report = |computed: usize| report(evaluations + computed);
-        let fit = find(curve, given, &free, stop, &mut report)?;
-        return Ok(FitResult {
-            evaluations: evaluations + fit.evaluations,
-            ..fit
-        });
-    }
-    let values = space.values(&found.best.at);
-    let of_samples = |samples: &[Vec<f64>], one: &Coordinate| -> Vec<f64> {
-        samples
-            .iter()
-            .map(|at| space.values(at)[one.parameter as usize])
-            .collect()
-    };
-    let by_blocks = |one: &Coordinate| block_error(&of_samples(&found.samples, one), &found.blocks);
-    let correlation_factor = correlated(&found.rests);
-    let mut samples = found.samples.clone();
-    widen(&mut samples, correlation_factor.sqrt());
-    let has_other_profile = misfit > MISFIT && document.scene().seed().is_some();
-    let is_without_adhesion = found.without_adhesion < 0.5 * NORMAL * NORMAL * correlation_factor;
-    let fitted = |one: &Coordinate| {
-        let of = |values: &Values| values[one.parameter as usize];
-        let value = of(&values);
-        let Spread {
-            standard_deviation,
-            interval: (low, high),
-        } = spread(of_samples(&samples, one)).unwrap_or(Spread::at(value));
-        let noise_error = standard_deviation.max(by_blocks(one));
-        let half = NORMAL * noise_error;
-        let least = if one.parameter.is_signed() {
-            f64::NEG_INFINITY
-        } else {
-            0.0
-        };
-        let is_bound = one.parameter == Parameter::Work && is_without_adhesion;
-        let low = if is_bound {
-            0.0
-        } else {
-            low.min(value - half).max(least)
-        };
-        let Coordinate {
-            parameter,
-            start,
-            range,
-            ..
-        } = *one;
-        let is_unknown = has_other_profile && !parameter.is_signed();
-        let interval = if is_unknown {
-            range
-        } else {
-            (low, high.max(value + half))
-        };
-        FittedParameter {
-            parameter,
-            start,
-            range,
-            value,
-            interval,
-            noise_error,
-        }
-    };
-    let parameters: Vec<FittedParameter> = space.coordinates.iter().map(fitted).collect();
-    let name = |index: usize| space.coordinates[index].parameter;
-    let count = parameters.len();
-    let pairs = (0..count).flat_map(|one| (one + 1..count).map(move |other| [one, other]));
-    let correlations: Vec<_> = pairs
-        .map(|pair| (name(pair[0]), name(pair[1]), correlation(&samples, pair)))
-        .collect();
-    let alike = correlations
-        .iter()
-        .filter(|(.., value)| value.abs() > CORRELATED);
-    let mut not_distinguished: Vec<_> = alike.map(|&(one, other, _)| (one, other)).collect();
-    for (index, coordinate) in space.coordinates.iter().enumerate() {
-        let (low, high) = coordinate.ends();
-        let of_coordinate = samples.iter().map(|at| at[index]).collect();
-        let (from, to) = spread(of_coordinate)
-            .unwrap_or(Spread::at(found.best.at[index]))
-            .interval;
-        let is_wide = !coordinate.parameter.is_signed() && 0.5 * (to - from) > FLAT;
-        let is_at_end = (from - low).min(high - to) < 0.01 * (to - from)
-            || is_without_adhesion && coordinate.parameter == Parameter::Work;
-        let is_named = not_distinguished
-            .iter()
-            .any(|&(one, other)| [one, other].contains(&name(index)));
-        if !is_named && (is_wide || is_at_end) {
-            not_distinguished.push((name(index), name(index)));
-        }
-    }
-    let work = parameters
-        .iter()
-        .find(|one| one.parameter == Parameter::Work);
-    let work_at_most = work
-        .filter(|_| is_without_adhesion)
-        .map(|work| work.interval.1);
-    let model = curve
-        .force
-        .iter()
-        .zip(&rests)
-        .map(|(measured, rest)| measured - rest * curve.noise)
-        .collect();
-    let free: Vec<Parameter> = space.coordinates.iter().map(|one| one.parameter).collect();
-    let found = with_values(
-        &document,
-        &values,
-        |parameter| free.contains(&parameter),
-        curve,
-    )?;
-    let (_, governing) = simulation.contact(found.scene())?;
-    let tabor = governing.tabor_number(found.scene());
-    let reason = (misfit > MISFIT).then(|| {
-        reason(
+    let has_other_profile = searched.misfit > MISFIT && document.scene().seed().is_some();
+    let posterior = Posterior::new(&space, &searched.result, has_other_profile);
+    let parameters = posterior.parameters();
+    let is_free = |parameter| free.contains(&parameter);
+    let fitted = with_values(&document, &posterior.best, is_free, curve)?;
+    let (_, governing) = simulation.contact(fitted.scene())?;
+    let tabor = governing.tabor_number(fitted.scene());
+    let mut reason_of_misfit = None;
+    if searched.misfit > MISFIT {
+        let reason = reason(
             curve,
-            found.scene(),
+            fitted.scene(),
             &mut simulation,
-            (&values, &free),
+            &posterior.best,
+            &free,
             tabor,
-        )
-    });
-    let residual_over_noise = (dot(&rests, &rests) / rests.len() as f64).sqrt();
-    let beyond = rests.iter().filter(|rest| rest.abs() > WRONG_SIDE).count();
+        )?;
+        reason_of_misfit = Some(reason);
+    }
+
+    let residual_over_noise = searched.root_mean_square();
     Ok(FitResult {
+        work_at_most: posterior.work_at_most(&parameters),
         parameters,
         residual: curve.noise * residual_over_noise,
-        misfit,
+        misfit: searched.misfit,
         residual_over_noise,
-        beyond_five_sigma: beyond as f64 / rests.len() as f64,
-        work_at_most,
+        beyond_five_sigma: searched.share_beyond(WRONG_SIDE),
         tabor,
-        reason: reason.transpose()?,
-        warnings: simulation.compute(found.scene())?.warnings,
-        correlations,
-        not_distinguished,
-        assumptions,
-        evaluations,
-        model,
-        document: found,
+        reason: reason_of_misfit,
+        warnings: simulation.compute(fitted.scene())?.warnings,
+        correlations: posterior.correlations(),
+        not_distinguished: posterior.not_distinguished(),
+        assumptions: assumptions(curve, instrument, &free),
+        evaluations: searched.evaluations,
+        model: searched.model_forces(curve),
+        document: fitted,
     })
 }
 
-/// The first touch that a fit takes from the curve if it does not search the offset, in words. A
-/// displacement off by half the distance of two points shifts the modulus by more than its interval
-/// where the noise is small.
-fn fixed_touch(curve: &MeasuredCurve) -> String {
-    let distances = curve.displacement.iter().map(|at| (at - curve.touch).abs());
-    let next = distances
-        .filter(|distance| *distance > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    let [touch, next] = [curve.touch, next].map(|at| format_rounded(at, 3, "m"));
+/// Returns what the fit takes for granted, in sentences.
+fn assumptions(
+    curve: &MeasuredCurve,
+    instrument: Option<String>,
+    free: &[Parameter],
+) -> Vec<String> {
+    let mut assumptions = Vec::from_iter(instrument);
+    if !free.contains(&Parameter::Offset) {
+        assumptions.push(fixed_contact_point(curve));
+    }
+    assumptions
+}
+
+/// Returns the sentence on the first touch, which a fit takes from the curve if it does not search
+/// the offset. A displacement that is off by half the distance of two points shifts the modulus by
+/// more than its interval if the noise is small.
+fn fixed_contact_point(curve: &MeasuredCurve) -> String {
+    let mut next = f64::INFINITY;
+    for displacement in &curve.displacement {
+        let distance = (displacement - curve.touch).abs();
+        if distance > 0.0 {
+            next = next.min(distance);
+        }
+    }
+    let contact_point = format_rounded(curve.touch, 3, "m");
+    let next = format_rounded(next, 3, "m");
     format!(
-        "First touch was taken at the point at {touch}, and the next point is {next} away. The offset was not fitted, so the \
+        "First touch was taken at the point at {contact_point}, and the next point is {next} away. The offset was not fitted, so the \
          intervals leave out this uncertainty: --free {} fits it.",
         Parameter::Offset.name()
     )
 }
 
-/// Result of a search: the residuals of all points of the curve, their [`FitResult::misfit`], and
-/// the number of curves computed.
+/// Result of a search, compared with all points of the curve.
 struct Searched {
-    found: Found,
-    rests: Vec<f64>,
+    result: SearchResult,
+    /// Residuals of all points of the curve, in units of the noise.
+    residuals: Vec<f64>,
+    /// [`FitResult::misfit`] of the residuals.
     misfit: f64,
+    /// Number of curves computed.
     evaluations: usize,
+}
+
+impl Searched {
+    fn root_mean_square(&self) -> f64 {
+        (dot(&self.residuals, &self.residuals) / self.residuals.len() as f64).sqrt()
+    }
+
+    /// Returns the share of the residuals that are larger than `limit`.
+    fn share_beyond(&self, limit: f64) -> f64 {
+        let beyond = self
+            .residuals
+            .iter()
+            .filter(|residual| residual.abs() > limit)
+            .count();
+        beyond as f64 / self.residuals.len() as f64
+    }
+
+    /// Returns the forces of the model in N at the points of the curve.
+    fn model_forces(&self, curve: &MeasuredCurve) -> Vec<f64> {
+        curve
+            .force
+            .iter()
+            .zip(&self.residuals)
+            .map(|(measured, residual)| measured - residual * curve.noise)
+            .collect()
+    }
 }
 
 /// Searches the parameters. If the residuals of a part of the points are more than noise, the
 /// search uses only these points, because further points would not reduce the residuals.
-fn searched(
+fn search(
     curve: &MeasuredCurve,
     document: &Document,
     simulation: &mut Simulation,
     space: &Space<'_>,
     report: &mut dyn FnMut(usize),
 ) -> Result<Searched, ExperimentError> {
-    let (mut found, mut computed) = (None, 0);
+    let mut result_of_part = None;
+    let mut computed = 0;
     if let Some(part) = curve.thinned(ENOUGH) {
         let space = Space {
             curve: &part,
             ..space.clone()
         };
-        let model = Model::new(&part, document.scene(), simulation);
         let mut search = Search {
             space: &space,
-            model,
+            model: Model::new(&part, document.scene(), simulation),
             report: &mut *report,
             lines: space.lines(),
         };
         let (population, generator) = search.first()?;
         if search.is_systematic(&population) {
-            found = Some(search.find_from(population, generator)?);
+            result_of_part = Some(search.find_from(population, generator)?);
         }
         computed = search.model.evaluations;
     }
-    let model = Model::new(curve, document.scene(), simulation);
-    let mut count = |evaluations: usize| report(computed + evaluations);
+
+    let mut report_all = |evaluations: usize| report(computed + evaluations);
     let mut search = Search {
         space,
-        model,
-        report: &mut count,
+        model: Model::new(curve, document.scene(), simulation),
+        report: &mut report_all,
         lines: space.lines(),
     };
-    let found = found.map_or_else(|| search.find(), Ok)?;
-    let rests = search.rests(&found.best.at, WRONG_SIDE * found.noise)?;
-    let misfit = space.misfit(&search.eased(&found.best.at, &rests)?);
-    let evaluations = computed + search.model.evaluations;
+    let result = match result_of_part {
+        Some(result) => result,
+        None => search.find()?,
+    };
+    let best = &result.best.place;
+    let residuals = search.residuals(best, WRONG_SIDE * result.noise)?;
+    let misfit = space.misfit(&search.beyond_jumps(best, &residuals)?);
     Ok(Searched {
-        found,
-        rests,
+        residuals,
         misfit,
-        evaluations,
+        evaluations: computed + search.model.evaluations,
+        result,
     })
 }
 

@@ -8,20 +8,22 @@ const MOVED: f64 = 0.8;
 /// of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
-/// Coordinates with the residuals of the curve, in units of its noise.
+/// Place in the space of the coordinates, with the residuals of the curve in units of its noise.
 #[derive(Clone)]
 pub(crate) struct Member {
-    pub at: Vec<f64>,
-    pub rests: Vec<f64>,
+    pub place: Vec<f64>,
+    pub residuals: Vec<f64>,
 }
 
-/// Members with their costs at a noise, in units of the noise of the curve, and the best member so
-/// far with its cost.
+/// Members with their costs at a noise.
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
+    /// Noise in units of the noise of the curve.
     pub noise: f64,
+    /// Best member so far.
     pub best: Member,
+    /// Cost of the best member.
     pub cost: f64,
 }
 
@@ -29,20 +31,21 @@ impl Population {
     /// Keeps a member as the best one if its cost is smaller.
     pub fn keep(&mut self, member: &Member, cost: f64) {
         if cost < self.cost {
-            (self.best, self.cost) = (member.clone(), cost);
+            self.best = member.clone();
+            self.cost = cost;
         }
     }
 
     /// Returns the number of different members.
     pub fn distinct(&self) -> usize {
-        let is_copy = |index: usize| {
-            self.members[..index]
-                .iter()
-                .any(|one| one.at == self.members[index].at)
-        };
-        (0..self.members.len())
-            .filter(|&index| !is_copy(index))
-            .count()
+        let mut count = 0;
+        for (index, member) in self.members.iter().enumerate() {
+            let mut earlier = self.members[..index].iter();
+            if !earlier.any(|other| other.place == member.place) {
+                count += 1;
+            }
+        }
+        count
     }
 
     /// Returns true if most members differ, so that the next step can be taken.
@@ -60,12 +63,12 @@ impl Population {
 /// Returns the cost of a residual in units of the noise. The cost is half the square. A point on
 /// the wrong side of a jump counts by the logarithm, because measured displacements are not exact
 /// to the edge of a jump.
-pub(crate) fn loss(rest: f64) -> f64 {
-    let rest = rest.abs();
-    if rest > WRONG_SIDE {
-        WRONG_SIDE * WRONG_SIDE * (0.5 + (rest / WRONG_SIDE).ln())
+pub(crate) fn loss(residual: f64) -> f64 {
+    let size = residual.abs();
+    if size > WRONG_SIDE {
+        WRONG_SIDE * WRONG_SIDE * (0.5 + (size / WRONG_SIDE).ln())
     } else {
-        0.5 * rest * rest
+        0.5 * size * size
     }
 }
 
@@ -73,7 +76,8 @@ pub(crate) fn loss(rest: f64) -> f64 {
 /// of the first one.
 pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
-    let (mut drawn, mut sum) = (Vec::with_capacity(count), 0.0);
+    let mut drawn = Vec::with_capacity(count);
+    let mut sum = 0.0;
     for (member, weight) in members.iter().zip(weights) {
         sum += weight;
         while drawn.len() < count && (drawn.len() as f64 + share) * step < sum {
@@ -86,8 +90,7 @@ pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
 /// Returns point `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
 pub(crate) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 {
-        0.0
-    } else {
-        ((number % base) as f64 + share_of(number / base, base)) / base as f64
+        return 0.0;
     }
+    ((number % base) as f64 + share_of(number / base, base)) / base as f64
 }

@@ -20,45 +20,45 @@ use crate::fit::space::Space;
 use asperity_contact::ContactError;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use std::ops::Range;
 
 const SEED: u64 = 29;
 /// Number of members drawn at first for each free parameter.
 const SCAN: usize = 60;
-/// Number of members of a population, and number of further members for each free parameter.
+/// Number of members of a population, without those for each free parameter.
 const MEMBERS: usize = 24;
+/// Number of further members for each free parameter.
 const FOR_EACH: usize = 8;
 /// Share of the members that still count after a step of the noise.
 const EFFECTIVE: f64 = 0.3;
-/// Largest number of moves of the population at each step, and number of moves at the end, each of
-/// which adds all members to the samples.
+/// Largest number of moves of the population at each step.
 const MOVES: usize = 5;
+/// Number of moves at the end, each of which adds all members to the samples.
 const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps, and number of decades below the whole range over which
-/// their lengths extend.
+/// Share of the moves that are random steps.
 const RANDOM: f64 = 0.02;
+/// Number of decades below the whole range over which the lengths of random steps extend.
 const DECADES: f64 = 6.0;
-/// Noise, divided by the noise of the curve, above which forces are computed coarsely, and the
-/// factor of the number of members until then.
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
 const COARSE: f64 = 10.0;
+/// Factor of the number of members while forces are coarse.
 const MORE: usize = 2;
 /// Divisor of the residual of the best member. The noise is lowered to this part of the residual,
 /// if the residual exceeds the noise of the curve.
 const DEEPER: f64 = 3.0;
 /// Residual in contact, in units of the noise, above which a population belongs to a model that
-/// does not describe the curve, and the share of this residual below which another population is
-/// better.
+/// does not describe the curve.
 const SYSTEMATIC: f64 = 5.0;
+/// Share of this residual below which another population is better.
 const BETTER: f64 = 0.9;
 /// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
-/// Largest number of populations, and the difference of costs by which a start must be better than
-/// a population to count as missed.
+/// Largest number of populations.
 const ATTEMPTS: usize = 3;
+/// Difference of costs by which a start must be better than a population to count as missed.
 const MISSED: f64 = 3.0;
-/// Largest noise divided by the noise of the curve, and number of halvings to determine a step of
-/// its logarithm.
+/// Largest noise divided by the noise of the curve.
 const LARGE: f64 = 1e6;
+/// Number of halvings to determine a step of the logarithm of the noise.
 const HALVINGS: usize = 12;
 /// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
@@ -72,11 +72,12 @@ const FAR: f64 = 1e12;
 /// Bases of the sequences of evenly scattered points, one for each coordinate.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
-pub(crate) struct Found {
+/// Result of a search.
+pub(crate) struct SearchResult {
     /// The member with the smallest residuals.
     pub best: Member,
     /// Residuals of the best member after a fit of the lines, in units of the noise.
-    pub rests: Vec<f64>,
+    pub residuals: Vec<f64>,
     /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1
     /// where the residual is.
     pub noise: f64,
@@ -89,6 +90,12 @@ pub(crate) struct Found {
     pub without_adhesion: f64,
 }
 
+/// Lower noise of a population, and the weights of its members at this noise.
+struct Cooling {
+    noise: f64,
+    weights: Vec<f64>,
+}
+
 /// Search on one random profile.
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
@@ -99,82 +106,95 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn member(&mut self, at: Vec<f64>) -> Result<Member, ExperimentError> {
+    fn member(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
         if (self.space.stop)() {
             return Err(ContactError::Interrupted.into());
         }
         (self.report)(self.model.evaluations);
-        let forces = self.model.forces(&self.space.values(&at))?;
-        let measured = self.space.curve.force.iter().zip(&forces);
-        let rest = |(measured, model): (&f64, &f64)| (measured - model) / self.space.curve.noise;
-        let rests = measured
-            .map(rest)
-            .map(|rest| if rest.is_finite() { rest } else { FAR })
-            .collect();
-        Ok(Member { at, rests })
+        let curve = self.space.curve;
+        let forces = self.model.forces(&self.space.values(&place))?;
+        let mut residuals = Vec::with_capacity(forces.len());
+        for (measured, model) in curve.force.iter().zip(&forces) {
+            let residual = (measured - model) / curve.noise;
+            residuals.push(if residual.is_finite() { residual } else { FAR });
+        }
+        Ok(Member { place, residuals })
     }
 
     /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals
     /// above `limit` count as `limit`.
-    fn refined(&self, rests: &[f64], limit: f64) -> Vec<f64> {
-        let clamped: Vec<f64> = rests.iter().map(|rest| rest.clamp(-limit, limit)).collect();
-        let mut refined = rests.to_vec();
+    fn refined(&self, residuals: &[f64], limit: f64) -> Vec<f64> {
+        let clamped: Vec<f64> = residuals
+            .iter()
+            .map(|residual| residual.clamp(-limit, limit))
+            .collect();
+        let mut refined = residuals.to_vec();
         for line in &self.lines {
-            let along = dot(&clamped, line);
-            refined
-                .iter_mut()
-                .zip(line)
-                .for_each(|(rest, line)| *rest -= along * line);
+            let component = dot(&clamped, line);
+            for (residual, direction) in refined.iter_mut().zip(line) {
+                *residual -= component * direction;
+            }
         }
         refined
     }
 
-    /// Computes the residuals at these coordinates after a fit of the lines, in units of the noise.
-    pub fn rests(&mut self, at: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
+    /// Computes the residuals at a place after a fit of the lines, in units of the noise.
+    pub fn residuals(&mut self, place: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
         self.model.noise = 1.0;
-        let member = self.member(at.to_vec())?;
-        Ok(self.refined(&member.rests, limit))
+        let member = self.member(place.to_vec())?;
+        Ok(self.refined(&member.residuals, limit))
     }
 
     /// Returns residuals in which points inside a jump count as described. A residual above
     /// [`WRONG_SIDE`] becomes the distance from the forces of a jump of the model, if the jump is
     /// within one point.
-    pub fn eased(&mut self, at: &[f64], rests: &[f64]) -> Result<Vec<f64>, ExperimentError> {
+    pub fn beyond_jumps(
+        &mut self,
+        place: &[f64],
+        residuals: &[f64],
+    ) -> Result<Vec<f64>, ExperimentError> {
         let noise = self.space.curve.noise;
         self.model.noise = 1.0;
-        let jumps = self
-            .model
-            .jumps(&self.space.values(at), WRONG_SIDE * noise)?;
-        let ease = |(rest, jump): (&f64, Option<[f64; 2]>)| match jump {
-            Some([low, high]) if rest.abs() > WRONG_SIDE => {
-                rest - rest.clamp(low / noise, high / noise)
+        let values = self.space.values(place);
+        let jumps = self.model.jumps(&values, WRONG_SIDE * noise)?;
+        let mut beyond = residuals.to_vec();
+        for (residual, jump) in beyond.iter_mut().zip(jumps) {
+            if let Some(jump) = jump
+                && residual.abs() > WRONG_SIDE
+            {
+                *residual -= residual.clamp(jump.low / noise, jump.high / noise);
             }
-            _ => *rest,
-        };
-        Ok(rests.iter().zip(jumps).map(ease).collect())
+        }
+        Ok(beyond)
     }
 
     /// Returns the residual in contact, in units of the noise of the curve, after a fit of the
     /// lines at this noise; see [`Space::misfit`].
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
         self.space
-            .misfit(&self.refined(&member.rests, WRONG_SIDE * noise))
+            .misfit(&self.refined(&member.residuals, WRONG_SIDE * noise))
     }
 
     /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
     /// the [`loss`] of all points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
-        self.refined(&member.rests, WRONG_SIDE * noise)
+        self.refined(&member.residuals, WRONG_SIDE * noise)
             .iter()
-            .map(|rest| loss(rest / noise))
+            .map(|residual| loss(residual / noise))
             .sum()
     }
 
     /// Returns the costs of a member at this noise, for each block of the curve.
     fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
-        let rests = self.refined(&member.rests, WRONG_SIDE * noise);
-        let cost = |block: Range<usize>| rests[block].iter().map(|rest| loss(rest / noise)).sum();
-        self.space.blocks().into_iter().map(cost).collect()
+        let residuals = self.refined(&member.residuals, WRONG_SIDE * noise);
+        let mut costs = Vec::new();
+        for block in self.space.blocks() {
+            let losses = residuals[block]
+                .iter()
+                .map(|residual| loss(residual / noise));
+            costs.push(losses.sum());
+        }
+        costs
     }
 
     /// Returns points evenly scattered over the ranges, different ones in each attempt.
@@ -184,19 +204,12 @@ impl Search<'_> {
         let count = SCAN * start.len();
         let mut members = Vec::with_capacity(count + 1);
         for number in attempt * count + 1..=(attempt + 1) * count {
-            let rows = coordinates.iter().zip(PRIMES).zip(&start);
-            let of = rows.map(|((one, prime), start)| {
-                match (one.parameter, one.ends(), share_of(number, prime)) {
-                    // Rough bodies touch before the force exceeds the noise.
-                    (Parameter::Offset, (low, high), share) => {
-                        (start + 8.0 * share - 6.5).clamp(low, high)
-                    }
-                    (Parameter::Zero, _, share) => start + 0.1 * (share - 0.5),
-                    (_, (low, high), share) => low + share * (high - low),
-                }
-            });
-            let at = of.collect();
-            members.push(self.member(at)?);
+            let mut place = Vec::with_capacity(start.len());
+            for (index, coordinate) in coordinates.iter().enumerate() {
+                let share = share_of(number, PRIMES[index]);
+                place.push(scattered_coordinate(coordinate, start[index], share));
+            }
+            members.push(self.member(place)?);
         }
         Ok(members)
     }
@@ -205,7 +218,7 @@ impl Search<'_> {
     /// population is drawn in three cases. The residuals exceed the noise, as one population in
     /// thirty ends in another minimum and one in 200 twice. The population has missed a better
     /// start, which then becomes a member of the next one. The population has not spread.
-    pub fn find(&mut self) -> Result<Found, ExperimentError> {
+    pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
     }
@@ -213,7 +226,7 @@ impl Search<'_> {
     /// Returns the first population, and the generator that made it.
     pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
         let mut generator = ChaCha8Rng::seed_from_u64(SEED);
-        let population = self.anneal(0, (None, 0.0), &mut generator)?;
+        let population = self.anneal(0, None, 0.0, &mut generator)?;
         Ok((population, generator))
     }
 
@@ -227,33 +240,24 @@ impl Search<'_> {
         &mut self,
         mut population: Population,
         mut generator: ChaCha8Rng,
-    ) -> Result<Found, ExperimentError> {
+    ) -> Result<SearchResult, ExperimentError> {
         self.model.noise = 1.0;
         let start = self.member(self.space.start())?;
         for attempt in 1..ATTEMPTS {
-            let rests = self.refined(&population.best.rests, WRONG_SIDE);
-            let rests = self.eased(&population.best.at, &rests)?;
-            let cost: f64 = rests.iter().map(|rest| loss(*rest)).sum();
-            let is_poor = cost > EXPECTED * 0.5 * rests.len() as f64;
+            let is_poor = self.is_poor(&population.best)?;
             let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
             let has_spread = population.has_spread();
             if has_spread && !has_missed && !is_poor {
                 break;
             }
-            // Where the residuals are no noise, another population that comes to the same ones ends
-            // there.
-            let rival = self.misfit(&population.best, population.noise);
-            let rival = if has_spread && !has_missed && rival > SYSTEMATIC {
-                BETTER * rival
-            } else {
-                0.0
-            };
-            let other = self.anneal(
-                attempt,
-                (has_missed.then_some(&start), rival),
-                &mut generator,
-            )?;
-            if self.misfit(&other.best, other.noise) > rival && rival > 0.0 {
+            // If the residuals are no noise, another population that comes to the same residuals
+            // ends there.
+            let misfit = self.misfit(&population.best, population.noise);
+            let is_rival = has_spread && !has_missed && misfit > SYSTEMATIC;
+            let rival = if is_rival { BETTER * misfit } else { 0.0 };
+            let missed = has_missed.then_some(&start);
+            let other = self.anneal(attempt, missed, rival, &mut generator)?;
+            if rival > 0.0 && self.misfit(&other.best, other.noise) > rival {
                 break;
             }
             let noise = population.noise.min(other.noise);
@@ -262,39 +266,53 @@ impl Search<'_> {
             }
         }
         population.keep(&start, self.cost(&start, population.noise));
+        self.sample(population, &mut generator)
+    }
+
+    /// Returns true if the residuals of a member, apart from points inside jumps, exceed the noise.
+    fn is_poor(&mut self, member: &Member) -> Result<bool, ExperimentError> {
+        let residuals = self.refined(&member.residuals, WRONG_SIDE);
+        let residuals = self.beyond_jumps(&member.place, &residuals)?;
+        let cost: f64 = residuals.iter().map(|residual| loss(*residual)).sum();
+        Ok(cost > EXPECTED * 0.5 * residuals.len() as f64)
+    }
+
+    /// Samples the coordinates at the noise of the curve, or at the residual if it is larger.
+    fn sample(
+        &mut self,
+        mut population: Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<SearchResult, ExperimentError> {
         let noise = self.misfit(&population.best, population.noise).max(1.0);
         self.set_noise(&mut population, noise);
         for _ in 0..MOVES {
-            self.move_all(&mut population, &mut generator)?;
+            self.move_all(&mut population, generator)?;
         }
-        let (mut samples, mut blocks) = (Vec::new(), Vec::new());
+        let mut samples = Vec::new();
+        let mut blocks = Vec::new();
         for _ in 0..LAST_MOVES {
-            self.move_all(&mut population, &mut generator)?;
-            samples.extend(population.members.iter().map(|member| member.at.clone()));
-            if noise > MISFIT {
-                blocks.extend(
-                    population
-                        .members
-                        .iter()
-                        .map(|member| self.block_costs(member, noise)),
-                );
+            self.move_all(&mut population, generator)?;
+            for member in &population.members {
+                samples.push(member.place.clone());
+                if noise > MISFIT {
+                    blocks.push(self.block_costs(member, noise));
+                }
             }
         }
         if !population.has_spread() {
-            let fault = format!(
+            let found = format!(
                 "the search ends at {} values of the parameters",
                 population.distinct()
             );
-            return refused(
-                fault,
-                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise",
-            );
+            let allowed =
+                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise";
+            return refused(found, allowed);
         }
         let without_adhesion = self.without_adhesion(&population, &samples)?;
-        let rests = self.refined(&population.best.rests, WRONG_SIDE * noise);
-        Ok(Found {
+        let residuals = self.refined(&population.best.residuals, WRONG_SIDE * noise);
+        Ok(SearchResult {
             best: population.best,
-            rests,
+            residuals,
             noise,
             samples,
             blocks,
@@ -309,60 +327,50 @@ impl Search<'_> {
         population: &Population,
         samples: &[Vec<f64>],
     ) -> Result<f64, ExperimentError> {
-        let is_work = |one: &Coordinate| one.parameter == Parameter::Work && one.range.0 == 0.0;
         let mut least = f64::INFINITY;
-        if let Some(work) = self.space.coordinates.iter().position(is_work)
-            && samples.iter().any(|at| at[work] < CLOSE)
-        {
-            for member in &population.members {
-                let mut at = member.at.clone();
-                at[work] = 0.0;
-                let member = self.member(at)?;
-                least = least.min(self.cost(&member, population.noise) - population.cost);
-            }
+        let coordinates = &self.space.coordinates;
+        let Some(work) = coordinates.iter().position(Coordinate::is_work_from_zero) else {
+            return Ok(least);
+        };
+        if !samples.iter().any(|place| place[work] < CLOSE) {
+            return Ok(least);
+        }
+        for member in &population.members {
+            let mut place = member.place.clone();
+            place[work] = 0.0;
+            let member = self.member(place)?;
+            least = least.min(self.cost(&member, population.noise) - population.cost);
         }
         Ok(least)
     }
 
     /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the
     /// residual. While the noise is large the population has more members and coarse forces. It
-    /// ends early if its residual is above the residual of a rival at the noise of the rival.
+    /// ends early if its residual is above the residual `rival` at the noise of the rival. `start`
+    /// becomes one of the first members.
     fn anneal(
         &mut self,
         attempt: usize,
-        (start, rival): (Option<&Member>, f64),
+        start: Option<&Member>,
+        rival: f64,
         generator: &mut ChaCha8Rng,
     ) -> Result<Population, ExperimentError> {
         self.model.noise = COARSE;
-        let mut members = self.scattered(attempt)?;
-        members.extend(start.cloned());
-        let of_member = |member: &&Member| self.misfit(member, f64::INFINITY);
-        let best = members
-            .iter()
-            .min_by(|one, other| of_member(one).total_cmp(&of_member(other)));
-        let best = best
-            .cloned()
-            .ok_or(ContactError::Internal("no values have been drawn"))?;
-        let (costs, noise) = (vec![0.0; members.len()], f64::INFINITY);
-        let mut population = Population {
-            members,
-            costs,
-            noise,
-            best,
-            cost: f64::INFINITY,
-        };
+        let mut population = self.first_members(attempt, start)?;
         let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
         loop {
             let misfit = self.misfit(&population.best, population.noise);
             let least = (misfit / DEEPER).max(1.0);
-            if population.noise <= least.max(rival) && (population.noise <= least || misfit > rival)
-            {
+            let is_cool = population.noise <= least;
+            let has_lost = population.noise <= rival && misfit > rival;
+            if is_cool || has_lost {
                 self.refine(&mut population)?;
                 return Ok(population);
             }
-            let (noise, weights) = self.cooler(&population, least);
+            let Cooling { noise, weights } = self.cooler(&population, least);
             let count = if noise > COARSE { MORE * count } else { count };
-            population.members = drawn(&population.members, &weights, count, generator.random());
+            let share = generator.random();
+            population.members = drawn(&population.members, &weights, count, share);
             if noise < COARSE {
                 self.refine(&mut population)?;
             }
@@ -376,12 +384,35 @@ impl Search<'_> {
         }
     }
 
+    /// Returns a population of scattered members and a start, at an infinite noise.
+    fn first_members(
+        &mut self,
+        attempt: usize,
+        start: Option<&Member>,
+    ) -> Result<Population, ExperimentError> {
+        let mut members = self.scattered(attempt)?;
+        members.extend(start.cloned());
+        let misfit = |member: &Member| self.misfit(member, f64::INFINITY);
+        let best = members
+            .iter()
+            .min_by(|member, next| misfit(member).total_cmp(&misfit(next)))
+            .cloned()
+            .ok_or(ContactError::Internal("no values have been drawn"))?;
+        Ok(Population {
+            costs: vec![0.0; members.len()],
+            members,
+            noise: f64::INFINITY,
+            best,
+            cost: f64::INFINITY,
+        })
+    }
+
     /// Recomputes a population exactly if its forces are coarse.
     fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
         if self.model.noise > 1.0 {
             self.model.noise = 1.0;
             for member in population.members.iter_mut().chain([&mut population.best]) {
-                *member = self.member(std::mem::take(&mut member.at))?;
+                *member = self.member(std::mem::take(&mut member.place))?;
             }
             self.set_noise(population, population.noise);
         }
@@ -395,93 +426,122 @@ impl Search<'_> {
             .iter()
             .map(|member| self.cost(member, noise))
             .collect();
-        (population.noise, population.cost) = (noise, self.cost(&population.best, noise));
-        let best = (0..population.costs.len())
-            .min_by(|&one, &other| population.costs[one].total_cmp(&population.costs[other]));
-        if let Some(best) = best {
-            population.keep(&population.members[best].clone(), population.costs[best]);
+        population.noise = noise;
+        population.cost = self.cost(&population.best, noise);
+        let costs = population.costs.iter().enumerate();
+        let best = costs.min_by(|(_, cost), (_, next)| cost.total_cmp(next));
+        if let Some((best, &cost)) = best {
+            population.keep(&population.members[best].clone(), cost);
         }
     }
 
     /// Returns the next lower noise, at least `least`, and the weights of the members at this
     /// noise.
-    fn cooler(&self, population: &Population, least: f64) -> (f64, Vec<f64>) {
-        let weights = |noise: f64| -> Vec<f64> {
-            let pairs = population.members.iter().zip(&population.costs);
-            let changes: Vec<f64> = pairs
-                .map(|(member, cost)| cost - self.cost(member, noise))
-                .collect();
-            let largest = Extent::of(changes.iter().copied()).high;
-            changes
-                .iter()
-                .map(|change| (change - largest).exp())
-                .collect()
-        };
+    fn cooler(&self, population: &Population, least: f64) -> Cooling {
         let enough = EFFECTIVE * population.members.len() as f64;
         let is_enough =
             |weights: &[f64]| weights.iter().sum::<f64>().powi(2) >= enough * dot(weights, weights);
-        let found = weights(least);
-        if is_enough(&found) {
-            return (least, found);
+        let weights = self.weights(population, least);
+        if is_enough(&weights) {
+            return Cooling {
+                noise: least,
+                weights,
+            };
         }
-        let (mut low, mut high) = (least, population.noise.min(LARGE));
+        let mut low = least;
+        let mut high = population.noise.min(LARGE);
         for _ in 0..HALVINGS {
             let middle = (low * high).sqrt();
-            *if is_enough(&weights(middle)) {
-                &mut high
+            if is_enough(&self.weights(population, middle)) {
+                high = middle;
             } else {
-                &mut low
-            } = middle;
+                low = middle;
+            }
         }
-        // Never the same again.
-        let next = if high < population.noise {
+        // The noise falls in each step, so that the search ends.
+        let noise = if high < population.noise {
             high
         } else {
             SLOWEST * high
         };
-        (next, weights(next))
+        Cooling {
+            noise,
+            weights: self.weights(population, noise),
+        }
     }
 
-    /// Moves each member by the difference of two others (ter Braak, Stat. Comput. 16, 239, 2006)
-    /// or by a random step along one coordinate; rejected moves leave it where it is.
+    /// Returns the weights of the members if the noise of a population falls to this noise; the
+    /// largest is 1.
+    fn weights(&self, population: &Population, noise: f64) -> Vec<f64> {
+        let members = population.members.iter().zip(&population.costs);
+        let changes: Vec<f64> = members
+            .map(|(member, cost)| cost - self.cost(member, noise))
+            .collect();
+        let largest = Extent::of(changes.iter().copied()).high;
+        changes
+            .iter()
+            .map(|change| (change - largest).exp())
+            .collect()
+    }
+
+    /// Proposes a move for each member; rejected moves leave it where it is.
     fn move_all(
         &mut self,
         population: &mut Population,
         generator: &mut ChaCha8Rng,
     ) -> Result<(), ExperimentError> {
-        let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
-        let count = population.members.len();
-        for index in 0..count {
-            let here = &population.members[index].at;
-            let mut at = here.clone();
-            let length: f64 = generator.random();
-            if generator.random::<f64>() < RANDOM {
-                let moved = generator.random_range(0..at.len());
-                let (low, high) = self.space.coordinates[moved].ends();
-                at[moved] += (high - low)
-                    * (2.0 * length - 1.0)
-                    * 10_f64.powf(-DECADES * generator.random::<f64>());
-            } else {
-                let [one, other] =
-                    [(); 2].map(|()| &population.members[generator.random_range(0..count)].at);
-                let differences = one.iter().zip(other).map(|(one, other)| one - other);
-                at.iter_mut()
-                    .zip(differences)
-                    .for_each(|(at, by)| *at += usual * (0.5 + length) * by);
-            }
+        for index in 0..population.members.len() {
+            let place = self.proposal(population, index, generator);
             let chance: f64 = generator.random();
-            let is_within =
-                |(at, one): (&f64, &Coordinate)| (one.ends().0..=one.ends().1).contains(at);
-            if at == *here || !at.iter().zip(&self.space.coordinates).all(is_within) {
+            if place == population.members[index].place || !self.space.contains(&place) {
                 continue;
             }
-            let member = self.member(at)?;
+            let member = self.member(place)?;
             let cost = self.cost(&member, population.noise);
             if chance < (population.costs[index] - cost).exp() {
                 population.keep(&member, cost);
-                (population.members[index], population.costs[index]) = (member, cost);
+                population.members[index] = member;
+                population.costs[index] = cost;
             }
         }
         Ok(())
+    }
+
+    /// Returns a new place for a member: moved by the difference of two others (ter Braak, Stat.
+    /// Comput. 16, 239, 2006) or by a random step along one coordinate.
+    fn proposal(
+        &self,
+        population: &Population,
+        index: usize,
+        generator: &mut ChaCha8Rng,
+    ) -> Vec<f64> {
+        let mut place = population.members[index].place.clone();
+        let length: f64 = generator.random();
+        if generator.random::<f64>() < RANDOM {
+            let moved = generator.random_range(0..place.len());
+            let (low, high) = self.space.coordinates[moved].ends();
+            let scale = 10_f64.powf(-DECADES * generator.random::<f64>());
+            place[moved] += (high - low) * (2.0 * length - 1.0) * scale;
+            return place;
+        }
+        let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
+        let count = population.members.len();
+        let from = &population.members[generator.random_range(0..count)].place;
+        let to = &population.members[generator.random_range(0..count)].place;
+        for (coordinate, (start, end)) in place.iter_mut().zip(from.iter().zip(to)) {
+            *coordinate += usual * (0.5 + length) * (start - end);
+        }
+        place
+    }
+}
+
+/// Returns a coordinate of an evenly scattered point, for a share of its range from 0 to 1.
+fn scattered_coordinate(coordinate: &Coordinate, start: f64, share: f64) -> f64 {
+    let (low, high) = coordinate.ends();
+    match coordinate.parameter {
+        // Rough bodies touch before the force exceeds the noise.
+        Parameter::Offset => (start + 8.0 * share - 6.5).clamp(low, high),
+        Parameter::Zero => start + 0.1 * (share - 0.5),
+        _ => low + share * (high - low),
     }
 }

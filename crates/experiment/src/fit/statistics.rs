@@ -10,18 +10,21 @@ pub(crate) const PARTS: usize = 4;
 /// `cut` times the scale (Huber, Robust Statistics, proposal 2), so that single points on the wrong
 /// side of a jump count little.
 pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
-    let mut squares: Vec<f64> = residuals.iter().map(|rest| rest * rest).collect();
+    let mut squares: Vec<f64> = residuals
+        .iter()
+        .map(|residual| residual * residual)
+        .collect();
     squares.sort_by(f64::total_cmp);
-    let (mut sum, mut count) = (squares.iter().sum::<f64>(), squares.len() as f64);
-    let is_beyond = |largest: &f64, sum: f64, count: f64| {
-        count > cut * cut && largest * count > cut * cut * sum
-    };
-    while squares
-        .pop()
-        .is_some_and(|largest| is_beyond(&largest, sum, count))
-    {
+    let mut sum: f64 = squares.iter().sum();
+    let mut count = squares.len() as f64;
+    while let Some(largest) = squares.pop() {
+        let is_beyond = count > cut * cut && largest * count > cut * cut * sum;
+        if !is_beyond {
+            break;
+        }
         // With one residual less it is (sum + beyond · cut² · scale²)/count = scale².
-        (sum, count) = (squares.iter().sum(), count - cut * cut);
+        sum = squares.iter().sum();
+        count -= cut * cut;
     }
     (sum / count).sqrt()
 }
@@ -32,30 +35,34 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
 /// each block would give another value. Blocks are joined, up to whole segments, and the largest
 /// error counts.
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
-    let (count, average) = (values.len() as f64, mean(values));
-    let influence = |block: usize| {
-        values
+    let count = values.len() as f64;
+    let average = mean(values);
+    let block_count = blocks.first().map_or(0, Vec::len);
+    let mut influences = Vec::with_capacity(block_count);
+    for block in 0..block_count {
+        let sum: f64 = values
             .iter()
             .zip(blocks)
             .map(|(value, costs)| (value - average) * costs[block])
-            .sum::<f64>()
-            / count
-    };
-    let influences: Vec<f64> = (0..blocks.first().map_or(0, Vec::len))
-        .map(influence)
+            .sum();
+        influences.push(sum / count);
+    }
+    let mut largest = 0.0_f64;
+    for joined in [1, 2, PARTS] {
+        largest = largest.max(error_of_joined(&influences, joined));
+    }
+    largest
+}
+
+/// Returns the error from the influences of blocks, of which `joined` neighbours count as one.
+fn error_of_joined(influences: &[f64], joined: usize) -> f64 {
+    let sums: Vec<f64> = influences
+        .chunks(joined)
+        .map(|part| part.iter().sum())
         .collect();
-    let error = |joined: usize| {
-        let of: Vec<f64> = influences
-            .chunks(joined)
-            .map(|part| part.iter().sum())
-            .collect();
-        let average = mean(&of);
-        of.iter()
-            .map(|one| (one - average).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    [1, 2, PARTS].map(error).into_iter().fold(0.0, f64::max)
+    let average = mean(&sums);
+    let squares: f64 = sums.iter().map(|sum| (sum - average).powi(2)).sum();
+    squares.sqrt()
 }
 
 fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
@@ -66,9 +73,9 @@ fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
 pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     for index in 0..samples.first().map_or(0, Vec::len) {
         let mean = mean(&column(samples, index));
-        samples
-            .iter_mut()
-            .for_each(|sample| sample[index] = mean + factor * (sample[index] - mean));
+        for sample in samples.iter_mut() {
+            sample[index] = mean + factor * (sample[index] - mean);
+        }
     }
 }
 
@@ -96,27 +103,32 @@ pub(crate) fn spread(mut values: Vec<f64>) -> Option<Spread> {
         return None;
     }
     values.sort_by(f64::total_cmp);
-    let interval = quantile(&values, 0.025).zip(quantile(&values, 0.975))?;
+    let low = quantile(&values, 0.025)?;
+    let high = quantile(&values, 0.975)?;
     Some(Spread {
         standard_deviation: standard_deviation(&values, mean(&values)),
-        interval,
+        interval: (low, high),
     })
 }
 
 /// Returns the correlation of two coordinates over samples; 0 if one of them does not vary.
 pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
-    let [one, other] = pair.map(|index| {
-        let mut values = column(samples, index);
-        let mean = mean(&values);
-        values.iter_mut().for_each(|value| *value -= mean);
-        values
-    });
-    let squares = dot(&one, &one) * dot(&other, &other);
+    let [first, second] = pair.map(|index| deviations(column(samples, index)));
+    let squares = dot(&first, &first) * dot(&second, &second);
     if squares > 0.0 {
-        dot(&one, &other) / squares.sqrt()
+        dot(&first, &second) / squares.sqrt()
     } else {
         0.0
     }
+}
+
+/// Returns the deviations of values from their mean.
+fn deviations(mut values: Vec<f64>) -> Vec<f64> {
+    let mean = mean(&values);
+    for value in &mut values {
+        *value -= mean;
+    }
+    values
 }
 
 #[cfg(test)]

@@ -387,11 +387,12 @@ fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, Surfac
     };
     let mut rows = Rows::new(&columns, stated, options)?;
     let count = values.first().map_or(0, Vec::len);
-    for index in 0..count {
+    for number in 1..=count {
+        let value = |column: usize| values[column][number - 1];
         rows.take(
-            &Place::Point(index + 1),
-            |column| Ok(values[column][index]),
-            |column| values[column][index].to_string().into(),
+            &Place::Point(number),
+            |column| Ok(value(column)),
+            |column| value(column).to_string().into(),
         )?;
     }
     Ok(rows.parts)
