@@ -137,11 +137,7 @@ fn find(
         return Ok(fit);
     }
 
-    let free: Vec<Parameter> = space
-        .coordinates
-        .iter()
-        .map(|coordinate| coordinate.parameter)
-        .collect();
+    let free = space.parameters();
     let has_other_profile = searched.misfit > MISFIT && document.scene().seed().is_some();
     let posterior = Posterior::new(&space, &searched.result, has_other_profile);
     let parameters = posterior.parameters();
@@ -151,14 +147,9 @@ fn find(
     let tabor = governing.tabor_number(fitted.scene());
     let mut reason_of_misfit = None;
     if searched.misfit > MISFIT {
-        let reason = reason(
-            curve,
-            fitted.scene(),
-            &mut simulation,
-            &posterior.best,
-            &free,
-            tabor,
-        )?;
+        let best = &posterior.best;
+        let scene = fitted.scene();
+        let reason = reason(curve, scene, &mut simulation, best, &free, tabor)?;
         reason_of_misfit = Some(reason);
     }
 

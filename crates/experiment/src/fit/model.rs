@@ -11,13 +11,13 @@ use asperity_scene::{CheckedScene, RunError, Simulation};
 use asperity_surface::Form;
 use std::ops::Range;
 
-/// Number of points of the force curve of each segment without the points at jumps, and number of
-/// points of a coarse force curve.
+/// Number of points of the force curve of each segment without the points at jumps.
 const SAMPLES: usize = 128;
+/// Number of points of a coarse force curve.
 const FEW: usize = 64;
-/// Largest number of extensions of a loading that does not reach its last displacement, and number
-/// of halvings of the last extension.
+/// Largest number of extensions of a loading that does not reach its last displacement.
 const EXTENSIONS: usize = 8;
+/// Number of halvings of the last extension.
 const HALVINGS: usize = 5;
 /// Smallest jump of the force, in units of the noise, that the points resolve.
 const NOTABLE: f64 = 2.0;
@@ -30,12 +30,17 @@ pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: CheckedScene,
     simulation: &'a mut Simulation,
-    /// Contact of a scene and the radius of its form in m. Springs and tree are reused for all
-    /// other values.
-    contact: Option<(Contact, f64)>,
+    contact: Option<ContactOfRadius>,
     /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
     pub noise: f64,
     pub evaluations: usize,
+}
+
+/// Contact of a scene whose form has this radius in m. Springs and tree are reused for all other
+/// parameters.
+struct ContactOfRadius {
+    contact: Contact,
+    radius: f64,
 }
 
 /// Instrument, and points at which a curve is computed.
@@ -45,6 +50,19 @@ pub(crate) struct Sampling {
     pub points: usize,
     /// Smallest jump of the force that gets points at both of its ends, N.
     pub least_jump: f64,
+}
+
+/// Leg of a body and its indentation, m, while it touches.
+struct BodyOnLeg {
+    leg: Leg,
+    indentation: f64,
+}
+
+/// Jump of the force of a model over the displacement.
+struct Jump {
+    displacement: f64,
+    /// Forces before and after the jump, N.
+    forces: [f64; 2],
 }
 
 impl<'a> Model<'a> {
@@ -66,100 +84,75 @@ impl<'a> Model<'a> {
     /// Returns the contact for these values of the parameters.
     fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
         let radius = values[Parameter::Radius as usize];
-        if self
-            .contact
-            .as_ref()
-            .is_none_or(|(_, made)| *made != radius)
-        {
-            self.contact = None;
-            let scene = self.scene.with(|scene| {
-                if let Some(of) = scene.form.as_mut().and_then(Form::radius_mut) {
-                    *of = radius;
-                }
-            });
-            self.scene = scene.map_err(RunError::from)?;
-            self.contact = Some((self.simulation.contact(&self.scene)?.0, radius));
-        }
-        let Some((contact, _)) = &self.contact else {
-            return Err(
-                ContactError::Internal("the contact of the scene has not been made").into(),
-            );
+        let bare = match self.contact.take() {
+            Some(made) if made.radius == radius => made,
+            _ => self.contact_of_radius(radius)?,
         };
-        let [modulus, closing, work] =
-            [Parameter::Modulus, Parameter::ClosingWork, Parameter::Work]
-                .map(|parameter| values[parameter as usize]);
-        Ok(contact
-            .with(Modulus::effective(modulus)?)
-            .works_of_adhesion([closing, work])
-            .build()?)
+        let bare = self.contact.insert(bare);
+        let works = [
+            values[Parameter::ClosingWork as usize],
+            values[Parameter::Work as usize],
+        ];
+        let modulus = Modulus::effective(values[Parameter::Modulus as usize])?;
+        let contact = bare.contact.with(modulus);
+        Ok(contact.works_of_adhesion(works).build()?)
+    }
+
+    /// Makes the contact of the scene with another radius of its form.
+    fn contact_of_radius(&mut self, radius: f64) -> Result<ContactOfRadius, ExperimentError> {
+        let scene = self.scene.with(|scene| {
+            if let Some(of_form) = scene.form.as_mut().and_then(Form::radius_mut) {
+                *of_form = radius;
+            }
+        });
+        self.scene = scene.map_err(RunError::from)?;
+        let (contact, _) = self.simulation.contact(&self.scene)?;
+        Ok(ContactOfRadius { contact, radius })
     }
 
     /// Computes the forces in N at the points of the curve.
     pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
         self.evaluations += 1;
-        let (curve, zero) = (self.curve, values[Parameter::Zero as usize]);
+        let curve = self.curve;
+        let zero = values[Parameter::Zero as usize];
         let mut forces = Vec::with_capacity(curve.force.len());
         self.each_segment(values, |segment, points, offset| {
-            let at = |displacement: &f64| force_at(segment, displacement - offset);
-            forces.extend(
-                curve.displacement[points]
-                    .iter()
-                    .map(|displacement| zero + at(displacement)),
-            );
+            for displacement in &curve.displacement[points] {
+                forces.push(zero + force_at(segment, displacement - offset));
+            }
         })?;
         Ok(forces)
     }
 
-    /// Returns for each point of the curve the forces in N before and after the nearest jump of the
-    /// model, minus the force of the model at the point. A jump counts if it is at least `least` N
-    /// and no further away than the neighbouring points; otherwise `None`.
+    /// Returns for each point of the curve the range of the forces in N before and after the
+    /// nearest jump of the model, minus the force of the model at the point. A jump counts if it is
+    /// at least `least` N and no further away than the neighbouring points; otherwise `None`.
     pub fn jumps(
         &mut self,
         values: &Values,
         least: f64,
-    ) -> Result<Vec<Option<[f64; 2]>>, ExperimentError> {
+    ) -> Result<Vec<Option<Extent>>, ExperimentError> {
         self.evaluations += 1;
         let curve = self.curve;
         let mut all = vec![None; curve.force.len()];
         self.each_segment(values, |segment, points, offset| {
-            let jump =
-                |[one, other]: [DisplacementPoint; 2]| (one.displacement, [one.force, other.force]);
-            // Where the body is separated beyond an end of the segment, it jumps there.
-            let (first, last) = (segment.points().first(), segment.points().last());
-            let beyond = [first, last].into_iter().flatten().map(|end| {
-                let free =
-                    [f64::next_up, f64::next_down].map(|to| segment.at(to(end.displacement)));
-                let free = free.into_iter().flatten().find(|point| point.force == 0.0);
-                (
-                    end.displacement,
-                    [end.force, free.map_or(end.force, |point| point.force)],
-                )
-            });
-            let jumps = segment
-                .jumps()
-                .map(|ends| jump([ends[0], ends[1]]))
-                .chain(beyond);
-            let jumps: Vec<_> = jumps
-                .filter(|(_, ends)| (ends[1] - ends[0]).abs() >= least)
-                .collect();
+            let mut jumps = jumps_of(segment);
+            jumps.retain(|jump| (jump.forces[1] - jump.forces[0]).abs() >= least);
             let place = |index: usize| curve.displacement[index] - offset;
             for index in points.clone() {
-                let (before, after) = (
-                    index.max(points.start + 1) - 1,
-                    (index + 2).min(points.end) - 1,
-                );
-                let (low, high) = (
-                    place(before).min(place(after)),
-                    place(before).max(place(after)),
-                );
+                let before = place(index.max(points.start + 1) - 1);
+                let after = place((index + 2).min(points.end) - 1);
+                let near = before.min(after)..=before.max(after);
                 let force = force_at(segment, place(index));
-                let near = jumps.iter().filter(|(at, _)| (low..=high).contains(at));
-                let Extent { low, high } = Extent::of(
-                    near.flat_map(|(_, forces)| *forces)
-                        .map(|at| at - force)
-                        .chain([0.0]),
-                );
-                all[index] = (low < high).then_some([low, high]);
+                let changes = jumps
+                    .iter()
+                    .filter(|jump| near.contains(&jump.displacement))
+                    .flat_map(|jump| jump.forces)
+                    .map(|end| end - force);
+                let extent = Extent::of(changes.chain([0.0]));
+                if extent.low < extent.high {
+                    all[index] = Some(extent);
+                }
             }
         })?;
         Ok(all)
@@ -173,61 +166,94 @@ impl<'a> Model<'a> {
         mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
     ) -> Result<(), ExperimentError> {
         let contact = self.contact(values)?;
-        let [offset, stiffness] =
-            [Parameter::Offset, Parameter::Stiffness].map(|one| values[one as usize]);
+        let offset = values[Parameter::Offset as usize];
+        let stiffness = values[Parameter::Stiffness as usize];
         let sampling = Sampling {
             stiffness,
             points: if self.noise > 1.0 { FEW } else { SAMPLES },
             least_jump: NOTABLE * self.noise * self.curve.noise,
         };
+        let segments = &self.curve.segment;
         let mut begin = 0;
-        // Leg and indentation of the body, m, while it touches.
-        let mut here: Option<(Leg, f64)> = None;
+        let mut body: Option<BodyOnLeg> = None;
         for (number, turn) in self.curve.turns.iter().enumerate() {
-            let (presses, from) = (number % 2 == 0, here.as_ref().map(|(_, at)| *at));
-            let leg = match &here {
-                Some((leg, at)) => Some(leg.turn(*at)?),
+            let presses = number % 2 == 0;
+            let to = turn - offset;
+            let from = body.as_ref().map(|body| body.indentation);
+            let leg = match &body {
+                Some(body) => Some(body.leg.turn(body.indentation)?),
                 None if presses && *turn > offset => Some(Leg::approach(&contact)?),
                 None => None,
             };
             let curve = match &leg {
-                Some(leg) if presses => sampling.press(leg, from, turn - offset)?,
+                Some(leg) if presses => sampling.press(leg, from, to)?,
                 Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
                 None => {
                     DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness)
                 }
             };
-            let end = self
-                .curve
-                .segment
-                .partition_point(|segment| *segment <= number);
+            let end = segments.partition_point(|segment| *segment <= number);
             take(&curve, begin..end, offset);
             begin = end;
-            let at = nearest(&curve, turn - offset).map_or(0.0, |point| point.indentation);
-            let is_apart = |leg: &Leg| leg.direction() == Direction::Unloading && at < leg.end();
-            here = leg.filter(|leg| !is_apart(leg)).map(|leg| (leg, at));
+            let indentation = nearest(&curve, to).map_or(0.0, |point| point.indentation);
+            body = leg.and_then(|leg| BodyOnLeg::new(leg, indentation));
         }
         Ok(())
     }
 }
 
-/// Returns the point of a segment at a displacement in m, or the end of the segment for a
-/// displacement that lies beyond it by noise.
-fn nearest(segment: &DisplacementCurve, at: f64) -> Option<DisplacementPoint> {
-    let away = |point: &DisplacementPoint| (point.displacement - at).abs();
-    let ends = || {
-        [segment.points().first(), segment.points().last()]
-            .into_iter()
-            .flatten()
-            .copied()
-    };
-    segment
-        .at(at)
-        .or_else(|| ends().min_by(|one, other| away(one).total_cmp(&away(other))))
+impl BodyOnLeg {
+    /// Returns `None` for a body that is separated at the indentation in m.
+    fn new(leg: Leg, indentation: f64) -> Option<Self> {
+        let is_apart = leg.direction() == Direction::Unloading && indentation < leg.end();
+        (!is_apart).then_some(BodyOnLeg { leg, indentation })
+    }
 }
 
-fn force_at(segment: &DisplacementCurve, at: f64) -> f64 {
-    nearest(segment, at).map_or(0.0, |point| point.force)
+/// Returns the jumps of a segment. Where the body is separated beyond an end of the segment, it
+/// jumps there.
+fn jumps_of(segment: &DisplacementCurve) -> Vec<Jump> {
+    let mut jumps = Vec::new();
+    for ends in segment.jumps() {
+        jumps.push(Jump {
+            displacement: ends[0].displacement,
+            forces: [ends[0].force, ends[1].force],
+        });
+    }
+    let ends = [segment.points().first(), segment.points().last()];
+    for end in ends.into_iter().flatten() {
+        let above = segment.at(end.displacement.next_up());
+        let below = segment.at(end.displacement.next_down());
+        let is_separated = [above, below]
+            .into_iter()
+            .flatten()
+            .any(|point| point.force == 0.0);
+        jumps.push(Jump {
+            displacement: end.displacement,
+            forces: [end.force, if is_separated { 0.0 } else { end.force }],
+        });
+    }
+    jumps
+}
+
+/// Returns the point of a segment at a displacement in m, or the end of the segment for a
+/// displacement that lies beyond it by noise.
+fn nearest(segment: &DisplacementCurve, displacement: f64) -> Option<DisplacementPoint> {
+    if let Some(point) = segment.at(displacement) {
+        return Some(point);
+    }
+    let first = segment.points().first()?;
+    let last = segment.points().last()?;
+    let distance = |point: &DisplacementPoint| (point.displacement - displacement).abs();
+    if distance(last).total_cmp(&distance(first)).is_lt() {
+        Some(*last)
+    } else {
+        Some(*first)
+    }
+}
+
+fn force_at(segment: &DisplacementCurve, displacement: f64) -> f64 {
+    nearest(segment, displacement).map_or(0.0, |point| point.force)
 }
 
 impl Sampling {
@@ -239,31 +265,30 @@ impl Sampling {
         from: Option<f64>,
         to: f64,
     ) -> Result<DisplacementCurve, ContactError> {
-        let (free, from) = (
-            from.is_none().then(CurvePoint::default),
-            from.unwrap_or_default(),
-        );
-        // An indentation close behind the one at which the instrument is at its end: it takes a
-        // part of the way, or is pulled on.
-        let displacement = |at: f64| {
-            leg.point(at)
-                .map(|point| point.displacement(self.stiffness))
+        let free = from.is_none().then(CurvePoint::default);
+        let from = from.unwrap_or_default();
+        let displacement = |indentation: f64| -> Result<f64, ContactError> {
+            Ok(leg.point(indentation)?.displacement(self.stiffness))
         };
-        let (mut low, mut high) = (from, to.max(from));
+        // The indentation at which the instrument is at its end is close above `low`. It differs
+        // from the displacement, because the instrument takes a part of the way or is pulled on.
+        let mut low = from;
+        let mut high = to.max(from);
         for _ in 0..EXTENSIONS {
             let reached = displacement(high)?;
             if reached >= to {
                 break;
             }
-            (low, high) = (high, high + 2.0 * (to - reached));
+            low = high;
+            high += 2.0 * (to - reached);
         }
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            *if displacement(middle)? < to {
-                &mut low
+            if displacement(middle)? < to {
+                low = middle;
             } else {
-                &mut high
-            } = middle;
+                high = middle;
+            }
         }
         self.over(leg, [from, high], 1, free)
     }
@@ -271,16 +296,12 @@ impl Sampling {
     /// Returns the curve of an unloading from an indentation in m to separation.
     pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
         let end = leg.end().min(from);
+        let separated = CurvePoint {
+            indentation: end,
+            ..CurvePoint::default()
+        };
         // Close to separation the force may fall as the root of the indentation.
-        self.over(
-            leg,
-            [end, from],
-            2,
-            Some(CurvePoint {
-                indentation: end,
-                ..CurvePoint::default()
-            }),
-        )
+        self.over(leg, [end, from], 2, Some(separated))
     }
 
     /// Returns the curve of a leg, which is one motion of the body, between two indentations over
@@ -289,55 +310,15 @@ impl Sampling {
     pub fn over(
         self,
         leg: &Leg,
-        [low, high]: [f64; 2],
+        range: [f64; 2],
         power: i32,
         free: Option<CurvePoint>,
     ) -> Result<DisplacementCurve, ContactError> {
-        let share = |index: usize| (index as f64 / (self.points - 1) as f64).powi(power);
-        let even = (0..self.points).map(|index| (low + (high - low) * share(index)).min(high));
-        // Both ends of the jumps of the contact.
-        let jumps = leg.jumps(low, high, self.least_jump);
-        let mut at: Vec<f64> = even
-            .chain(jumps.into_iter().flat_map(|at| [at.next_down(), at]))
-            .collect();
-        at.sort_by(f64::total_cmp);
-        let mut points = leg.curve(&at)?;
-        // Places where the instrument cannot hold the body any more, which may be close before a
-        // jump of the contact.
-        let sign = if leg.direction() == Direction::Loading {
-            1.0
-        } else {
-            -1.0
-        };
-        let mut reached = f64::NEG_INFINITY;
-        let mut folds = Vec::new();
-        let ordered = |index: usize| {
-            if sign > 0.0 {
-                points[index]
-            } else {
-                points[points.len() - 1 - index]
-            }
-        };
-        for [one, fold, next] in
-            (2..points.len()).map(|index| [index - 2, index - 1, index].map(ordered))
-        {
-            let [before, at, after] =
-                [one, fold, next].map(|point| sign * point.displacement(self.stiffness));
-            reached = reached.max(before);
-            if at > reached && after < at {
-                let beside = |end: CurvePoint| {
-                    let [from, to] = [fold, end].map(|point| point.indentation);
-                    let halves =
-                        (1..=FAN).map(move |power| from + (to - from) * 0.5_f64.powi(power));
-                    halves.filter(move |at| ![from, to].contains(at))
-                };
-                folds.extend(beside(one).chain(beside(next)));
-            }
-        }
+        let mut points = leg.curve(&self.indentations(leg, range, power))?;
+        let folds = self.indentations_at_folds(&points, leg.direction());
         if !folds.is_empty() {
-            folds.sort_by(f64::total_cmp);
             points.extend(leg.curve(&folds)?);
-            points.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+            points.sort_by(|point, next| point.indentation.total_cmp(&next.indentation));
         }
         let points: Vec<CurvePoint> = match leg.direction() {
             Direction::Loading => free.into_iter().chain(points).collect(),
@@ -348,6 +329,62 @@ impl Sampling {
             &points,
             self.stiffness,
         ))
+    }
+
+    /// Returns the ascending indentations in m between two ends, with both ends of the jumps of the
+    /// contact.
+    fn indentations(self, leg: &Leg, range: [f64; 2], power: i32) -> Vec<f64> {
+        let [low, high] = range;
+        let mut indentations = Vec::with_capacity(self.points);
+        for index in 0..self.points {
+            let share = (index as f64 / (self.points - 1) as f64).powi(power);
+            indentations.push((low + (high - low) * share).min(high));
+        }
+        for jump in leg.jumps(low, high, self.least_jump) {
+            indentations.push(jump.next_down());
+            indentations.push(jump);
+        }
+        indentations.sort_by(f64::total_cmp);
+        indentations
+    }
+
+    /// Returns the ascending indentations in m of further points near folds. At a fold the
+    /// instrument cannot hold the body any more, which may be close before a jump of the contact.
+    /// `points` ascend in indentation.
+    fn indentations_at_folds(self, points: &[CurvePoint], direction: Direction) -> Vec<f64> {
+        let mut in_time = points.to_vec();
+        let sign = match direction {
+            Direction::Loading => 1.0,
+            Direction::Unloading => {
+                in_time.reverse();
+                -1.0
+            }
+        };
+        let mut folds = Vec::new();
+        // Largest displacement before a point, in the direction of the motion.
+        let mut reached = f64::NEG_INFINITY;
+        for neighbours in in_time.windows(3) {
+            let [before, fold, after] = [neighbours[0], neighbours[1], neighbours[2]];
+            let displacement = |point: CurvePoint| sign * point.displacement(self.stiffness);
+            reached = reached.max(displacement(before));
+            let at_fold = displacement(fold);
+            if at_fold > reached && displacement(after) < at_fold {
+                fan_out(fold.indentation, before.indentation, &mut folds);
+                fan_out(fold.indentation, after.indentation, &mut folds);
+            }
+        }
+        folds.sort_by(f64::total_cmp);
+        folds
+    }
+}
+
+/// Adds indentations that approach a fold from a neighbouring point.
+fn fan_out(fold: f64, neighbour: f64, indentations: &mut Vec<f64>) {
+    for power in 1..=FAN {
+        let indentation = fold + (neighbour - fold) * 0.5_f64.powi(power);
+        if indentation != fold && indentation != neighbour {
+            indentations.push(indentation);
+        }
     }
 }
 

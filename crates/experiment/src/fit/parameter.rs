@@ -100,19 +100,21 @@ impl Parameter {
     }
 
     /// Returns true if the parameter can be searched between these values.
-    fn allows(self, (low, high): (f64, f64)) -> bool {
-        let is_above = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
-        is_above && low < high && low.is_finite() && high.is_finite()
+    fn allows(self, low: f64, high: f64) -> bool {
+        let is_allowed = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
+        is_allowed && low < high && low.is_finite() && high.is_finite()
     }
 
     /// Returns the ranges in which the parameter can be searched, in words.
     fn ranges(self) -> String {
-        let above = match (self.is_signed(), self.is_work()) {
-            (true, _) => "",
-            (_, true) => " of at least 0",
-            _ => " above 0",
+        let least = if self.is_signed() {
+            ""
+        } else if self.is_work() {
+            " of at least 0"
+        } else {
+            " above 0"
         };
-        format!("two values{above}, the first below the second")
+        format!("two values{least}, the first below the second")
     }
 
     /// Returns in words a further measurement that helps if a fit cannot separate these two
@@ -126,53 +128,33 @@ impl Parameter {
     /// ```
     pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
-        let rows = [
-            (
-                Modulus,
-                Stiffness,
-                "the stiffness of the instrument from a curve on a hard specimen",
-            ),
-            (Modulus, Radius, "the radius from an image of the form"),
-            (
-                Work,
-                Radius,
-                "the radius from an image of the form, since the pull-off force has γR alone",
-            ),
-            (
-                Work,
-                ClosingWork,
-                "turning points at several preloads, since γ₁ acts where the contact grows",
-            ),
-            (
-                Offset,
-                Zero,
-                "a longer part before contact for the zero of the force",
-            ),
-            (
-                Modulus,
-                Offset,
-                "a larger preload, or more points near first touch",
-            ),
-            (
-                Offset,
-                Stiffness,
-                "a larger preload, or more points near first touch",
-            ),
-            (
-                Work,
-                Modulus,
-                "a larger preload, where the elastic force exceeds the adhesion",
-            ),
-        ];
-        let is = |row: &&(Parameter, Parameter, &str)| {
-            [(one, other), (other, one)].contains(&(row.0, row.1))
-        };
-        let usual = if one == other {
-            "less noise, a larger preload, or its value from another measurement"
+        if one == other {
+            return "less noise, a larger preload, or its value from another measurement";
+        }
+        // The parameter that comes first in tables comes first here.
+        let (first, second) = if (one as usize) < other as usize {
+            (one, other)
         } else {
-            "a curve with another preload, or one of both from another measurement"
+            (other, one)
         };
-        rows.iter().find(is).map_or(usual, |row| row.2)
+        match (first, second) {
+            (Modulus, Stiffness) => {
+                "the stiffness of the instrument from a curve on a hard specimen"
+            }
+            (Modulus, Radius) => "the radius from an image of the form",
+            (Work, Radius) => {
+                "the radius from an image of the form, since the pull-off force has γR alone"
+            }
+            (Work, ClosingWork) => {
+                "turning points at several preloads, since γ₁ acts where the contact grows"
+            }
+            (Offset, Zero) => "a longer part before contact for the zero of the force",
+            (Modulus, Offset) | (Offset, Stiffness) => {
+                "a larger preload, or more points near first touch"
+            }
+            (Work, Modulus) => "a larger preload, where the elastic force exceeds the adhesion",
+            _ => "a curve with another preload, or one of both from another measurement",
+        }
     }
 }
 
@@ -210,7 +192,7 @@ impl Free {
     /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative, and of the
     /// others only a work of adhesion can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
-        if parameter.allows(range) {
+        if parameter.allows(range.0, range.1) {
             return Ok(Free {
                 parameter,
                 range: Some(range),
@@ -244,38 +226,45 @@ impl FromStr for Free {
 
     /// Parses `work`, or `work=10mJ/m^2..1J/m^2` with a range.
     fn from_str(text: &str) -> Result<Self, String> {
-        let (name, range) = text
-            .split_once('=')
-            .map_or((text, None), |(name, range)| (name, Some(range)));
-        let names = Parameter::ALL.map(Parameter::name);
-        let parameter = Parameter::ALL
-            .into_iter()
-            .find(|one| one.name() == name)
-            .ok_or_else(|| {
-                let near = did_you_mean(name, names);
-                format!(
-                    "{name:?} is not a parameter{near}; allowed: {}",
-                    names.join(", ")
-                )
-            })?;
-        let allowed = || format!("allowed: {}, such as {name}=1..2", parameter.ranges());
-        let end = |text: &str| {
-            parse_quantity(text, parameter.row().unit)
-                .map_err(|error| format!("{error}; {}", allowed()))
+        let Some((name, range)) = text.split_once('=') else {
+            return Ok(parameter_of(text)?.into());
         };
-        let ends = |range: &str| {
-            let (low, high) = range.split_once("..").ok_or_else(allowed)?;
-            let (low, high) = (end(low)?, end(high)?);
-            if parameter.allows((low, high)) {
-                Ok((low, high))
-            } else {
-                Err(allowed())
-            }
-        };
+        let parameter = parameter_of(name)?;
         Ok(Free {
             parameter,
-            range: range.map(ends).transpose()?,
+            range: Some(range_of(parameter, range)?),
         })
+    }
+}
+
+fn parameter_of(name: &str) -> Result<Parameter, String> {
+    for parameter in Parameter::ALL {
+        if parameter.name() == name {
+            return Ok(parameter);
+        }
+    }
+    let names = Parameter::ALL.map(Parameter::name);
+    let near = did_you_mean(name, names);
+    Err(format!(
+        "{name:?} is not a parameter{near}; allowed: {}",
+        names.join(", ")
+    ))
+}
+
+/// Returns the lower and the upper end of a range such as `1..2`.
+fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
+    let name = parameter.name();
+    let allowed = format!("allowed: {}, such as {name}=1..2", parameter.ranges());
+    let Some((low, high)) = text.split_once("..") else {
+        return Err(allowed);
+    };
+    let unit = parameter.row().unit;
+    let low = parse_quantity(low, unit).map_err(|error| format!("{error}; {allowed}"))?;
+    let high = parse_quantity(high, unit).map_err(|error| format!("{error}; {allowed}"))?;
+    if parameter.allows(low, high) {
+        Ok((low, high))
+    } else {
+        Err(allowed)
     }
 }
 
@@ -292,11 +281,12 @@ pub(crate) struct Coordinate {
 }
 
 impl Coordinate {
+    /// Returns the coordinate of a value of the parameter. `values` contains the other parameters.
     pub fn of(&self, value: f64, values: &Values) -> f64 {
         match self.parameter {
             Parameter::Work => (value / self.unit).asinh(),
             Parameter::ClosingWork => {
-                let (low, high) = self.on_closing(values);
+                let (low, high) = self.range_on_closing(values);
                 if high > low {
                     ((value - low) / (high - low)).clamp(0.0, 1.0)
                 } else {
@@ -309,33 +299,40 @@ impl Coordinate {
     }
 
     /// Returns the value of the parameter at a coordinate. `values` contains the other parameters.
-    pub fn value(&self, at: f64, values: &Values) -> f64 {
+    pub fn value(&self, coordinate: f64, values: &Values) -> f64 {
         match self.parameter {
-            Parameter::Work => at.sinh() * self.unit,
+            Parameter::Work => coordinate.sinh() * self.unit,
             Parameter::ClosingWork => {
-                let (low, high) = self.on_closing(values);
-                low + at.clamp(0.0, 1.0) * (high - low)
+                let (low, high) = self.range_on_closing(values);
+                low + coordinate.clamp(0.0, 1.0) * (high - low)
             }
-            parameter if parameter.is_signed() => at * self.unit,
-            _ => at.exp(),
+            parameter if parameter.is_signed() => coordinate * self.unit,
+            _ => coordinate.exp(),
         }
     }
 
     /// Returns the range of the work of adhesion on closing, which is at most the work of adhesion.
-    fn on_closing(&self, values: &Values) -> (f64, f64) {
+    fn range_on_closing(&self, values: &Values) -> (f64, f64) {
         let work = values[Parameter::Work as usize];
         (self.range.0.min(work), self.range.1.min(work))
     }
 
     /// Returns the coordinates of both ends of the range.
     pub fn ends(&self) -> (f64, f64) {
-        match self.parameter {
-            Parameter::ClosingWork => (0.0, 1.0),
-            _ => (
-                self.of(self.range.0, &[1.0; 7]),
-                self.of(self.range.1, &[1.0; 7]),
-            ),
+        if self.parameter == Parameter::ClosingWork {
+            return (0.0, 1.0);
         }
+        // No other coordinate depends on other parameters.
+        let values = [1.0; 7];
+        (
+            self.of(self.range.0, &values),
+            self.of(self.range.1, &values),
+        )
+    }
+
+    /// Returns true for the work of adhesion in a range that begins at 0.
+    pub fn is_work_from_zero(&self) -> bool {
+        self.parameter == Parameter::Work && self.range.0 == 0.0
     }
 }
 

@@ -16,14 +16,16 @@ const RIGID: f64 = 0.65;
 /// Share of the squared residuals that a pattern must explain.
 const EXPLAINS: f64 = 0.4;
 /// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
-/// allow. The slope is measured in a part of the way from first touch to the turning point, with a
-/// smallest number of points.
+/// allow.
 const STEEPER: f64 = 1.03;
+/// Share of the way from first touch to the turning point in which this slope is measured.
 const PRESSED: f64 = 0.2;
+/// Smallest number of points from which this slope is measured.
 const FEWEST: usize = 5;
-/// Relative step of a numerical derivative. A change of the force, divided by its range, above the
-/// second number is a jump without a derivative.
+/// Relative step of a numerical derivative.
 const STEP: f64 = 1e-3;
+/// Change of the force in this step, divided by the range of the force, above which it is a jump
+/// without a derivative.
 const LEAPS: f64 = 0.02;
 /// Residual in units of the median above which residuals are cut off. Such points are on the wrong
 /// side of a jump.
@@ -115,6 +117,7 @@ impl Serialize for Reason {
 }
 
 /// Finds the reason why a scene with these values and free parameters does not describe a curve.
+/// `tabor` is its Tabor number.
 ///
 /// # Errors
 /// A computation fails.
@@ -122,67 +125,53 @@ pub(crate) fn reason(
     curve: &MeasuredCurve,
     scene: &CheckedScene,
     simulation: &mut Simulation,
-    (values, free): (&Values, &[Parameter]),
+    values: &Values,
+    free: &[Parameter],
     tabor: Option<f64>,
 ) -> Result<Reason, ExperimentError> {
     if let Some(reason) = of_profile(scene, simulation) {
         return Ok(reason);
     }
-    let is_rigid = scene.loading_stiffness.is_none() && !free.contains(&Parameter::Stiffness);
-    let jump = largest_jump(curve);
-    if is_rigid
-        && curve
-            .pull_off_force()
-            .is_some_and(|force| jump > RIGID * force)
+    let is_stiffness_free = free.contains(&Parameter::Stiffness);
+    if scene.loading_stiffness.is_none()
+        && !is_stiffness_free
+        && let Some(jump) = jump_of_compliance(curve)
     {
         return Ok(Reason::Rigid(jump));
     }
-    let mut model = Model::new(curve, scene, simulation);
-    let forces = model.forces(values)?;
-    let mut rests: Vec<f64> = curve
-        .force
-        .iter()
-        .zip(&forces)
-        .map(|(force, model)| force - model)
-        .collect();
-    let lines = curve.lines(free.contains(&Parameter::Zero));
-    subtract_all(&mut rests, &lines);
-    let squares = dot(&rests, &rests);
-    let residual = (squares / rests.len() as f64).sqrt();
-    let [drift, tilt, step] = curve.remaining.map(|slope| slope.abs() > residual);
-    match (drift, tilt) {
-        (true, true) => return Ok(Reason::DriftAndTilt),
-        (true, false) => return Ok(Reason::Drift),
-        (false, true) => return Ok(Reason::Tilt),
-        (false, false) => {}
+    let mut misfit = Misfit::new(curve, scene, simulation, values, free)?;
+    if let Some(reason) = misfit.change_without_contact() {
+        return Ok(reason);
     }
-    if step && curve.segment.first() != curve.segment.last() {
-        return Ok(Reason::Step(curve.remaining[2]));
-    }
-    let low = tabor.filter(|number| *number < Warning::JKR_TABOR_NUMBER);
-    if let Some(number) = low.filter(|number| *number < Warning::LEAST_TABOR_NUMBER) {
+    let low_tabor = tabor.filter(|number| *number < Warning::JKR_TABOR_NUMBER);
+    if let Some(number) = low_tabor
+        && number < Warning::LEAST_TABOR_NUMBER
+    {
         return Ok(Reason::TaborNumber(number));
     }
     let stiffness = values[Parameter::Stiffness as usize];
-    let is_stated = stiffness.is_finite() && !free.contains(&Parameter::Stiffness);
+    let is_stiffness_stated = stiffness.is_finite() && !is_stiffness_free;
     let slope = slope_when_pressed(curve);
-    if is_stated && slope > STEEPER * stiffness {
+    if is_stiffness_stated && slope > STEEPER * stiffness {
         return Ok(Reason::Stiffness(slope));
     }
     if scene.seed().is_some() {
         return Ok(Reason::OtherProfile);
     }
-    if curve.segment.first() != curve.segment.last()
-        && branches_differ(curve, &mut model, (values, free), (&forces, rests, lines))?
-    {
+    if has_two_directions(curve) && misfit.branches_differ()? {
         return Ok(Reason::Branches);
     }
-    let other = if is_stated {
-        Reason::StiffnessOrForm
-    } else {
-        Reason::Form
-    };
-    Ok(low.map_or(other, Reason::TaborNumber))
+    if let Some(number) = low_tabor {
+        return Ok(Reason::TaborNumber(number));
+    }
+    if is_stiffness_stated {
+        return Ok(Reason::StiffnessOrForm);
+    }
+    Ok(Reason::Form)
+}
+
+fn has_two_directions(curve: &MeasuredCurve) -> bool {
+    curve.segment.first() != curve.segment.last()
 }
 
 /// Returns the reason if the contact reaches the ends of its profile or has few springs.
@@ -195,95 +184,171 @@ pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> O
     })
 }
 
+/// Returns a jump of the force in N that a rigid instrument does not allow.
+fn jump_of_compliance(curve: &MeasuredCurve) -> Option<f64> {
+    let jump = largest_jump(curve);
+    let pull_off = curve.pull_off_force()?;
+    (jump > RIGID * pull_off).then_some(jump)
+}
+
 /// Returns the largest rise of the force in N between neighbouring points of a retraction. The
 /// force of a retraction rises only where contact is lost.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
-    let pairs = curve.segment.windows(2).zip(curve.force.windows(2));
-    let retracting = pairs.filter(|(segment, _)| segment[0] == segment[1] && segment[0] % 2 == 1);
-    retracting
-        .map(|(_, force)| force[1] - force[0])
-        .fold(0.0, f64::max)
+    let mut largest = 0.0_f64;
+    for (segments, forces) in curve.segment.windows(2).zip(curve.force.windows(2)) {
+        if segments[0] == segments[1] && segments[0] % 2 == 1 {
+            largest = largest.max(forces[1] - forces[0]);
+        }
+    }
+    largest
 }
 
 /// Returns the slope of the force over the displacement in N/m, in the last fifth of the first
-/// approach or in the first fifth of a retraction.
+/// approach or in the first fifth of a retraction, less what the noise may add; 0 for few points.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
-    let (touch, turn) = (curve.touch, curve.turns[0]);
-    let first = curve
-        .segment
-        .iter()
-        .zip(curve.displacement.iter().zip(&curve.force));
-    let pressed = first.filter(|(segment, (at, _))| {
-        Some(*segment) == curve.segment.first() && **at > turn - PRESSED * (turn - touch)
-    });
-    let points: Vec<(f64, f64)> = pressed
-        .map(|(_, (at, force))| (at - turn, *force))
-        .collect();
-    let columns = [
-        vec![1.0; points.len()],
-        points.iter().map(|point| point.0).collect(),
-    ];
-    let forces: Vec<f64> = points.iter().map(|point| point.1).collect();
-    let slope = (points.len() >= FEWEST)
-        .then(|| least_squares(&columns, &forces))
-        .flatten();
-    // Less what the noise may add.
-    slope.map_or(0.0, |found| found[1].value - 3.0 * found[1].error)
+    let turn = curve.turns[0];
+    let least = turn - PRESSED * (turn - curve.touch);
+    let mut distances = Vec::new();
+    let mut forces = Vec::new();
+    for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
+        if Some(segment) == curve.segment.first() && displacement > least {
+            distances.push(displacement - turn);
+            forces.push(force);
+        }
+    }
+    if forces.len() < FEWEST {
+        return 0.0;
+    }
+    let columns = [vec![1.0; forces.len()], distances];
+    match least_squares(&columns, &forces) {
+        Some(coefficients) => coefficients[1].value - 3.0 * coefficients[1].error,
+        None => 0.0,
+    }
 }
 
-/// Returns true if another modulus or work of adhesion on the retractions explains most of the
-/// residuals, together with small changes of the free parameters. All effects are taken as linear.
-fn branches_differ(
-    curve: &MeasuredCurve,
-    model: &mut Model<'_>,
-    (values, free): (&Values, &[Parameter]),
-    (forces, mut rests, mut columns): (&[f64], Vec<f64>, Vec<Vec<f64>>),
-) -> Result<bool, ExperimentError> {
-    let range = Extent::of(curve.force.iter().copied()).width();
-    let mut change = |parameter: Parameter| -> Result<Vec<f64>, ExperimentError> {
-        let mut moved = *values;
+/// Deviation of a curve from the model.
+struct Misfit<'a> {
+    curve: &'a MeasuredCurve,
+    model: Model<'a>,
+    values: &'a Values,
+    free: &'a [Parameter],
+    /// Forces of the model at the points of the curve, N.
+    forces: Vec<f64>,
+    /// Measured forces minus those of the model after a fit of the lines, N.
+    residuals: Vec<f64>,
+    lines: Vec<Vec<f64>>,
+}
+
+impl<'a> Misfit<'a> {
+    fn new(
+        curve: &'a MeasuredCurve,
+        scene: &CheckedScene,
+        simulation: &'a mut Simulation,
+        values: &'a Values,
+        free: &'a [Parameter],
+    ) -> Result<Self, ExperimentError> {
+        let mut model = Model::new(curve, scene, simulation);
+        let forces = model.forces(values)?;
+        let points = curve.force.iter().zip(&forces);
+        let mut residuals: Vec<f64> = points.map(|(force, model)| force - model).collect();
+        let lines = curve.lines(free.contains(&Parameter::Zero));
+        subtract_all(&mut residuals, &lines);
+        Ok(Misfit {
+            curve,
+            model,
+            values,
+            free,
+            forces,
+            residuals,
+            lines,
+        })
+    }
+
+    /// Returns the reason if a change of the force without contact exceeds the residual.
+    fn change_without_contact(&self) -> Option<Reason> {
+        let squares = dot(&self.residuals, &self.residuals);
+        let residual = (squares / self.residuals.len() as f64).sqrt();
+        let [has_drift, has_tilt, has_step] =
+            self.curve.remaining.map(|change| change.abs() > residual);
+        if has_drift && has_tilt {
+            return Some(Reason::DriftAndTilt);
+        }
+        if has_drift {
+            return Some(Reason::Drift);
+        }
+        if has_tilt {
+            return Some(Reason::Tilt);
+        }
+        let [_, _, step] = self.curve.remaining;
+        (has_step && has_two_directions(self.curve)).then_some(Reason::Step(step))
+    }
+
+    /// Returns true if another modulus or work of adhesion on the retractions explains most of the
+    /// residuals, together with small changes of the free parameters. All effects are taken as
+    /// linear.
+    fn branches_differ(&mut self) -> Result<bool, ExperimentError> {
+        let mut columns = self.lines.clone();
+        for parameter in self.free {
+            columns.push(self.effect_of(*parameter)?);
+        }
+        let mut candidates = vec![self.effect_of(Parameter::Modulus)?];
+        if self.values[Parameter::Work as usize] > 0.0 {
+            candidates.push(self.effect_of(Parameter::Work)?);
+        }
+        let basis = right_angled(&columns);
+        let mut residuals = self.residuals_without_jumps();
+        subtract_all(&mut residuals, &basis);
+        let whole = dot(&residuals, &residuals);
+        for mut effect in candidates {
+            for (change, segment) in effect.iter_mut().zip(&self.curve.segment) {
+                let is_approach = segment % 2 == 0;
+                if is_approach {
+                    *change = 0.0;
+                }
+            }
+            subtract_all(&mut effect, &basis);
+            let component = dot(&residuals, &effect);
+            if component.powi(2) > EXPLAINS * dot(&effect, &effect) * whole {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Returns the residuals, of which a point on the wrong side of a jump counts no more than
+    /// others.
+    fn residuals_without_jumps(&self) -> Vec<f64> {
+        let in_contact = &self.residuals[self.curve.free..];
+        let mut sizes: Vec<f64> = in_contact.iter().map(|residual| residual.abs()).collect();
+        let most = CUT * median(&mut sizes).unwrap_or(0.0);
+        self.residuals
+            .iter()
+            .map(|residual| residual.clamp(-most, most))
+            .collect()
+    }
+
+    /// Returns the change of the force in N at each point for a small change of a parameter; 0 at a
+    /// jump.
+    fn effect_of(&mut self, parameter: Parameter) -> Result<Vec<f64>, ExperimentError> {
+        let range = Extent::of(self.curve.force.iter().copied()).width();
+        let mut moved = *self.values;
         let unit = match parameter {
-            Parameter::Offset => curve.turns[0] - values[Parameter::Offset as usize],
+            Parameter::Offset => self.curve.turns[0] - self.values[Parameter::Offset as usize],
             Parameter::Zero => range,
-            _ => -values[parameter as usize],
+            _ => -self.values[parameter as usize],
         };
         moved[parameter as usize] += STEP * unit;
         let most = moved[Parameter::Work as usize];
         moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
-        let changed = model.forces(&moved)?;
-        let is_leap = |change: f64| change.is_nan() || change.abs() > LEAPS * range;
-        let changes = changed.iter().zip(forces).map(|(one, other)| one - other);
-        Ok(changes
-            .map(|change| if is_leap(change) { 0.0 } else { change })
-            .collect())
-    };
-    for parameter in free {
-        columns.push(change(*parameter)?);
+        let forces = self.model.forces(&moved)?;
+        let mut changes = Vec::with_capacity(forces.len());
+        for (force, before) in forces.iter().zip(&self.forces) {
+            let change = force - before;
+            let is_jump = change.is_nan() || change.abs() > LEAPS * range;
+            changes.push(if is_jump { 0.0 } else { change });
+        }
+        Ok(changes)
     }
-    let mut candidates = vec![change(Parameter::Modulus)?];
-    if values[Parameter::Work as usize] > 0.0 {
-        candidates.push(change(Parameter::Work)?);
-    }
-    // A point on the wrong side of a jump counts no more than others.
-    let mut sizes: Vec<f64> = rests[curve.free..].iter().map(|rest| rest.abs()).collect();
-    let most = CUT * median(&mut sizes).unwrap_or(0.0);
-    rests
-        .iter_mut()
-        .for_each(|rest| *rest = rest.clamp(-most, most));
-    let basis = right_angled(&columns);
-    let rest_of = |column: &mut Vec<f64>| subtract_all(column, &basis);
-    rest_of(&mut rests);
-    let whole = dot(&rests, &rests);
-    let explains = |mut column: Vec<f64>| {
-        let of_approach = column
-            .iter_mut()
-            .zip(&curve.segment)
-            .filter(|(_, segment)| **segment % 2 == 0);
-        of_approach.for_each(|(one, _)| *one = 0.0);
-        rest_of(&mut column);
-        dot(&rests, &column).powi(2) > EXPLAINS * dot(&column, &column) * whole
-    };
-    Ok(candidates.into_iter().any(explains))
 }
 
 #[cfg(test)]
@@ -356,7 +421,8 @@ mod tests {
             &curve,
             document.scene(),
             &mut simulation,
-            (&values, &free),
+            &values,
+            &free,
             tabor,
         )
         .unwrap()

@@ -43,16 +43,13 @@ impl FittedParameter {
     /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower
     /// the [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
-        let half = 0.5 * (self.interval.1 - self.interval.0);
-        format_within(
-            value,
-            if self.interval == self.range {
-                0.0
-            } else {
-                half
-            },
-            self.parameter.row().unit,
-        )
+        let unit = self.parameter.row().unit;
+        // An interval that is the whole range says nothing about the digits.
+        if self.interval == self.range {
+            return format_within(value, 0.0, unit);
+        }
+        let (low, high) = self.interval;
+        format_within(value, 0.5 * (high - low), unit)
     }
 }
 
@@ -110,7 +107,8 @@ fn by_name<S: Serializer>(
     parameters: &[FittedParameter],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(parameters.iter().map(|one| (one.parameter, one)))
+    let rows = parameters.iter().map(|fitted| (fitted.parameter, fitted));
+    serializer.collect_map(rows)
 }
 
 fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {

@@ -22,20 +22,13 @@ fn change(path: &str, value: f64) -> Change {
 /// adhesion.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
-    let closing = governing.closing_work.unwrap_or(work);
-    let (stiffness, radius) = (
-        scene.loading_stiffness.unwrap_or(f64::INFINITY),
-        radius_of(scene).unwrap_or(0.0),
-    );
-    [
-        work,
-        closing,
-        governing.effective_modulus,
-        0.0,
-        0.0,
-        stiffness,
-        radius,
-    ]
+    let mut values = [0.0; 7];
+    values[Parameter::Work as usize] = work;
+    values[Parameter::ClosingWork as usize] = governing.closing_work.unwrap_or(work);
+    values[Parameter::Modulus as usize] = governing.effective_modulus;
+    values[Parameter::Stiffness as usize] = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    values[Parameter::Radius as usize] = radius_of(scene).unwrap_or(0.0);
+    values
 }
 
 /// Returns the radius of the form of a scene in m; `None` for a form without a radius.
@@ -59,69 +52,64 @@ pub(crate) fn written_out(
     governing: &Governing,
     start: Option<f64>,
 ) -> Result<Document, SceneErrors> {
-    let (adhesion, known) = (document.scene().adhesion, governing.adhesive_work());
+    let adhesion = document.scene().adhesion;
+    let known = governing.adhesive_work();
     let is_by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
-    let Some(work) = known
-        .or(start)
-        .filter(|_| known.is_none() || is_by_parameter)
-    else {
+    if known.is_some() && !is_by_parameter {
+        return Ok(document.clone());
+    }
+    let Some(work) = known.or(start) else {
         return Ok(document.clone());
     };
-    let by_work = Adhesion::by_work(work);
-    document.with_adhesion(adhesion.map_or(by_work, |adhesion| adhesion.with_work(work)))
+    document.with_adhesion(match adhesion {
+        Some(adhesion) => adhesion.with_work(work),
+        None => Adhesion::by_work(work),
+    })
 }
 
 /// Returns the document with the fitted values, loaded as the body was in the measurement.
 pub(crate) fn with_values(
     document: &Document,
     values: &Values,
-    free: impl Fn(Parameter) -> bool,
+    is_free: impl Fn(Parameter) -> bool,
     curve: &MeasuredCurve,
 ) -> Result<Document, ExperimentError> {
-    let material = document.scene().material;
-    let modulus = values[Parameter::Modulus as usize];
-    let modulus = match material.poisson_ratio {
-        Some(ratio) => change(
-            "material.youngs_modulus",
-            modulus * (1.0 - ratio) * (1.0 + ratio),
-        ),
-        None => change("material.effective_modulus", modulus),
-    };
-    let has_closing = free(Parameter::ClosingWork)
-        || document
-            .scene()
-            .adhesion
-            .is_some_and(|of| of.closing_work().is_some());
-    let rows = [
-        (
-            free(Parameter::Work),
-            change("adhesion.work", values[Parameter::Work as usize]),
-        ),
-        (
-            has_closing,
-            change(
-                "adhesion.closing_work",
-                values[Parameter::ClosingWork as usize],
-            ),
-        ),
-        (free(Parameter::Modulus), modulus),
-        (
-            free(Parameter::Stiffness),
-            change("loading_stiffness", values[Parameter::Stiffness as usize]),
-        ),
-        (
-            free(Parameter::Radius),
-            change("form.radius", values[Parameter::Radius as usize]),
-        ),
-    ];
-    let loading = curve.loading(values[Parameter::Offset as usize]);
-    let changes: Vec<Change> = rows
-        .into_iter()
-        .filter(|row| row.0)
-        .map(|row| row.1)
-        .chain([loading])
-        .collect();
+    let scene = document.scene();
+    let value = |parameter: Parameter| values[parameter as usize];
+    let mut changes = Vec::new();
+    if is_free(Parameter::Work) {
+        changes.push(change("adhesion.work", value(Parameter::Work)));
+    }
+    // A work on closing that the scene states follows the work of adhesion.
+    let has_closing_work = scene
+        .adhesion
+        .is_some_and(|adhesion| adhesion.closing_work().is_some());
+    if is_free(Parameter::ClosingWork) || has_closing_work {
+        let closing_work = value(Parameter::ClosingWork);
+        changes.push(change("adhesion.closing_work", closing_work));
+    }
+    if is_free(Parameter::Modulus) {
+        changes.push(modulus_change(scene, value(Parameter::Modulus)));
+    }
+    if is_free(Parameter::Stiffness) {
+        changes.push(change("loading_stiffness", value(Parameter::Stiffness)));
+    }
+    if is_free(Parameter::Radius) {
+        changes.push(change("form.radius", value(Parameter::Radius)));
+    }
+    changes.push(curve.loading(value(Parameter::Offset)));
     document.set_all(&changes).map_err(wrong)
+}
+
+/// Returns the change of the modulus, in the way in which the scene states the material.
+fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
+    match scene.material.poisson_ratio {
+        Some(ratio) => {
+            let youngs_modulus = effective_modulus * (1.0 - ratio) * (1.0 + ratio);
+            change("material.youngs_modulus", youngs_modulus)
+        }
+        None => change("material.effective_modulus", effective_modulus),
+    }
 }
 
 impl MeasuredCurve {
@@ -137,43 +125,26 @@ impl MeasuredCurve {
         document: &Document,
     ) -> Result<(Document, Option<String>), SceneErrors> {
         let of_scene = document.scene().loading_stiffness;
-        let newtons = |stiffness: f64| format_quantity(stiffness, "N/m");
-        let set = |value: String| document.set_all(&[("loading_stiffness".to_owned(), value)]);
         if let Some(name) = &self.of_body {
-            let body = format!(
-                "{name} is a displacement of the body, without the deflection of the instrument"
-            );
-            return Ok(match of_scene {
-                Some(stiffness) => {
-                    let text = format!(
-                        "{body}: the loading_stiffness of {} is left out.",
-                        newtons(stiffness)
-                    );
-                    (set("None".to_owned())?, Some(text))
-                }
-                None => (document.clone(), Some(body + ".")),
-            });
+            return as_body_displacement(document, name);
         }
         let Some((name, stated)) = &self.stiffness else {
             return Ok((document.clone(), None));
         };
-        Ok(match of_scene {
-            None => {
-                let text = format!(
-                    "Loading stiffness {} by the {name} of the file.",
-                    newtons(*stated)
-                );
-                (set(ron_float(*stated))?, Some(text))
-            }
-            Some(stiffness) if (stated / stiffness - 1.0).abs() > OTHER => {
-                let [of_scene, stated] = [stiffness, *stated].map(newtons);
-                let text = format!(
-                    "Loading stiffness {of_scene} by the scene; the {name} of the file is {stated}."
-                );
-                (document.clone(), Some(text))
-            }
-            Some(_) => (document.clone(), None),
-        })
+        let newtons_per_metre = format_quantity(*stated, "N/m");
+        let Some(of_scene) = of_scene else {
+            let text = format!("Loading stiffness {newtons_per_metre} by the {name} of the file.");
+            let document = with_stiffness(document, ron_float(*stated))?;
+            return Ok((document, Some(text)));
+        };
+        if (stated / of_scene - 1.0).abs() > OTHER {
+            let of_scene = format_quantity(of_scene, "N/m");
+            let text = format!(
+                "Loading stiffness {of_scene} by the scene; the {name} of the file is {newtons_per_metre}."
+            );
+            return Ok((document.clone(), Some(text)));
+        }
+        Ok((document.clone(), None))
     }
 
     /// Returns the scene with two fields taken from the measured curve: the loading, and the
@@ -189,18 +160,35 @@ impl MeasuredCurve {
     }
 
     fn loading(&self, offset: f64) -> Change {
-        let turns = &self.turns;
-        let stages: String = turns[..turns.len() - 1]
-            .iter()
-            .map(|turn| {
-                format!(
-                    "ToDisplacement({}), ",
-                    ron_float(round_to(turn - offset, 10))
-                )
-            })
-            .collect();
+        let last = self.turns.len() - 1;
+        let mut stages = String::new();
+        for turn in &self.turns[..last] {
+            let displacement = ron_float(round_to(turn - offset, 10));
+            stages += &format!("ToDisplacement({displacement}), ");
+        }
         ("loading".to_owned(), format!("[{stages}ToSeparation]"))
     }
+}
+
+fn with_stiffness(document: &Document, value: String) -> Result<Document, SceneErrors> {
+    document.set_all(&[("loading_stiffness".to_owned(), value)])
+}
+
+/// Returns the document with a rigid instrument, for a column of displacements of the body, and a
+/// sentence about it.
+fn as_body_displacement(
+    document: &Document,
+    name: &str,
+) -> Result<(Document, Option<String>), SceneErrors> {
+    let mut text =
+        format!("{name} is a displacement of the body, without the deflection of the instrument");
+    let Some(stiffness) = document.scene().loading_stiffness else {
+        return Ok((document.clone(), Some(text + ".")));
+    };
+    let stiffness = format_quantity(stiffness, "N/m");
+    text += &format!(": the loading_stiffness of {stiffness} is left out.");
+    let document = with_stiffness(document, "None".to_owned())?;
+    Ok((document, Some(text)))
 }
 
 /// Converts the first error of a scene with other values to an error of the fit.

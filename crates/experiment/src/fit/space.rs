@@ -9,7 +9,7 @@ use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wron
 use crate::fit::start::{Known, Starts};
 use crate::fit::statistics::{PARTS, scale};
 use asperity_data::format_quantity;
-use asperity_scene::{Document, Simulation, Solver};
+use asperity_scene::{Document, Governing, Scene, Simulation, Solver};
 use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.
@@ -35,17 +35,144 @@ fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
         return refused("no free parameter", format!("one or more of {names}"));
     }
     for (index, Free { parameter, .. }) in free.iter().enumerate() {
-        if free[..index]
-            .iter()
-            .any(|other| other.parameter == *parameter)
-        {
-            return refused(
-                format!("{} is free twice", parameter.name()),
-                "each parameter once",
-            );
+        if is_free(&free[..index], *parameter) {
+            let found = format!("{} is free twice", parameter.name());
+            return refused(found, "each parameter once");
         }
     }
     Ok(())
+}
+
+fn is_free(free: &[Free], parameter: Parameter) -> bool {
+    free.iter().any(|free| free.parameter == parameter)
+}
+
+/// Returns an error for a scene that cannot be fitted with these free parameters.
+fn check_scene(scene: &Scene, free: &[Free]) -> Result<(), ExperimentError> {
+    if scene.numerics.solver != Solver::Exact {
+        let found = "numerics.solver = Stepwise: a fit needs the exact solver";
+        return refused(found, "numerics.solver = Exact");
+    }
+    if is_free(free, Parameter::Radius) && radius_of(scene).is_none() {
+        let found = "radius: the form of the scene has none";
+        return refused(found, "form = Paraboloid, WavySphere or Punch");
+    }
+    Ok(())
+}
+
+/// Returns an error for a curve that turns before contact.
+fn check_turn(curve: &MeasuredCurve) -> Result<(), ExperimentError> {
+    if curve.turns[0] <= curve.touch {
+        let contact_point = format_quantity(curve.touch, "m");
+        let turn = format_quantity(curve.turns[0], "m");
+        let found =
+            format!("the contact begins at {contact_point}, and the displacement turns at {turn}");
+        return refused(found, "a contact before the first turning point");
+    }
+    Ok(())
+}
+
+/// Returns what is known of a scene apart from its free parameters.
+fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
+    let unless_free = |parameter, value| (!is_free(free, parameter)).then_some(value);
+    let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    Known {
+        radius: radius_of(scene),
+        length: scene.length,
+        modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
+        stiffness: unless_free(Parameter::Stiffness, stiffness),
+    }
+}
+
+/// Data from which the coordinates of the free parameters follow.
+struct Ranges<'a> {
+    curve: &'a MeasuredCurve,
+    free: &'a [Free],
+    starts: Starts,
+    /// Range of the force, N, at least its noise.
+    extent_of_force: f64,
+}
+
+impl Ranges<'_> {
+    /// Returns the values before the fit of all parameters, for those of the scene.
+    fn start_values(&self, mut values: Values) -> Values {
+        for (parameter, start) in [
+            (Parameter::Work, self.starts.work),
+            (Parameter::Modulus, self.starts.modulus),
+            (Parameter::Stiffness, self.starts.stiffness),
+        ] {
+            if is_free(self.free, parameter) {
+                values[parameter as usize] = start;
+            }
+        }
+        values[Parameter::Offset as usize] = self.curve.touch;
+        if is_free(self.free, Parameter::ClosingWork) {
+            values[Parameter::ClosingWork as usize] = values[Parameter::Work as usize];
+        }
+        values
+    }
+
+    /// Returns the coordinates of the free parameters. Moves values into their ranges.
+    fn coordinates(&self, values: &mut Values) -> Result<Vec<Coordinate>, ExperimentError> {
+        let mut coordinates = Vec::new();
+        let mut most_work = values[Parameter::Work as usize];
+        for parameter in Parameter::ALL {
+            let Some(free) = self.free.iter().find(|free| free.parameter == parameter) else {
+                continue;
+            };
+            let range = match free.range {
+                Some(range) => range,
+                None => self.range_of(parameter, values),
+            };
+            if parameter == Parameter::ClosingWork && range.0 > most_work {
+                let least = format_quantity(range.0, "J/m²");
+                let most = format_quantity(most_work, "J/m²");
+                let found = format!("{} of at least {least}", parameter.name());
+                let allowed = format!("from 0 to {most}, the work of adhesion");
+                return refused(found, allowed);
+            }
+            let start = values[parameter as usize].clamp(range.0, range.1);
+            values[parameter as usize] = start;
+            // The work on opening comes first, so that it limits the work on closing.
+            if parameter == Parameter::Work {
+                most_work = range.1;
+            }
+            coordinates.push(Coordinate {
+                parameter,
+                start,
+                range,
+                unit: self.unit_of(parameter),
+            });
+        }
+        Ok(coordinates)
+    }
+
+    /// Returns the range in which a parameter is searched if none is given. `values` contains its
+    /// start.
+    fn range_of(&self, parameter: Parameter, values: &Values) -> (f64, f64) {
+        let start = values[parameter as usize];
+        let work = values[Parameter::Work as usize];
+        match parameter {
+            Parameter::Offset => {
+                let displacements = self.curve.displacement.iter().copied();
+                (Extent::of(displacements).low, self.curve.turns[0])
+            }
+            Parameter::Zero => (-self.extent_of_force, self.extent_of_force),
+            Parameter::Work => (0.0, start * FACTOR),
+            Parameter::ClosingWork if is_free(self.free, Parameter::Work) => (0.0, work * FACTOR),
+            Parameter::ClosingWork => (0.0, work),
+            _ => (start / FACTOR, start * FACTOR),
+        }
+    }
+
+    /// Returns the unit of a coordinate: a tenth of the largest change that the parameter makes.
+    fn unit_of(&self, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::Work => self.starts.least_work,
+            Parameter::Zero => 0.1 * self.extent_of_force,
+            _ => 0.1 * (self.curve.turns[0] - self.curve.touch),
+        }
+    }
 }
 
 impl<'a> Space<'a> {
@@ -59,136 +186,56 @@ impl<'a> Space<'a> {
         stop: &'a (dyn Fn() -> bool + Sync),
     ) -> Result<(Document, Self), ExperimentError> {
         check_free(free)?;
-        let document = curve.with_instrument(document).map_err(wrong)?.0;
+        let (document, _) = curve.with_instrument(document).map_err(wrong)?;
         let scene = document.scene();
-        if scene.numerics.solver != Solver::Exact {
-            return refused(
-                "numerics.solver = Stepwise: a fit needs the exact solver",
-                "numerics.solver = Exact",
-            );
-        }
-        let is_free = |parameter| free.iter().any(|free| free.parameter == parameter);
-        let radius = radius_of(scene);
-        if is_free(Parameter::Radius) && radius.is_none() {
-            return refused(
-                "radius: the form of the scene has none",
-                "form = Paraboloid, WavySphere or Punch",
-            );
-        }
-        let (touch, turn) = (curve.touch, curve.turns[0]);
-        if turn <= touch {
-            let [touch, turn] = [touch, turn].map(|at| format_quantity(at, "m"));
-            return refused(
-                format!("the contact begins at {touch}, and the displacement turns at {turn}"),
-                "a contact before the first turning point",
-            );
-        }
+        check_scene(scene, free)?;
+        check_turn(curve)?;
         let (contact, governing) = simulation.contact(scene)?;
-        let unless_free = |parameter, value| (!is_free(parameter)).then_some(value);
-        let known = Known {
-            radius,
-            length: scene.length,
-            modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
-            stiffness: unless_free(
-                Parameter::Stiffness,
-                scene.loading_stiffness.unwrap_or(f64::INFINITY),
-            ),
-        };
-        let starts = Starts::of(curve, &contact, known)?;
-        let work = is_free(Parameter::Work).then_some(starts.work);
+        let starts = Starts::of(curve, &contact, known(scene, &governing, free))?;
+        let work = is_free(free, Parameter::Work).then_some(starts.work);
         let document = written_out(&document, &governing, work).map_err(wrong)?;
         let (_, governing) = simulation.contact(document.scene())?;
-        if is_free(Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+        if is_free(free, Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+            let name = Parameter::ClosingWork.name();
+            let found = format!("{name}: the scene has no adhesion");
             return refused(
-                format!(
-                    "{}: the scene has no adhesion",
-                    Parameter::ClosingWork.name()
-                ),
+                found,
                 "adhesion.work above 0, or a free work of adhesion too",
             );
         }
-        let mut base = values_of(document.scene(), &governing);
-        let Extent { low, high } = Extent::of(curve.force.iter().copied());
-        // Of the force.
-        let extent = (high - low).max(curve.noise);
-        for (parameter, start) in [
-            (Parameter::Work, starts.work),
-            (Parameter::Modulus, starts.modulus),
-            (Parameter::Stiffness, starts.stiffness),
-        ] {
-            if is_free(parameter) {
-                base[parameter as usize] = start;
-            }
-        }
-        base[Parameter::Offset as usize] = touch;
-        if is_free(Parameter::ClosingWork) {
-            base[Parameter::ClosingWork as usize] = base[Parameter::Work as usize];
-        }
-        let mut coordinates = Vec::new();
-        for parameter in Parameter::ALL
-            .into_iter()
-            .filter(|&parameter| is_free(parameter))
-        {
-            let start = base[parameter as usize];
-            let given = free
-                .iter()
-                .filter(|free| free.parameter == parameter)
-                .find_map(|free| free.range);
-            let range = given.unwrap_or_else(|| match parameter {
-                Parameter::Offset => (Extent::of(curve.displacement.iter().copied()).low, turn),
-                Parameter::Zero => (-extent, extent),
-                Parameter::Work => (0.0, start * FACTOR),
-                Parameter::ClosingWork if is_free(Parameter::Work) => {
-                    (0.0, base[Parameter::Work as usize] * FACTOR)
-                }
-                Parameter::ClosingWork => (0.0, base[Parameter::Work as usize]),
-                _ => (start / FACTOR, start * FACTOR),
-            });
-            // The work on opening comes first among the coordinates.
-            let opening = coordinates
-                .first()
-                .filter(|one: &&Coordinate| one.parameter == Parameter::Work);
-            let most = opening.map_or(base[Parameter::Work as usize], |one| one.range.1);
-            if parameter == Parameter::ClosingWork && range.0 > most {
-                let [least, most] = [range.0, most].map(|work| format_quantity(work, "J/m²"));
-                return refused(
-                    format!("{} of at least {least}", parameter.name()),
-                    format!("from 0 to {most}, the work of adhesion"),
-                );
-            }
-            let start = start.clamp(range.0, range.1);
-            base[parameter as usize] = start;
-            let unit = match parameter {
-                Parameter::Work => starts.least_work,
-                // A tenth of the change that the parameter makes at most.
-                Parameter::Zero => 0.1 * extent,
-                _ => 0.1 * (turn - touch),
-            };
-            coordinates.push(Coordinate {
-                parameter,
-                start,
-                range,
-                unit,
-            });
-        }
-        let most_on_closing = most_on_closing(document.scene());
-        Ok((
-            document,
-            Space {
-                base,
-                coordinates,
-                most_on_closing,
-                curve,
-                stop,
-            },
-        ))
+
+        let force = Extent::of(curve.force.iter().copied());
+        let ranges = Ranges {
+            curve,
+            free,
+            starts,
+            extent_of_force: force.width().max(curve.noise),
+        };
+        let mut base = ranges.start_values(values_of(document.scene(), &governing));
+        let coordinates = ranges.coordinates(&mut base)?;
+        let space = Space {
+            base,
+            coordinates,
+            most_on_closing: most_on_closing(document.scene()),
+            curve,
+            stop,
+        };
+        Ok((document, space))
     }
 
-    /// Returns the values of all parameters at these coordinates.
-    pub fn values(&self, at: &[f64]) -> Values {
+    /// Returns the free parameters in the order of the coordinates.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        self.coordinates
+            .iter()
+            .map(|coordinate| coordinate.parameter)
+            .collect()
+    }
+
+    /// Returns the values of all parameters at a place.
+    pub fn values(&self, place: &[f64]) -> Values {
         let mut values = self.base;
-        for (coordinate, &at) in self.coordinates.iter().zip(at) {
-            values[coordinate.parameter as usize] = coordinate.value(at, &values);
+        for (coordinate, &position) in self.coordinates.iter().zip(place) {
+            values[coordinate.parameter as usize] = coordinate.value(position, &values);
             if coordinate.parameter == Parameter::Work {
                 let work = values[Parameter::Work as usize];
                 values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
@@ -197,40 +244,57 @@ impl<'a> Space<'a> {
         values
     }
 
-    /// Returns the free parameters with a larger range of the work of adhesion, if its range was
-    /// not given and these coordinates lie at its end. Rough bodies may be pulled off by a small
-    /// part of the force of smooth bodies.
-    pub fn extended(&self, at: &[f64], free: &[Free]) -> Option<Vec<Free>> {
-        let place = self
-            .coordinates
+    /// Returns true if a place lies within all ranges.
+    pub fn contains(&self, place: &[f64]) -> bool {
+        self.coordinates
             .iter()
-            .position(|one| one.parameter == Parameter::Work)?;
-        let (Coordinate { range, .. }, (low, high)) =
-            (self.coordinates[place], self.coordinates[place].ends());
+            .zip(place)
+            .all(|(coordinate, position)| {
+                let (low, high) = coordinate.ends();
+                (low..=high).contains(position)
+            })
+    }
+
+    /// Returns the free parameters with a larger range of the work of adhesion, if its range was
+    /// not given and a place lies at its end. Rough bodies may be pulled off by a small part of the
+    /// force of smooth bodies.
+    pub fn extended(&self, place: &[f64], free: &[Free]) -> Option<Vec<Free>> {
+        let is_work = |coordinate: &Coordinate| coordinate.parameter == Parameter::Work;
+        let index = self.coordinates.iter().position(is_work)?;
+        let coordinate = self.coordinates[index];
+        let (low, high) = coordinate.ends();
+        let is_at_end = place[index] > high - AT_END * (high - low);
+        if !is_at_end {
+            return None;
+        }
         let mut free = free.to_vec();
         let work = free
             .iter_mut()
-            .find(|one| one.parameter == Parameter::Work && one.range.is_none())?;
-        work.range = Some((range.0, FACTOR * range.1));
-        (at[place] > high - AT_END * (high - low)).then_some(free)
+            .find(|free| free.parameter == Parameter::Work && free.range.is_none())?;
+        work.range = Some((coordinate.range.0, FACTOR * coordinate.range.1));
+        Some(free)
     }
 
-    /// Returns the coordinates at which the search begins.
+    /// Returns the place at which the search begins.
     pub fn start(&self) -> Vec<f64> {
         self.coordinates
             .iter()
-            .map(|one| one.of(one.start, &self.base))
+            .map(|coordinate| coordinate.of(coordinate.start, &self.base))
             .collect()
     }
 
     /// Returns consecutive parts of each segment in contact. Parts depend on each other less than
     /// points do.
     pub fn blocks(&self) -> Vec<Range<usize>> {
-        let (mut blocks, mut from) = (Vec::new(), self.curve.free);
-        for segment in self.curve.segment[from..].chunk_by(|one, next| one == next) {
-            let end = |part: usize| from + segment.len() * part / PARTS;
-            blocks.extend((0..PARTS).map(|part| end(part)..end(part + 1)));
-            from += segment.len();
+        let mut blocks = Vec::new();
+        let mut start = self.curve.free;
+        for segment in self.curve.segment[start..].chunk_by(|number, next| number == next) {
+            for part in 0..PARTS {
+                let from = start + segment.len() * part / PARTS;
+                let to = start + segment.len() * (part + 1) / PARTS;
+                blocks.push(from..to);
+            }
+            start += segment.len();
         }
         blocks
     }
@@ -238,17 +302,14 @@ impl<'a> Space<'a> {
     /// Returns the straight lines of the curve that each model refines; see
     /// [`MeasuredCurve::lines`].
     pub fn lines(&self) -> Vec<Vec<f64>> {
-        let has_zero = self
-            .coordinates
-            .iter()
-            .any(|one| one.parameter == Parameter::Zero);
-        self.curve.lines(has_zero)
+        let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
+        self.curve.lines(self.coordinates.iter().any(is_zero))
     }
 
     /// Returns the root mean square residual in contact, in units of the noise of the curve; see
     /// [`scale`].
-    pub fn misfit(&self, rests: &[f64]) -> f64 {
-        scale(&rests[self.curve.free..], WRONG_SIDE)
+    pub fn misfit(&self, residuals: &[f64]) -> f64 {
+        scale(&residuals[self.curve.free..], WRONG_SIDE)
     }
 }
 

@@ -17,6 +17,9 @@ const LEAST: f64 = 0.05;
 /// Stiffness of an instrument divided by the mean slope of the force.
 const STIFFER: f64 = 10.0;
 
+/// Work of adhesion, J/m², where the curve says nothing about it.
+const USUAL_WORK: f64 = 0.05;
+
 /// Known parameters of the scene of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
@@ -50,28 +53,50 @@ impl Starts {
         contact: &Contact,
         known: Known,
     ) -> Result<Starts, ExperimentError> {
-        let Extent { low, high } = Extent::of(curve.force.iter().copied());
-        let (pull_off, pressed) = (curve.noise.max(-low), high.max(curve.noise));
+        let force = Extent::of(curve.force.iter().copied());
+        let pull_off = curve.noise.max(-force.low);
+        let preload = force.high.max(curve.noise);
         let way = curve.turns[0] - curve.touch;
-        let deflection = known.stiffness.map_or(0.0, |stiffness| pressed / stiffness);
-        let indentation = (way - deflection).max(LEAST * way);
-        let leg = Leg::approach(&contact.with(Modulus::effective(1.0)?).build()?)?;
-        let modulus = (pressed + 2.0 * pull_off) / leg.point(indentation)?.force;
-        let modulus = known.modulus.unwrap_or(modulus);
-        let smooth = |force: f64| {
-            let of_sphere = known.radius.map(|radius| force / (1.5 * PI * radius));
-            let of_flat = force.powi(2) / (PI * modulus * known.length.powi(3));
-            let works = of_sphere.into_iter().chain([of_flat]);
-            works
-                .into_iter()
-                .find(|work| work.is_finite() && *work > 0.0)
-                .unwrap_or(0.05)
+        let deflection = match known.stiffness {
+            Some(stiffness) => preload / stiffness,
+            None => 0.0,
         };
+        let indentation = (way - deflection).max(LEAST * way);
+        let found_modulus =
+            (preload + 2.0 * pull_off) / force_of_unit_modulus(contact, indentation)?;
+        let modulus = known.modulus.unwrap_or(found_modulus);
+        let least_pull_off = curve.noise.max(LINEAR * pull_off);
         Ok(Starts {
-            work: smooth(pull_off),
-            least_work: smooth(curve.noise.max(LINEAR * pull_off)),
+            work: known.work_of_smooth_body(pull_off, modulus),
+            least_work: known.work_of_smooth_body(least_pull_off, modulus),
             modulus,
-            stiffness: STIFFER * pressed / way,
+            stiffness: STIFFER * preload / way,
         })
     }
+}
+
+/// Returns the force in N at an indentation in m of the body without adhesion, if its effective
+/// modulus is 1 Pa.
+fn force_of_unit_modulus(contact: &Contact, indentation: f64) -> Result<f64, ExperimentError> {
+    let contact = contact.with(Modulus::effective(1.0)?).build()?;
+    Ok(Leg::approach(&contact)?.point(indentation)?.force)
+}
+
+impl Known {
+    /// Returns the work of adhesion in J/m² with which a smooth body has this pull-off force in N:
+    /// a sphere (JKR), or a flat body as long as the profile (Kendall).
+    fn work_of_smooth_body(self, pull_off: f64, modulus: f64) -> f64 {
+        if let Some(radius) = self.radius {
+            let work = pull_off / (1.5 * PI * radius);
+            if is_positive(work) {
+                return work;
+            }
+        }
+        let work = pull_off.powi(2) / (PI * modulus * self.length.powi(3));
+        if is_positive(work) { work } else { USUAL_WORK }
+    }
+}
+
+fn is_positive(work: f64) -> bool {
+    work.is_finite() && work > 0.0
 }
