@@ -1,11 +1,11 @@
 //! One work of adhesion from many curves of a rough body whose profile is unknown. The curves are
 //! compared with curves computed for random profiles of the spectrum of the scene.
 //!
-//! Each measured curve becomes a few numbers, its summaries ([`summary`]). Curves of random profiles
-//! have summaries at all nodes of a table ([`table`]). From the table polynomials are learned that
-//! predict the parameters, and the mean prediction over the measured curves is compared with the
-//! predictions over all profiles ([`posterior`]). The result also has the effect of errors of the
-//! roughness, and whether the profiles describe the curves ([`deviation`]).
+//! Each measured curve becomes a few numbers, its summaries ([`summary`]). Curves of random
+//! profiles have summaries at all nodes of a table ([`table`]). From the table polynomials are
+//! learned that predict the parameters, and the mean prediction over the measured curves is compared
+//! with the predictions over all profiles ([`posterior`]). The result also has the effect of errors
+//! of the roughness, and whether the profiles describe the curves ([`deviation`]).
 
 pub(crate) mod deviation;
 pub(crate) mod posterior;
@@ -13,9 +13,9 @@ pub(crate) mod summary;
 pub(crate) mod table;
 
 use self::deviation::{Response, RoughnessShifts, Shifts, SummaryDeviation, deviations};
-use self::posterior::{Compared, CurveOfEnsemble, IntervalEstimate};
-use self::summary::Measured;
-use self::table::{End, Place, Specimen, Table, Workers, nodes, placed, seed_of};
+use self::posterior::{CurveOfEnsemble, IntervalEstimate, MODULUS, Posterior, Predictions, WORK};
+use self::summary::Measurement;
+use self::table::{Axis, End, Place, Specimen, Table, Workers, placed, seed_of};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use crate::fit::reason::{Reason, of_profile};
@@ -23,7 +23,7 @@ use crate::fit::scene::wrong;
 use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, mean};
 use asperity_scene::{
-    Adhesion, Document, Material, Roughness, Scene, Simulation, Solver, Strength,
+    Adhesion, CheckedScene, Document, Material, Roughness, Scene, Simulation, Solver, Strength,
 };
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -32,15 +32,25 @@ use std::thread::{Builder, scope};
 
 /// Smallest number of random profiles. With fewer the covariance is too uncertain.
 const FEWEST_LINES: u64 = 16;
-/// Steps of the table in ln(γ/E*) and ln E*, and numbers of nodes.
-const STEPS: [f64; 2] = [0.2, 0.462];
-const NODES: [usize; 2] = [16, 4];
-/// Numbers of nodes by which a table that is too short grows in ln(γ/E*) and ln E*, and largest
-/// number of times.
-const MORE_NODES: [usize; 2] = [4, 1];
+/// First nodes of the table in ln(γ/E*).
+const RANGES: Axis = Axis {
+    step: 0.2,
+    nodes: 16,
+};
+/// First nodes of the table in ln E*.
+const MODULI: Axis = Axis {
+    step: 0.462,
+    nodes: 4,
+};
+/// Number of nodes in ln(γ/E*) by which a table that is too short grows.
+const MORE_RANGES: usize = 4;
+/// Number of nodes in ln E* by which a table that is too short grows.
+const MORE_MODULI: usize = 1;
+/// Largest number of times that a table grows.
 const MOST_GROWTH: usize = 6;
 /// Relative difference up to which two stiffnesses count as equal.
 const SAME_STIFFNESS: f64 = 0.01;
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 /// Largest standard error of the roughness for which the results change in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
@@ -166,7 +176,8 @@ pub fn fit_ensemble(
     mut control: Control<'_>,
 ) -> Result<EnsembleFit, ExperimentError> {
     check(curves, document.scene(), options)?;
-    let (jobs, stop) = (control.threads(), control.stop());
+    let jobs = control.threads();
+    let stop = control.stop();
     if jobs == 0 {
         return refused("0 threads", "at least one");
     }
@@ -176,36 +187,39 @@ pub fn fit_ensemble(
         let report = move |computed: usize| {
             let _ = sender.send(computed);
         };
-        compare(curves, document, options, (jobs, stop), &report)
+        compare(curves, document, options, jobs, stop, &report)
     };
     scope(|scope| match Builder::new().spawn_scoped(scope, compare) {
         Ok(thread) => {
-            receiver
-                .iter()
-                .for_each(|computed| control.report(computed as u64));
+            for computed in receiver {
+                control.report(computed as u64);
+            }
             thread.join().unwrap_or_else(|panic| resume_unwind(panic))
         }
-        Err(error) => refused(
-            format!("the system starts no thread: {error}"),
-            "one more thread",
-        ),
+        Err(error) => {
+            let found = format!("the system starts no thread: {error}");
+            refused(found, "one more thread")
+        }
     })
 }
 
+/// Does the work of [`fit_ensemble`] on this thread and `jobs` others.
 fn compare(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
     options: &EnsembleOptions,
-    (jobs, stop): (usize, &(dyn Fn() -> bool + Sync)),
+    jobs: usize,
+    stop: &(dyn Fn() -> bool + Sync),
     report: &(dyn Fn(usize) + Sync),
 ) -> Result<EnsembleFit, ExperimentError> {
-    let (document, instrument) = &of_instrument(curves, document)?;
-    let measured = Measured::of(curves)?;
-    let (_, governing) = Simulation::new(document.resolve("")).contact(document.scene())?;
-    let closing = governing
-        .adhesive_works()
-        .map_or(1.0, |[closing, opening]| closing / opening);
+    let (document, instrument) = &with_instrument(curves, document)?;
+    let measured = Measurement::of(curves)?;
     let folder = document.resolve("");
+    let (_, governing) = Simulation::new(folder.clone()).contact(document.scene())?;
+    let closing = match governing.adhesive_works() {
+        Some([closing, opening]) => closing / opening,
+        None => 1.0,
+    };
     let computed = AtomicUsize::new(0);
     let workers = Workers {
         specimen: Specimen {
@@ -222,162 +236,309 @@ fn compare(
     };
     let known = (!options.is_modulus_free).then(|| governing.effective_modulus.ln());
     let centre = placed(&workers, &measured, &governing, known)?;
-    let from = |centre: f64, index: usize| {
-        nodes(
-            centre - 0.5 * (NODES[index] - 1) as f64 * STEPS[index],
-            STEPS[index],
-            NODES[index],
-        )
-    };
-    let moduli = known.map_or_else(|| from(centre.modulus, 1), |modulus| vec![modulus]);
-    let mut table = Table::new(&workers, options.lines, from(centre.range, 0), moduli)?;
-    let mut grown = 0;
-    let compared = loop {
-        let compared = Compared::new(&table, &measured, known);
-        let beyond = compared.posterior(&measured).beyond();
-        if beyond.is_empty() || grown == MOST_GROWTH {
-            break compared;
-        }
-        grown += 1;
-        for end in beyond {
-            table.extend(&workers, end, MORE_NODES[usize::from(end.is_of_modulus())])?;
-        }
-    };
-    let posterior = compared.posterior(&measured);
-    let best = posterior.best();
-    let response = Response::at(&compared.scatter, best, known.is_none());
-    let shifts = Shifts {
-        workers: &workers,
-        compared: &compared,
+    let mut table = first_table(&workers, centre, known, options.lines)?;
+    let predictions = grown_predictions(&mut table, &workers, &measured, known)?;
+    let comparison = Comparison {
+        curves,
+        options,
         measured: &measured,
-        response: &response,
+        workers: &workers,
+        known,
+        table: &table,
+        predictions: &predictions,
     };
-    // Curves without adhesion do not change with γ, and no change of γ makes up for a change of the
-    // roughness.
-    let beyond = posterior.beyond();
-    let work_at_most = beyond
-        .contains(&End::LowRange)
-        .then(|| posterior.most_work());
-    let roughness = if work_at_most.is_some() {
-        None
-    } else {
-        shifts.at(best, options.lines)?
-    };
-    let by_roughness = |by_height: f64, by_hurst: f64| {
-        let [height, hurst] =
-            [options.height_error, options.hurst_error].map(Option::unwrap_or_default);
-        NORMAL * (by_height * height).hypot(by_hurst * hurst)
-    };
-    let of_roughness = roughness.map_or([0.0; 2], |of| {
-        [
-            by_roughness(of.work_by_height, of.work_by_hurst),
-            by_roughness(of.modulus_by_height, of.modulus_by_hurst),
-        ]
-    });
-    let alone = posterior.estimate(0);
-    let work = alone.widened(of_roughness[0]);
-    let modulus = match known {
-        Some(modulus) => IntervalEstimate::known(modulus.exp()),
-        None => posterior.estimate(1).widened(of_roughness[1]),
-    };
-    let (count, lines) = (curves.len() as f64, options.lines as f64);
-    let variance = 1.0 / count + 1.0 / lines;
-    let (square, all) = (alone.half_width().powi(2), work.half_width().powi(2));
-    let prospect = |curves: u64| {
-        let other = 1.0 / curves as f64 + 1.0 / lines;
-        let half_width = (square * other / variance + of_roughness[0].powi(2)).sqrt();
-        Prospect { curves, half_width }
-    };
-    let learned = |line: usize, node: usize| compared.learned[line][node];
-    let deviations = deviations(&table, &learned, &response, best, &measured.mean());
+    let fit = comparison.fit()?;
     Ok(EnsembleFit {
-        work: work_at_most.map_or(work, |most| work.at_most(most)),
-        work_at_most,
-        modulus,
-        modulus_is_given: known.is_some(),
-        closing_over_opening: closing,
-        correlation: posterior.correlation(),
-        shares: Shares {
-            places: square / count / variance / all,
-            profiles: square / lines / variance / all,
-            roughness: of_roughness[0].powi(2) / all,
-        },
-        prospects: PROSPECTS
-            .into_iter()
-            .filter(|one| *one > curves.len() as u64 && work_at_most.is_none())
-            .map(prospect)
-            .collect(),
-        roughness,
         instrument: instrument.clone(),
-        unsuitable_profile: unsuitable_profile(&workers, best, mean(&measured.preloads)),
-        lines: options.lines,
-        computed: computed.load(Ordering::Relaxed),
-        preload: mean(&measured.preloads),
-        preload_scatter: measured.preload_scatter,
-        curves: compared.rows(curves, &measured, best),
-        scatter_ratio: compared.scatter_ratio(&measured, best),
-        described: deviations.iter().all(|one| !one.deviates),
-        deviations,
-        at_end_of_table: !beyond.is_empty(),
+        ..fit
     })
+}
+
+/// Measured curves, and the table of computed curves with which they are compared.
+struct Comparison<'a> {
+    curves: &'a [(String, MeasuredCurve)],
+    options: &'a EnsembleOptions,
+    measured: &'a Measurement,
+    workers: &'a Workers<'a>,
+    /// ln E* if it is given.
+    known: Option<f64>,
+    table: &'a Table,
+    predictions: &'a Predictions,
+}
+
+impl Comparison<'_> {
+    fn fit(&self) -> Result<EnsembleFit, ExperimentError> {
+        let posterior = self.predictions.posterior();
+        let best = posterior.best();
+        let response = Response::at(&self.predictions.scatter, best, self.known.is_none());
+        let beyond = posterior.beyond();
+        let mut work_at_most = None;
+        let mut roughness = None;
+        if beyond.contains(&End::LowRange) {
+            // Curves without adhesion do not change with γ, and no change of γ makes up for a
+            // change of the roughness.
+            work_at_most = Some(posterior.most_work());
+        } else {
+            roughness = self.roughness_shifts(best, &response)?;
+        }
+
+        let precision = self.precision(&posterior, roughness);
+        let mut work = posterior.estimate(WORK).widened(precision.of_roughness);
+        let shares = precision.shares(work);
+        let mut prospects = precision.prospects();
+        if let Some(most) = work_at_most {
+            work = work.at_most(most);
+            prospects.clear();
+        }
+        let deviations = deviations(
+            self.table,
+            &self.predictions.of_lines,
+            &response,
+            best,
+            &self.measured.mean(),
+        );
+        let preload = mean(&self.measured.preloads);
+        Ok(EnsembleFit {
+            work,
+            work_at_most,
+            modulus: self.modulus(&posterior, roughness),
+            modulus_is_given: self.known.is_some(),
+            closing_over_opening: self.workers.specimen.closing,
+            correlation: posterior.correlation(),
+            shares,
+            prospects,
+            roughness,
+            instrument: None,
+            unsuitable_profile: unsuitable_profile(self.workers, best, preload),
+            lines: self.options.lines,
+            computed: self.workers.computed.load(Ordering::Relaxed),
+            preload,
+            preload_scatter: self.measured.preload_scatter,
+            curves: self.predictions.rows(self.curves, self.measured, best),
+            scatter_ratio: self.predictions.scatter_ratio(best),
+            described: deviations.iter().all(|deviation| !deviation.deviates),
+            deviations,
+            at_end_of_table: !beyond.is_empty(),
+        })
+    }
+
+    fn roughness_shifts(
+        &self,
+        best: Place,
+        response: &Response,
+    ) -> Result<Option<RoughnessShifts>, ExperimentError> {
+        let shifts = Shifts {
+            workers: self.workers,
+            predictions: self.predictions,
+            measured: self.measured,
+            response,
+            lines: self.options.lines,
+        };
+        shifts.at(best)
+    }
+
+    fn precision(&self, posterior: &Posterior, roughness: Option<RoughnessShifts>) -> Precision {
+        let of_roughness = match roughness {
+            Some(shifts) => self
+                .options
+                .half_width_by(shifts.work_by_height, shifts.work_by_hurst),
+            None => 0.0,
+        };
+        Precision {
+            half_width: posterior.estimate(WORK).half_width(),
+            of_roughness,
+            curves: self.curves.len() as f64,
+            lines: self.options.lines as f64,
+        }
+    }
+
+    /// Returns the effective modulus with all errors.
+    fn modulus(
+        &self,
+        posterior: &Posterior,
+        roughness: Option<RoughnessShifts>,
+    ) -> IntervalEstimate {
+        if let Some(modulus) = self.known {
+            return IntervalEstimate::known(modulus.exp());
+        }
+        let of_roughness = match roughness {
+            Some(shifts) => self
+                .options
+                .half_width_by(shifts.modulus_by_height, shifts.modulus_by_hurst),
+            None => 0.0,
+        };
+        posterior.estimate(MODULUS).widened(of_roughness)
+    }
+}
+
+/// Computes a table around a place.
+fn first_table(
+    workers: &Workers<'_>,
+    centre: Place,
+    known: Option<f64>,
+    lines: u64,
+) -> Result<Table, ExperimentError> {
+    let ranges = RANGES.nodes_around(centre.range);
+    let moduli = match known {
+        Some(modulus) => vec![modulus],
+        None => MODULI.nodes_around(centre.modulus),
+    };
+    Table::new(workers, lines, ranges, moduli)
+}
+
+/// Extends a table until the parameters lie within it, and returns the predictions from it.
+fn grown_predictions(
+    table: &mut Table,
+    workers: &Workers<'_>,
+    measured: &Measurement,
+    known: Option<f64>,
+) -> Result<Predictions, ExperimentError> {
+    for _ in 0..MOST_GROWTH {
+        let predictions = Predictions::new(table, measured, known);
+        let beyond = predictions.posterior().beyond();
+        if beyond.is_empty() {
+            return Ok(predictions);
+        }
+        for end in beyond {
+            let count = if end.is_of_modulus() {
+                MORE_MODULI
+            } else {
+                MORE_RANGES
+            };
+            table.extend(workers, end, count)?;
+        }
+    }
+    Ok(Predictions::new(table, measured, known))
+}
+
+impl EnsembleOptions {
+    /// Returns the half-width of a 95 % interval due to the stated errors of the roughness, for
+    /// derivatives with respect to ln h and H.
+    fn half_width_by(&self, by_height: f64, by_hurst: f64) -> f64 {
+        let height_error = self.height_error.unwrap_or_default();
+        let hurst_error = self.hurst_error.unwrap_or_default();
+        NORMAL * (by_height * height_error).hypot(by_hurst * hurst_error)
+    }
+}
+
+/// Precision of the work of adhesion.
+struct Precision {
+    /// Half-width of the interval of ln γ for a roughness without error.
+    half_width: f64,
+    /// Half-width of the interval of ln γ due to the stated errors of the roughness.
+    of_roughness: f64,
+    /// Number of measured curves.
+    curves: f64,
+    /// Number of random profiles.
+    lines: f64,
+}
+
+impl Precision {
+    /// Returns the variance of a mean prediction, in units of the variance of one profile.
+    fn variance(&self, curves: f64) -> f64 {
+        1.0 / curves + 1.0 / self.lines
+    }
+
+    /// Returns the sources of the uncertainty of the work of adhesion, which has all errors.
+    fn shares(&self, work: IntervalEstimate) -> Shares {
+        let square = self.half_width.powi(2);
+        let variance = self.variance(self.curves);
+        let all = work.half_width().powi(2);
+        Shares {
+            places: square / self.curves / variance / all,
+            profiles: square / self.lines / variance / all,
+            roughness: self.of_roughness.powi(2) / all,
+        }
+    }
+
+    /// Returns the precision with more curves.
+    fn prospects(&self) -> Vec<Prospect> {
+        let square = self.half_width.powi(2);
+        let variance = self.variance(self.curves);
+        let mut prospects = Vec::new();
+        for curves in PROSPECTS {
+            if curves as f64 > self.curves {
+                let of_curves = square * self.variance(curves as f64) / variance;
+                prospects.push(Prospect {
+                    curves,
+                    half_width: (of_curves + self.of_roughness.powi(2)).sqrt(),
+                });
+            }
+        }
+        prospects
+    }
 }
 
 /// Returns why most of a few random profiles are not suitable for a contact with the parameters of
 /// a place.
 fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Option<Reason> {
-    let Specimen { scene, closing, .. } = workers.specimen;
-    let [work, modulus] = place.parameters().map(f64::exp);
     let mut simulation = Simulation::new(workers.folder.to_path_buf());
-    let mut found = Vec::new();
+    let mut reasons = Vec::new();
     for line in 0..EXAMINED {
-        let profile = scene.with(|scene| {
-            scene.material = Material::effective(modulus);
-            let closing = (closing != 1.0).then_some(closing * work);
-            let strength = Strength::Work {
-                opening: work,
-                closing,
-            };
-            scene.adhesion = scene.adhesion.map(|adhesion| Adhesion {
-                strength,
-                ..adhesion
-            });
-            scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
-            scene.set_seed(seed_of(workers.specimen.scene, line));
-        });
-        found.extend(of_profile(&profile.ok()?, &mut simulation));
+        let profile = profile_at(&workers.specimen, place, preload, line)?;
+        reasons.extend(of_profile(&profile, &mut simulation));
     }
-    if 2 * found.len() <= EXAMINED as usize {
+    if 2 * reasons.len() <= EXAMINED as usize {
         return None;
     }
-    found.first().copied()
+    reasons.first().copied()
+}
+
+/// Returns the scene of a random profile that is loaded to a preload in N with the parameters of a
+/// place; `None` if they are not allowed.
+fn profile_at(
+    specimen: &Specimen<'_>,
+    place: Place,
+    preload: f64,
+    line: u64,
+) -> Option<CheckedScene> {
+    let [work, modulus] = place.parameters().map(f64::exp);
+    let has_closing_work = specimen.closing != 1.0;
+    let strength = Strength::Work {
+        opening: work,
+        closing: has_closing_work.then_some(specimen.closing * work),
+    };
+    let scene = specimen.scene.with(|scene| {
+        scene.material = Material::effective(modulus);
+        scene.adhesion = scene.adhesion.map(|adhesion| Adhesion {
+            strength,
+            ..adhesion
+        });
+        scene.loading = vec![Move::ToForce(preload), Move::ToSeparation];
+        scene.set_seed(seed_of(specimen.scene, line));
+    });
+    scene.ok()
 }
 
 /// Returns the scene with the stiffness of the instrument that the files state, and this change in
 /// words.
-fn of_instrument(
+fn with_instrument(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
 ) -> Result<(Document, Option<String>), ExperimentError> {
-    let of = |curve: &MeasuredCurve| curve.with_instrument(document).map_err(wrong);
-    let first = of(&curves[0].1)?;
+    let (first_name, first_curve) = &curves[0];
+    let first = first_curve.with_instrument(document).map_err(wrong)?;
+    let stiffness = stiffness_of(&first.0);
     for (name, curve) in curves {
-        let [one, other] = [&first.0, &of(curve)?.0]
-            .map(|document| document.scene().loading_stiffness.unwrap_or(f64::INFINITY));
-        if one != other && (one / other).ln().abs() > SAME_STIFFNESS {
-            let [one, other] = [one, other].map(|stiffness| format_quantity(stiffness, "N/m"));
-            return refused(
-                format!(
-                    "{name}: a loading stiffness of {other}, and of {one} in {}",
-                    curves[0].0
-                ),
-                "curves of one instrument",
+        let (other, _) = curve.with_instrument(document).map_err(wrong)?;
+        let other = stiffness_of(&other);
+        if stiffness != other && (stiffness / other).ln().abs() > SAME_STIFFNESS {
+            let stiffness = format_quantity(stiffness, "N/m");
+            let other = format_quantity(other, "N/m");
+            let found = format!(
+                "{name}: a loading stiffness of {other}, and of {stiffness} in {first_name}"
             );
+            return refused(found, "curves of one instrument");
         }
     }
     Ok(first)
 }
 
-/// Returns an error for a scene or options that allow no comparison.
+fn stiffness_of(document: &Document) -> f64 {
+    document.scene().loading_stiffness.unwrap_or(f64::INFINITY)
+}
+
+/// Returns an error for curves, a scene or options that allow no comparison.
 fn check(
     curves: &[(String, MeasuredCurve)],
     scene: &Scene,
@@ -387,50 +548,48 @@ fn check(
         return refused("no curve", "one or more curves");
     }
     if scene.seed().is_none() {
+        let found = "--profiles: the profile of the scene is not random";
         let allowed =
             "a scene with random roughness; without --profiles a scene whose profile is known";
-        return refused(
-            "--profiles: the profile of the scene is not random",
-            allowed,
-        );
+        return refused(found, allowed);
     }
     if scene.numerics.solver != Solver::Exact {
         let found =
             "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
-    for (name, error) in [
-        ("--height-error", options.height_error),
-        ("--hurst-error", options.hurst_error),
-    ] {
-        if let Some(error) = error.filter(|error| !(0.0..=MOST_ERROR).contains(error)) {
-            return refused(format!("{name} {error}"), format!("from 0 to {MOST_ERROR}"));
-        }
-    }
+    check_error("--height-error", options.height_error)?;
+    check_error("--hurst-error", options.hurst_error)?;
     let states_errors = options.height_error.or(options.hurst_error).is_some();
     if states_errors && !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
         let found = "errors of the roughness, which is measured";
-        return refused(
-            found,
-            "roughness: SelfAffine(…), or no --height-error and --hurst-error",
-        );
+        let allowed = "roughness: SelfAffine(…), or no --height-error and --hurst-error";
+        return refused(found, allowed);
     }
     if options.lines < FEWEST_LINES {
-        return refused(
-            format!("--profiles {}", options.lines),
-            format!("at least {FEWEST_LINES}"),
-        );
+        let found = format!("--profiles {}", options.lines);
+        return refused(found, format!("at least {FEWEST_LINES}"));
     }
     for (index, (name, curve)) in curves.iter().enumerate() {
-        let same = |(_, other): &&(String, MeasuredCurve)| {
-            other.force == curve.force && other.displacement == curve.displacement
-        };
-        if let Some((other, _)) = curves[..index].iter().find(same) {
-            return refused(
-                format!("{name}: the same curve as {other}"),
-                "each curve once",
-            );
+        for (other_name, other) in &curves[..index] {
+            if other.force == curve.force && other.displacement == curve.displacement {
+                let found = format!("{name}: the same curve as {other_name}");
+                return refused(found, "each curve once");
+            }
         }
+    }
+    Ok(())
+}
+
+/// Returns an error for a standard error of the roughness that is out of range.
+fn check_error(option: &str, error: Option<f64>) -> Result<(), ExperimentError> {
+    if let Some(error) = error
+        && !(0.0..=MOST_ERROR).contains(&error)
+    {
+        return refused(
+            format!("{option} {error}"),
+            format!("from 0 to {MOST_ERROR}"),
+        );
     }
     Ok(())
 }

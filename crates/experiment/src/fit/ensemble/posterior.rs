@@ -2,11 +2,17 @@
 //! parameters of a curve from its summaries, and the mean prediction over the measured curves is
 //! compared with the predictions over random profiles.
 
-use super::summary::{Described, LOOP_AREA, Measured, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF};
-use super::table::{End, Place, Scatter, Table, distance};
+use super::summary::{
+    Description, LOOP_AREA, Measurement, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF,
+};
+use super::table::{End, Place, Scatter, Table};
 use crate::curve::MeasuredCurve;
 use asperity_data::{Cholesky, mean, standard_deviation};
 
+/// Index of ln γ among the parameters and the axes of a grid.
+pub(crate) const WORK: usize = 0;
+/// Index of ln E* among the parameters and the axes of a grid.
+pub(crate) const MODULUS: usize = 1;
 /// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut
 /// off.
 const LARGEST: f64 = 4.0;
@@ -29,84 +35,94 @@ const LEAST_STEP: f64 = 1e-12;
 /// Share of the probability within `EDGE` of an end of the table, above which the table is too
 /// short.
 const MOST_AT_END: f64 = 2e-3;
+/// Width of the edge of the table, on the scale of natural logarithms.
 const EDGE: f64 = 0.1;
 /// Density divided by the largest density above which a value is not excluded: exp(−1.96²/2).
 const NOT_EXCLUDED: f64 = 0.146_5;
 /// Quantiles of the result and of its 95 % interval.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
-/// Squared distance of a curve from the others that one curve of a thousand exceeds: quantiles of
-/// χ² for one and for two values.
-const FOREIGN: [f64; 2] = [10.8, 13.8];
+/// Squared distance of a curve from the others that one curve of a thousand exceeds, if E* is
+/// given: quantile of χ² for one value.
+const FOREIGN_OF_WORK: f64 = 10.8;
+/// The same distance if E* is free: quantile of χ² for two values.
+const FOREIGN_OF_BOTH: f64 = 13.8;
 /// Smallest pull-off force that is reported, in standard deviations of the noise.
 const LEAST_PULL_OFF: f64 = 5.0;
+/// Smallest number of curves whose scatter is compared with the scatter of the random profiles.
 const FEWEST_FOR_SCATTER: usize = 4;
+
+/// Computed curve of a random profile with known parameters.
+struct Example {
+    /// Number of the random profile.
+    line: u64,
+    description: Description,
+    /// ln γ and ln E*.
+    parameters: [f64; 2],
+}
+
+/// Mean and standard deviation of a summary.
+struct Standard {
+    mean: f64,
+    deviation: f64,
+}
 
 /// Two polynomials of second degree in the summaries. Each is learned from one half of the random
 /// profiles, and predicts the parameters of the other half.
-pub(crate) struct Learned {
-    /// Mean and standard deviation of each summary.
-    standard: Vec<(f64, f64)>,
+struct Polynomials {
+    /// For each summary.
+    standards: Vec<Standard>,
+    /// Coefficients of both parameters, learned from the even and from the odd profiles.
     halves: [Vec<[f64; 2]>; 2],
+    /// Mean of the parameters.
     centre: [f64; 2],
 }
 
-impl Learned {
-    /// Learns from computed curves, each with the number of its random profile, ln γ and ln E*.
-    pub fn from(curves: &[(u64, Described, [f64; 2])]) -> Self {
-        let standard = (0..SUMMARIES + 1)
-            .map_while(|index| {
-                let of: Option<Vec<f64>> = curves
-                    .iter()
-                    .map(|curve| curve.1.values().nth(index))
-                    .collect();
-                let of = of?;
-                let mean = mean(&of);
-                Some((mean, standard_deviation(&of, mean).max(f64::MIN_POSITIVE)))
-            })
-            .collect();
-        let of_parameter = |index: usize| {
-            mean(
-                &curves
-                    .iter()
-                    .map(|curve| curve.2[index])
-                    .collect::<Vec<f64>>(),
-            )
-        };
-        let centre = [of_parameter(0), of_parameter(1)];
-        let mut learned = Learned {
-            standard,
+impl Polynomials {
+    fn learned(examples: &[Example]) -> Self {
+        let mut polynomials = Polynomials {
+            standards: standards(examples),
             halves: [Vec::new(), Vec::new()],
-            centre,
+            centre: [WORK, MODULUS].map(|parameter| {
+                let values = examples.iter().map(|example| example.parameters[parameter]);
+                mean(&values.collect::<Vec<f64>>())
+            }),
         };
-        learned.halves = [0, 1].map(|half| learned.coefficients(curves, half));
-        learned
+        polynomials.halves = [0, 1].map(|half| polynomials.coefficients(examples, half));
+        polynomials
     }
 
-    fn coefficients(&self, curves: &[(u64, Described, [f64; 2])], half: u64) -> Vec<[f64; 2]> {
-        let columns = self.terms(&curves[0].1).len();
-        let (mut products, mut right) = (
-            vec![0.0; columns * columns],
-            [0, 1].map(|_| vec![0.0; columns]),
-        );
-        for (_, described, parameters) in curves.iter().filter(|curve| curve.0 % 2 == half) {
-            let terms = self.terms(described);
-            for (row, one) in terms.iter().enumerate() {
-                let sums = products[row * columns..][..=row].iter_mut();
-                sums.zip(&terms)
-                    .for_each(|(sum, other)| *sum += one * other);
-                for (parameter, sums) in right.iter_mut().enumerate() {
-                    sums[row] += one * (parameters[parameter] - self.centre[parameter]);
+    /// Returns the coefficients that are learned from one half of the profiles (ridge regression).
+    fn coefficients(&self, examples: &[Example], half: u64) -> Vec<[f64; 2]> {
+        let count = self.terms(&examples[0].description).len();
+        let mut products = vec![0.0; count * count];
+        let mut right_of_work = vec![0.0; count];
+        let mut right_of_modulus = vec![0.0; count];
+        for example in examples {
+            if example.line % 2 != half {
+                continue;
+            }
+            let terms = self.terms(&example.description);
+            let work = example.parameters[WORK] - self.centre[WORK];
+            let modulus = example.parameters[MODULUS] - self.centre[MODULUS];
+            for (row, term) in terms.iter().enumerate() {
+                // The lower triangle is enough.
+                let sums = &mut products[row * count..][..=row];
+                for (sum, other) in sums.iter_mut().zip(&terms) {
+                    *sum += term * other;
                 }
+                right_of_work[row] += term * work;
+                right_of_modulus[row] += term * modulus;
             }
         }
-        let on_diagonal = |index: usize| index * (columns + 1);
-        let trace: f64 = (0..columns).map(|index| products[on_diagonal(index)]).sum();
-        (0..columns)
-            .for_each(|index| products[on_diagonal(index)] += RIDGE * trace / columns as f64);
-        let Some(factor) = Cholesky::new(products, columns) else {
-            return vec![[0.0; 2]; columns];
+        let trace: f64 = (0..count).map(|index| products[index * (count + 1)]).sum();
+        for index in 0..count {
+            products[index * (count + 1)] += RIDGE * trace / count as f64;
+        }
+        let Some(factor) = Cholesky::new(products, count) else {
+            return vec![[0.0; 2]; count];
         };
-        let [work, modulus] = right.map(|right| factor.solve(right));
+        let work = factor.solve(right_of_work);
+        let modulus = factor.solve(right_of_modulus);
         work.into_iter()
             .zip(modulus)
             .map(<[f64; 2]>::from)
@@ -114,42 +130,66 @@ impl Learned {
     }
 
     /// Returns 1, the standardised summaries and all their products.
-    fn terms(&self, described: &Described) -> Vec<f64> {
-        let standardised = described.values().zip(&self.standard);
-        let all: Vec<f64> = std::iter::once(1.0)
-            .chain(standardised.map(|(value, (mean, deviation))| {
-                ((value - mean) / deviation).clamp(-LARGEST, LARGEST)
-            }))
-            .collect();
-        (0..all.len())
-            .flat_map(|one| (0..=one).map(move |other| (one, other)))
-            .map(|(one, other)| all[one] * all[other])
-            .collect()
+    fn terms(&self, description: &Description) -> Vec<f64> {
+        let mut factors = Vec::with_capacity(self.standards.len() + 1);
+        factors.push(1.0);
+        for (value, standard) in description.values().zip(&self.standards) {
+            let deviation = (value - standard.mean) / standard.deviation;
+            factors.push(deviation.clamp(-LARGEST, LARGEST));
+        }
+        let mut terms = Vec::with_capacity(factors.len() * (factors.len() + 1) / 2);
+        for (index, factor) in factors.iter().enumerate() {
+            for other in &factors[..=index] {
+                terms.push(factor * other);
+            }
+        }
+        terms
     }
 
+    /// Predicts by the polynomial that was learned from one half.
     fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
-        let sum = |parameter: usize| {
-            terms
+        [WORK, MODULUS].map(|parameter| {
+            let products = terms
                 .iter()
                 .zip(&self.halves[half])
-                .map(|(term, of)| term * of[parameter])
-                .sum::<f64>()
-        };
-        [self.centre[0] + sum(0), self.centre[1] + sum(1)]
+                .map(|(term, coefficients)| term * coefficients[parameter]);
+            self.centre[parameter] + products.sum::<f64>()
+        })
     }
 
     /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the
     /// other half.
-    pub fn of_line(&self, line: u64, described: &Described) -> [f64; 2] {
-        self.by_half(&self.terms(described), 1 - (line % 2) as usize)
+    fn of_line(&self, line: u64, description: &Description) -> [f64; 2] {
+        self.by_half(&self.terms(description), 1 - (line % 2) as usize)
     }
 
     /// Predicts ln γ and ln E* of another curve, as the mean of both polynomials.
-    pub fn of_curve(&self, described: &Described) -> [f64; 2] {
-        let terms = self.terms(described);
-        let [one, other] = [0, 1].map(|half| self.by_half(&terms, half));
-        [0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])]
+    fn of_curve(&self, description: &Description) -> [f64; 2] {
+        let terms = self.terms(description);
+        let even = self.by_half(&terms, 0);
+        let odd = self.by_half(&terms, 1);
+        [WORK, MODULUS].map(|parameter| 0.5 * (even[parameter] + odd[parameter]))
     }
+}
+
+/// Returns the mean and the standard deviation of each summary, and of the preload if the examples
+/// have one.
+fn standards(examples: &[Example]) -> Vec<Standard> {
+    let mut standards = Vec::with_capacity(SUMMARIES + 1);
+    for index in 0..SUMMARIES + 1 {
+        let values = examples
+            .iter()
+            .map(|example| example.description.values().nth(index));
+        let Some(values) = values.collect::<Option<Vec<f64>>>() else {
+            break;
+        };
+        let average = mean(&values);
+        standards.push(Standard {
+            mean: average,
+            deviation: standard_deviation(&values, average).max(f64::MIN_POSITIVE),
+        });
+    }
+    standards
 }
 
 /// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 %
@@ -191,23 +231,53 @@ impl IntervalEstimate {
     /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural
     /// logarithm.
     pub(crate) fn widened(self, half_width: f64) -> Self {
-        let factor = |end: f64| (end / self.value).ln().hypot(half_width).exp();
+        let factor_below = (self.low / self.value).ln().hypot(half_width).exp();
+        let factor_above = (self.high / self.value).ln().hypot(half_width).exp();
         IntervalEstimate {
             value: self.value,
-            low: self.value / factor(self.low),
-            high: self.value * factor(self.high),
+            low: self.value / factor_below,
+            high: self.value * factor_above,
         }
     }
 }
 
 /// Data from which the probability of the parameters is computed.
-pub(crate) struct Likelihood {
+struct Likelihood {
     scatter: Scatter,
-    /// First and last ln(γ/E*) of the table, and first and last ln E*. A known ln E* is both.
-    ranges: [f64; 2],
-    moduli: [f64; 2],
+    limits: Limits,
     /// Number of random profiles of the table.
     lines: f64,
+}
+
+/// Ends of a table.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Smallest and largest ln(γ/E*).
+    ranges: Extent,
+    /// Smallest and largest ln E*, which are one value if E* is given.
+    moduli: Extent,
+}
+
+impl Limits {
+    /// Returns the values of ln γ and ln E* in the table.
+    fn extents(self) -> [Extent; 2] {
+        let works = Extent {
+            low: self.ranges.low + self.moduli.low,
+            high: self.ranges.high + self.moduli.high,
+        };
+        [works, self.moduli]
+    }
+
+    /// Returns true for a place near an end of the table.
+    fn is_near(self, place: Place, end: End) -> bool {
+        let is_modulus_free = self.moduli.high > self.moduli.low;
+        match end {
+            End::LowRange => place.range < self.ranges.low + EDGE,
+            End::HighRange => place.range > self.ranges.high - EDGE,
+            End::LowModulus => is_modulus_free && place.modulus < self.moduli.low + EDGE,
+            End::HighModulus => is_modulus_free && place.modulus > self.moduli.high - EDGE,
+        }
+    }
 }
 
 /// Mean prediction over measured curves.
@@ -231,18 +301,25 @@ pub(crate) struct Posterior {
     axes: [Vec<f64>; 2],
     /// Probability of each pair of values, all values of ln E* of one ln γ together.
     weights: Vec<f64>,
-    ranges: [f64; 2],
-    moduli: [f64; 2],
+    limits: Limits,
 }
 
 impl Likelihood {
     /// Prepares the comparison with a table, or with the part of it that has a known ln E*.
-    pub fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
-        let ends = |axis: &[f64]| [axis[0], axis[axis.len() - 1]];
+    fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
+        let moduli = match known {
+            Some(modulus) => Extent {
+                low: modulus,
+                high: modulus,
+            },
+            None => Extent::of(&table.moduli),
+        };
         Likelihood {
             scatter: scatter.clone(),
-            ranges: ends(&table.ranges),
-            moduli: known.map_or_else(|| ends(&table.moduli), |modulus| [modulus; 2]),
+            limits: Limits {
+                ranges: Extent::of(&table.ranges),
+                moduli,
+            },
             lines: table.lines.len() as f64,
         }
     }
@@ -254,27 +331,16 @@ impl Likelihood {
     /// The grid begins with the whole table. It is cut to the values that have a probability, and
     /// widened where the probability does not end, until no value of a parameter has much of the
     /// probability.
-    pub fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
+    fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
         let observed = Observed {
             prediction,
             variance: 1.0 / curves + 1.0 / self.lines,
         };
-        let [low, high] = self.ranges;
-        let [soft, hard] = self.moduli;
-        let whole = [
-            Extent {
-                low: low + soft,
-                high: high + hard,
-            },
-            Extent {
-                low: soft,
-                high: hard,
-            },
-        ];
+        let whole = self.limits.extents();
         let mut extents = whole;
         let mut posterior = self.on_grid(&observed, extents);
         for _ in 1..MOST_GRIDS {
-            let next = [0, 1].map(|axis| posterior.extent(axis, whole[axis]));
+            let next = [WORK, MODULUS].map(|axis| posterior.next_extent(axis, whole[axis]));
             if next == extents {
                 break;
             }
@@ -286,17 +352,15 @@ impl Likelihood {
 
     /// Computes the probability on a grid over these values of ln γ and ln E*.
     fn on_grid(&self, observed: &Observed, extents: [Extent; 2]) -> Posterior {
-        let axes = extents.map(Extent::values);
-        let mut weights = Vec::with_capacity(axes[0].len() * axes[1].len());
-        for work in &axes[0] {
-            for modulus in &axes[1] {
-                weights.push(self.logarithm(
-                    observed,
-                    Place {
-                        range: work - modulus,
-                        modulus: *modulus,
-                    },
-                ));
+        let [works, moduli] = extents.map(Extent::values);
+        let mut weights = Vec::with_capacity(works.len() * moduli.len());
+        for work in &works {
+            for modulus in &moduli {
+                let place = Place {
+                    range: work - modulus,
+                    modulus: *modulus,
+                };
+                weights.push(self.logarithm(observed, place));
             }
         }
         let largest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -305,31 +369,40 @@ impl Likelihood {
             *weight = (*weight - largest).exp();
             sum += *weight;
         }
-        weights.iter_mut().for_each(|weight| *weight /= sum);
+        for weight in &mut weights {
+            *weight /= sum;
+        }
         Posterior {
-            axes,
+            axes: [works, moduli],
             weights,
-            ranges: self.ranges,
-            moduli: self.moduli,
+            limits: self.limits,
         }
     }
 
     /// Returns the logarithm of the probability density, up to a constant. A power in place of an
     /// exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
     fn logarithm(&self, observed: &Observed, place: Place) -> f64 {
-        let [low, high] = self.ranges;
+        let Extent { low, high } = self.limits.ranges;
         let rounding = 1e-9;
         if place.range < low - rounding || place.range > high + rounding {
             return f64::NEG_INFINITY;
         }
         let moments = self.scatter.at(place);
-        let (inverse, determinant) = moments.inverse();
-        let square = distance(moments.mean, inverse, observed.prediction) / observed.variance;
-        -0.5 * determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
+        let inverse = moments.inverse();
+        let distance = inverse.squared_distance(moments.mean, observed.prediction);
+        let square = distance / observed.variance;
+        -0.5 * inverse.log_determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
     }
 }
 
 impl Extent {
+    fn of(axis: &[f64]) -> Self {
+        Extent {
+            low: axis[0],
+            high: axis[axis.len() - 1],
+        }
+    }
+
     fn width(self) -> f64 {
         self.high - self.low
     }
@@ -346,12 +419,23 @@ impl Extent {
 }
 
 impl Posterior {
-    /// Returns the probability of each value of ln γ for axis 0, and of ln E* for axis 1.
+    /// Returns the values of ln γ and ln E* of each weight, in the order of the weights.
+    fn nodes(&self) -> impl Iterator<Item = Place> {
+        let [works, moduli] = &self.axes;
+        works.iter().flat_map(move |work| {
+            moduli.iter().map(move |modulus| Place {
+                range: work - modulus,
+                modulus: *modulus,
+            })
+        })
+    }
+
+    /// Returns the probability of each value of an axis.
     fn along(&self, axis: usize) -> Vec<f64> {
-        let moduli = self.axes[1].len();
+        let moduli = self.axes[MODULUS].len();
         let mut sums = vec![0.0; self.axes[axis].len()];
         for (index, weight) in self.weights.iter().enumerate() {
-            let value = if axis == 0 {
+            let value = if axis == WORK {
                 index / moduli
             } else {
                 index % moduli
@@ -363,13 +447,10 @@ impl Posterior {
 
     /// Returns the values of an axis that the next grid should have, within `whole`: the same
     /// values if this grid is fine and wide enough.
-    fn extent(&self, axis: usize, whole: Extent) -> Extent {
+    fn next_extent(&self, axis: usize, whole: Extent) -> Extent {
         let values = &self.axes[axis];
         let last = values.len() - 1;
-        let present = Extent {
-            low: values[0],
-            high: values[last],
-        };
+        let present = Extent::of(values);
         if last == 0 {
             return present;
         }
@@ -380,28 +461,24 @@ impl Posterior {
         let grows_below = first_present == 0 && present.low > whole.low;
         let grows_above = last_present == last && present.high < whole.high;
         if grows_below || grows_above {
-            let low = if grows_below {
-                present.low - present.width()
-            } else {
-                present.low
-            };
-            let high = if grows_above {
-                present.high + present.width()
-            } else {
-                present.high
-            };
+            let mut wider = present;
+            if grows_below {
+                wider.low -= present.width();
+            }
+            if grows_above {
+                wider.high += present.width();
+            }
             return Extent {
-                low: low.max(whole.low),
-                high: high.min(whole.high),
+                low: wider.low.max(whole.low),
+                high: wider.high.min(whole.high),
             };
         }
         let most = probabilities.iter().copied().fold(0.0, f64::max);
         if most <= MOST_AT_VALUE || present.width() < LEAST_STEP * CELLS as f64 {
             return present;
         }
-        let first = first_present.saturating_sub(MARGIN);
         Extent {
-            low: values[first],
+            low: values[first_present.saturating_sub(MARGIN)],
             high: values[(last_present + MARGIN).min(last)],
         }
     }
@@ -409,18 +486,18 @@ impl Posterior {
     /// Returns the most probable place.
     pub fn best(&self) -> Place {
         let weights = self.weights.iter().enumerate();
-        let most = weights
-            .max_by(|one, other| one.1.total_cmp(other.1))
-            .map_or(0, |(index, _)| index);
-        let moduli = self.axes[1].len();
-        let [work, modulus] = [self.axes[0][most / moduli], self.axes[1][most % moduli]];
+        let best = weights.max_by(|(_, weight), (_, next)| weight.total_cmp(next));
+        let index = best.map_or(0, |(index, _)| index);
+        let moduli = self.axes[MODULUS].len();
+        let work = self.axes[WORK][index / moduli];
+        let modulus = self.axes[MODULUS][index % moduli];
         Place {
             range: work - modulus,
             modulus,
         }
     }
 
-    /// Returns γ in J/m² for the parameter 0, and E* in Pa for the parameter 1.
+    /// Returns γ in J/m² for the parameter [`WORK`], and E* in Pa for the parameter [`MODULUS`].
     pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
         let probabilities = self.along(parameter);
         let [low, value, high] =
@@ -431,36 +508,35 @@ impl Posterior {
     /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability
     /// density is at least exp(−1.96²/2) times the largest one.
     pub fn most_work(&self) -> f64 {
-        let densities = self.along(0);
+        let densities = self.along(WORK);
         let largest = densities.iter().copied().fold(0.0, f64::max);
         let last = densities
             .iter()
             .rposition(|density| *density >= NOT_EXCLUDED * largest);
-        self.axes[0][last.unwrap_or(densities.len() - 1)].exp()
+        self.axes[WORK][last.unwrap_or(densities.len() - 1)].exp()
     }
 
     /// Returns the mean of a function of ln γ and ln E*.
-    fn mean(&self, of: impl Fn(f64, f64) -> f64) -> f64 {
-        let moduli = self.axes[1].len();
+    fn mean(&self, value_of: impl Fn(f64, f64) -> f64) -> f64 {
+        let [works, moduli] = &self.axes;
         let mut sum = 0.0;
         for (index, weight) in self.weights.iter().enumerate() {
-            sum += weight * of(self.axes[0][index / moduli], self.axes[1][index % moduli]);
+            sum += weight * value_of(works[index / moduli.len()], moduli[index % moduli.len()]);
         }
         sum
     }
 
     /// Returns the correlation of ln γ and ln E*; 0 for a known E*.
     pub fn correlation(&self) -> f64 {
-        if self.axes[1].len() == 1 {
+        if self.axes[MODULUS].len() == 1 {
             return 0.0;
         }
-        let [work, modulus] = [self.mean(|work, _| work), self.mean(|_, modulus| modulus)];
-        let variances = [
-            self.mean(|other, _| (other - work).powi(2)),
-            self.mean(|_, other| (other - modulus).powi(2)),
-        ];
-        let covariance = self.mean(|one, other| (one - work) * (other - modulus));
-        let scale = (variances[0] * variances[1]).sqrt();
+        let mean_work = self.mean(|work, _| work);
+        let mean_modulus = self.mean(|_, modulus| modulus);
+        let variance_of_work = self.mean(|work, _| (work - mean_work).powi(2));
+        let variance_of_modulus = self.mean(|_, modulus| (modulus - mean_modulus).powi(2));
+        let covariance = self.mean(|work, modulus| (work - mean_work) * (modulus - mean_modulus));
+        let scale = (variance_of_work * variance_of_modulus).sqrt();
         if scale > 0.0 {
             (covariance / scale).clamp(-1.0, 1.0)
         } else {
@@ -470,54 +546,52 @@ impl Posterior {
 
     /// Returns the ends of the table beyond which the parameters may lie.
     pub fn beyond(&self) -> Vec<End> {
-        let ([low, high], [soft, hard]) = (self.ranges, self.moduli);
-        let is_near = |work: f64, modulus: f64, end: End| match end {
-            End::LowRange => work - modulus < low + EDGE,
-            End::HighRange => work - modulus > high - EDGE,
-            End::LowModulus => hard > soft && modulus < soft + EDGE,
-            End::HighModulus => hard > soft && modulus > hard - EDGE,
-        };
         let mut ends = vec![
             End::LowRange,
             End::HighRange,
             End::LowModulus,
             End::HighModulus,
         ];
-        ends.retain(|end| {
-            self.mean(|work, modulus| {
-                if is_near(work, modulus, *end) {
-                    1.0
-                } else {
-                    0.0
-                }
-            }) > MOST_AT_END
-        });
+        ends.retain(|end| self.probability_near(*end) > MOST_AT_END);
         ends
+    }
+
+    /// Returns the probability of places near an end of the table.
+    fn probability_near(&self, end: End) -> f64 {
+        let mut sum = 0.0;
+        for (place, weight) in self.nodes().zip(&self.weights) {
+            if self.limits.is_near(place, end) {
+                sum += weight;
+            }
+        }
+        sum
     }
 }
 
 /// Returns the value below which a parameter lies with the probability `share`. The density is
 /// linear between the values of the axis, at which it is in proportion to `probabilities`.
 fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
-    let cells = || {
-        probabilities
-            .windows(2)
-            .map(|ends| 0.5 * (ends[0] + ends[1]))
-    };
-    let mut rest = share * cells().sum::<f64>();
-    for (index, cell) in cells().enumerate() {
-        if rest <= cell {
-            let [from, to] = [probabilities[index], probabilities[index + 1]];
-            // The positive root of from·x + (to − from)·x²/2 = rest.
-            let root = (from * from + 2.0 * (to - from) * rest).max(0.0).sqrt();
+    let cells: Vec<f64> = probabilities
+        .windows(2)
+        .map(|ends| 0.5 * (ends[0] + ends[1]))
+        .collect();
+    let mut remainder = share * cells.iter().sum::<f64>();
+    for (index, cell) in cells.iter().enumerate() {
+        if remainder <= *cell {
+            let from = probabilities[index];
+            let to = probabilities[index + 1];
+            // The positive root of from·x + (to − from)·x²/2 = remainder.
+            let root = (from * from + 2.0 * (to - from) * remainder)
+                .max(0.0)
+                .sqrt();
             let part = if from + root > 0.0 {
-                2.0 * rest / (from + root)
+                2.0 * remainder / (from + root)
             } else {
                 0.0
             };
             return values[index] + part.clamp(0.0, 1.0) * (values[index + 1] - values[index]);
         }
-        rest -= cell;
+        remainder -= cell;
     }
     values[values.len() - 1]
 }
@@ -549,153 +623,153 @@ pub struct CurveOfEnsemble {
     pub foreign: bool,
 }
 
-/// Table of computed curves with the polynomials learned from it.
-pub(crate) struct Compared {
-    polynomials: Learned,
+/// Predictions of the parameters of computed and of measured curves, by polynomials that are
+/// learned from a table.
+pub(crate) struct Predictions {
+    polynomials: Polynomials,
     has_one_modulus: bool,
     /// Predicted ln γ and ln E* of each random profile at each node.
-    pub learned: Vec<Vec<[f64; 2]>>,
+    pub of_lines: Vec<Vec<[f64; 2]>>,
+    /// Scatter of the predictions over the random profiles.
     pub scatter: Scatter,
     likelihood: Likelihood,
     /// Predicted ln γ and ln E* of each measured curve.
     of_curves: Vec<[f64; 2]>,
 }
 
-impl Compared {
-    pub fn new(table: &Table, measured: &Measured, known: Option<f64>) -> Self {
-        let places: Vec<Place> = table.places().collect();
-        let curves: Vec<_> = table
-            .lines
-            .iter()
-            .enumerate()
-            .flat_map(|(line, curves)| {
-                let of = curves.iter().zip(&places);
-                of.map(move |(curve, place)| {
-                    (
-                        line as u64,
-                        measured.described(*curve, line),
-                        place.parameters(),
-                    )
-                })
-            })
-            .collect();
-        let polynomials = Learned::from(&curves);
+impl Predictions {
+    /// Learns from a table. `known` is ln E* if it is given.
+    pub fn new(table: &Table, measured: &Measurement, known: Option<f64>) -> Self {
+        let examples = examples(table, measured);
+        let polynomials = Polynomials::learned(&examples);
         let has_one_modulus = table.moduli.len() == 1;
-        let of_line = |(line, described, _): &(u64, Described, [f64; 2])| {
-            alone(polynomials.of_line(*line, described), has_one_modulus)
-        };
-        let learned: Vec<Vec<[f64; 2]>> = curves
-            .chunks(places.len())
-            .map(|line| line.iter().map(of_line).collect())
-            .collect();
-        let scatter = Scatter::of(table, |line, node| learned[line][node]);
-        let likelihood = Likelihood::new(table, &scatter, known);
-        let of_curve = |(index, curve): (usize, &Summaries)| {
-            alone(
-                polynomials.of_curve(&measured.described(*curve, index)),
-                has_one_modulus,
-            )
-        };
-        let of_curves = measured
-            .summaries
-            .iter()
-            .enumerate()
-            .map(of_curve)
-            .collect();
-        Compared {
+        let mut of_lines = Vec::with_capacity(table.lines.len());
+        for line in examples.chunks(table.places().len()) {
+            let predict = |example: &Example| {
+                let prediction = polynomials.of_line(example.line, &example.description);
+                without_modulus_if(has_one_modulus, prediction)
+            };
+            of_lines.push(line.iter().map(predict).collect::<Vec<_>>());
+        }
+        let mut of_curves = Vec::with_capacity(measured.summaries.len());
+        for (index, summaries) in measured.summaries.iter().enumerate() {
+            let prediction = polynomials.of_curve(&measured.describe(*summaries, index));
+            of_curves.push(without_modulus_if(has_one_modulus, prediction));
+        }
+        let scatter = Scatter::of(table, |line, node| of_lines[line][node]);
+        Predictions {
+            likelihood: Likelihood::new(table, &scatter, known),
             polynomials,
             has_one_modulus,
-            learned,
+            of_lines,
             scatter,
-            likelihood,
             of_curves,
         }
     }
 
     /// Predicts ln γ and ln E* of another computed curve of a random profile.
-    pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measured) -> [f64; 2] {
-        let described = measured.described(*curve, line);
-        alone(
-            self.polynomials.of_line(line as u64, &described),
-            self.has_one_modulus,
-        )
+    pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measurement) -> [f64; 2] {
+        let description = measured.describe(*curve, line);
+        let prediction = self.polynomials.of_line(line as u64, &description);
+        without_modulus_if(self.has_one_modulus, prediction)
+    }
+
+    /// Returns the mean prediction over the measured curves.
+    fn mean_of_curves(&self) -> [f64; 2] {
+        [WORK, MODULUS].map(|parameter| {
+            let values = self.of_curves.iter().map(|values| values[parameter]);
+            mean(&values.collect::<Vec<f64>>())
+        })
     }
 
     /// Returns the probability of the parameters given all measured curves.
-    pub fn posterior(&self, measured: &Measured) -> Posterior {
-        let of = |index: usize| {
-            mean(
-                &self
-                    .of_curves
-                    .iter()
-                    .map(|of| of[index])
-                    .collect::<Vec<_>>(),
-            )
-        };
-        self.likelihood
-            .posterior([of(0), of(1)], measured.summaries.len() as f64)
+    pub fn posterior(&self) -> Posterior {
+        let curves = self.of_curves.len() as f64;
+        self.likelihood.posterior(self.mean_of_curves(), curves)
     }
 
     /// Returns the standard deviation of the measured curves divided by the standard deviation of
-    /// the random profiles.
-    pub fn scatter_ratio(&self, measured: &Measured, best: Place) -> Option<f64> {
+    /// the random profiles; `None` for few curves.
+    pub fn scatter_ratio(&self, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
-        let inverse = self.scatter.at(best).inverse().0;
-        let centre = [0, 1].map(|index| {
-            mean(
-                &self
-                    .of_curves
-                    .iter()
-                    .map(|of| of[index])
-                    .collect::<Vec<_>>(),
-            )
-        });
-        let sum: f64 = self
+        if count < FEWEST_FOR_SCATTER {
+            return None;
+        }
+        let inverse = self.scatter.at(best).inverse();
+        let centre = self.mean_of_curves();
+        let distances = self
             .of_curves
             .iter()
-            .map(|of| distance(centre, inverse, *of))
-            .sum();
+            .map(|values| inverse.squared_distance(centre, *values));
+        let sum: f64 = distances.sum();
         let values = if self.has_one_modulus { 1.0 } else { 2.0 };
-        (measured.summaries.len() >= FEWEST_FOR_SCATTER)
-            .then(|| (sum / (count as f64 - 1.0) / values).sqrt())
+        Some((sum / (count as f64 - 1.0) / values).sqrt())
     }
 
     /// Returns the results of each curve used without the others.
     pub fn rows(
         &self,
         curves: &[(String, MeasuredCurve)],
-        measured: &Measured,
+        measured: &Measurement,
         best: Place,
     ) -> Vec<CurveOfEnsemble> {
-        let moments = self.scatter.at(best);
-        let inverse = moments.inverse().0;
-        let row = |(index, (name, _)): (usize, &(String, MeasuredCurve))| {
-            let (of, at) = (measured.summaries[index], self.of_curves[index]);
-            let posterior = self.likelihood.posterior(at, 1.0);
-            let away =
-                distance(moments.mean, inverse, at) / (1.0 + 1.0 / self.learned.len() as f64);
-            CurveOfEnsemble {
+        let mut rows = Vec::with_capacity(curves.len());
+        for (index, (name, _)) in curves.iter().enumerate() {
+            let summaries = &measured.summaries[index];
+            let protocol = &measured.protocols[index];
+            let pull_off = summaries[PULL_OFF].exp();
+            let posterior = self.likelihood.posterior(self.of_curves[index], 1.0);
+            rows.push(CurveOfEnsemble {
                 name: name.clone(),
                 preload: measured.preloads[index],
-                pull_off_force: Some(of[PULL_OFF].exp())
-                    .filter(|force| *force > LEAST_PULL_OFF * measured.protocols[index].noise),
-                loop_area: of[LOOP_AREA].exp(),
-                stiffness: 0.5 * measured.protocols[index].preload / of[WAY_TO_HALF].exp(),
-                work: posterior.estimate(0),
+                pull_off_force: (pull_off > LEAST_PULL_OFF * protocol.noise).then_some(pull_off),
+                loop_area: summaries[LOOP_AREA].exp(),
+                stiffness: 0.5 * protocol.preload / summaries[WAY_TO_HALF].exp(),
+                work: posterior.estimate(WORK),
                 at_end_of_table: !posterior.beyond().is_empty(),
-                foreign: away > FOREIGN[usize::from(!self.has_one_modulus)],
-            }
+                foreign: self.is_foreign(index, best),
+            });
+        }
+        rows
+    }
+
+    /// Returns true if a measured curve is far from the random profiles at the best place.
+    fn is_foreign(&self, index: usize, best: Place) -> bool {
+        let moments = self.scatter.at(best);
+        let inverse = moments.inverse();
+        let distance = inverse.squared_distance(moments.mean, self.of_curves[index]);
+        let relative = distance / (1.0 + 1.0 / self.of_lines.len() as f64);
+        let most = if self.has_one_modulus {
+            FOREIGN_OF_WORK
+        } else {
+            FOREIGN_OF_BOTH
         };
-        curves.iter().enumerate().map(row).collect()
+        relative > most
     }
 }
 
-/// Returns the predicted values, with 0 for the second one if the table has one modulus.
-fn alone(values: [f64; 2], has_one_modulus: bool) -> [f64; 2] {
+/// Returns the computed curves of a table, line by line.
+fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
+    let places = table.places();
+    let mut examples = Vec::with_capacity(table.lines.len() * places.len());
+    for (line, curves) in table.lines.iter().enumerate() {
+        for (curve, place) in curves.iter().zip(&places) {
+            examples.push(Example {
+                line: line as u64,
+                description: measured.describe(*curve, line),
+                parameters: place.parameters(),
+            });
+        }
+    }
+    examples
+}
+
+/// Returns a prediction, with 0 for ln E* if the table has one modulus.
+fn without_modulus_if(has_one_modulus: bool, prediction: [f64; 2]) -> [f64; 2] {
     if has_one_modulus {
-        [values[0], 0.0]
+        [prediction[WORK], 0.0]
     } else {
-        values
+        prediction
     }
 }
 
@@ -711,12 +785,12 @@ mod tests {
         let mut generator = ChaCha8Rng::seed_from_u64(1);
         let mut random = || {
             let summaries: Summaries = std::array::from_fn(|_| generator.random_range(-1.0..1.0));
-            Described {
+            Description {
                 summaries,
                 preload: Some(generator.random_range(5.0..6.0)),
             }
         };
-        let parameters = |of: &Described| {
+        let parameters = |of: &Description| {
             let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
             [3.0 + one - 2.0 * other * third, 7.0 * one * one - other]
         };
@@ -725,14 +799,14 @@ mod tests {
                 let of = random();
                 // The lines of one half are off by 1: the other half does not learn it.
                 let [work, modulus] = parameters(&of);
-                (
-                    index % 16,
-                    of,
-                    [work + f64::from(u8::from(index % 2 == 0)), modulus],
-                )
+                Example {
+                    line: index % 16,
+                    description: of,
+                    parameters: [work + f64::from(u8::from(index % 2 == 0)), modulus],
+                }
             })
             .collect();
-        let learned = Learned::from(&curves);
+        let learned = Polynomials::learned(&curves);
         let of = random();
         let [work, modulus] = parameters(&of);
         for (found, expected) in [
@@ -765,7 +839,7 @@ mod tests {
             moduli,
             lines: Vec::new(),
         };
-        let places: Vec<Place> = table.places().collect();
+        let places: Vec<Place> = table.places();
         table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
         // Two uncorrelated values of each profile, of this standard deviation.
         let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();

@@ -5,8 +5,9 @@ use crate::error::{ExperimentError, refused};
 use asperity_data::{mean, median, standard_deviation};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Smallest number of points of a branch, and of its part without contact.
+/// Smallest number of points of a branch.
 const FEWEST: usize = 20;
+/// Smallest number of points of the part of a branch without contact.
 const FEWEST_FREE: usize = 5;
 /// Mean force at the end of the retraction, in standard deviations of its noise, above which the
 /// body is still in contact.
@@ -32,22 +33,31 @@ pub(crate) const NAMES: [&str; SUMMARIES] = [
     "largest tension on approach",
     "work of the tension on approach",
 ];
-/// Indices of the summaries that the result gives in their units.
+/// Index of the pull-off force in the summaries.
 pub(crate) const PULL_OFF: usize = 0;
+/// Index of the area of the loop in the summaries.
 pub(crate) const LOOP_AREA: usize = 1;
+/// Index of the way back to half of the preload in the summaries.
 pub(crate) const WAY_TO_HALF: usize = 3;
-/// Smallest pull-off force, smallest tension that does work, and largest force after loss of
-/// contact, in units of the noise.
+/// Smallest pull-off force, in units of the noise.
 const FLOOR: f64 = 3.0;
+/// Smallest tension that does work, in units of the noise.
 const TENSION: f64 = 2.0;
+/// Largest force after loss of contact, in units of the noise.
 const LOST: f64 = 5.0;
 /// Scatter of the preloads divided by the scatter due to noise, above which the preloads differ.
 const DIFFERENT: f64 = 2.0;
 /// Factor within which the noise of all curves must agree to be replaced by the median.
 const ONE_NOISE: f64 = 1.5;
 
-/// Displacement relative to the turning point in m, at most about 0, and the force in N.
-pub(crate) type Point = (f64, f64);
+/// Point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    /// Displacement relative to the turning point, m, at most about 0.
+    pub displacement: f64,
+    /// Force, N.
+    pub force: f64,
+}
 
 /// Approach and first retraction of a curve, each in the order of time.
 pub(crate) struct Branches {
@@ -66,41 +76,29 @@ impl Branches {
     /// # Errors
     /// The curve lacks an approach or a retraction, or ends before the contact is lost.
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
-        let turn = curve.turns[0];
-        let branch = |number: usize| -> Vec<Point> {
-            let of = curve
-                .points()
-                .zip(&curve.segment)
-                .filter(|(_, segment)| **segment == number);
-            of.map(|((displacement, force), _)| (displacement - turn, force))
-                .collect()
-        };
-        let (mut approach, mut retraction) = (branch(0), branch(1));
+        let mut approach = branch_of(curve, 0);
+        let mut retraction = branch_of(curve, 1);
         if approach.len().min(retraction.len()) < FEWEST || curve.free < 2 * FEWEST_FREE {
+            let found = "no approach and retraction of at least 20 points each";
             let allowed = "an approach, which begins before contact, and its retraction";
-            return refused(
-                "no approach and retraction of at least 20 points each",
-                allowed,
-            );
+            return refused(found, allowed);
         }
         // The first contacts of a rough body are weak, and may lie in the part that seems to be
         // free.
         let free = curve.free / 2;
-        let before: Vec<f64> = approach[..free.min(approach.len())]
-            .iter()
-            .map(|point| point.1)
-            .collect();
+        let before = &approach[..free.min(approach.len())];
+        let before: Vec<f64> = before.iter().map(|point| point.force).collect();
         let zero = mean(&before);
         let points = approach.iter().chain(&retraction);
         let largest = points
-            .map(|point| (point.1 - zero).abs())
+            .map(|point| (point.force - zero).abs())
             .fold(0.0, f64::max);
         let noise = standard_deviation(&before, zero).max(LEAST_NOISE * largest);
-        let zero = if curve.is_estimated[0] { zero } else { 0.0 };
-        [&mut approach, &mut retraction]
-            .into_iter()
-            .flatten()
-            .for_each(|point| point.1 -= zero);
+        if curve.is_estimated[0] {
+            for point in approach.iter_mut().chain(&mut retraction) {
+                point.force -= zero;
+            }
+        }
         let branches = Branches {
             approach,
             retraction,
@@ -108,35 +106,45 @@ impl Branches {
             free,
         };
         if branches.ends_in_contact() {
-            return refused(
-                "the retraction ends before contact is lost",
-                "a retraction until the force is zero",
-            );
+            let found = "the retraction ends before contact is lost";
+            return refused(found, "a retraction until the force is zero");
         }
         Ok(branches)
     }
 
     fn ends_in_contact(&self) -> bool {
         let end = &self.retraction[self.retraction.len() - FEWEST_FREE..];
-        let mean = end.iter().map(|point| point.1).sum::<f64>() / FEWEST_FREE as f64;
-        let largest = self
-            .retraction
-            .iter()
-            .map(|point| point.1.abs())
-            .fold(0.0, f64::max);
-        mean.abs()
-            > (IN_CONTACT * self.noise / (FEWEST_FREE as f64).sqrt()).max(NEAR_ZERO * largest)
+        let mean = end.iter().map(|point| point.force).sum::<f64>() / FEWEST_FREE as f64;
+        let forces = self.retraction.iter().map(|point| point.force.abs());
+        let largest = forces.fold(0.0, f64::max);
+        let error = self.noise / (FEWEST_FREE as f64).sqrt();
+        mean.abs() > (IN_CONTACT * error).max(NEAR_ZERO * largest)
     }
 
     /// Returns the force at the turning point in N, as the mean over the ends of both branches.
     pub fn preload(&self) -> f64 {
-        0.5 * (self.approach[self.approach.len() - 1].1 + self.retraction[0].1)
+        0.5 * (self.approach[self.approach.len() - 1].force + self.retraction[0].force)
     }
 
     /// Returns the standard deviation of the preload due to the noise, in N.
     pub fn preload_error(&self) -> f64 {
         self.noise * FRAC_1_SQRT_2
     }
+}
+
+/// Returns the points of a segment of a curve.
+fn branch_of(curve: &MeasuredCurve, number: usize) -> Vec<Point> {
+    let turn = curve.turns[0];
+    let mut branch = Vec::new();
+    for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
+        if *segment == number {
+            branch.push(Point {
+                displacement: displacement - turn,
+                force,
+            });
+        }
+    }
+    branch
 }
 
 /// Natural logarithms of forces in N, distances in m and energies in J.
@@ -146,43 +154,53 @@ pub(crate) type Summaries = [f64; SUMMARIES];
 /// turning point, so that the displacement at first touch has no effect. Places between points are
 /// interpolated, because summaries that count points would change in steps with the parameters.
 pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
-    let Branches {
-        approach,
-        retraction,
-        noise,
-        ..
-    } = branches;
-    let backwards: Vec<Point> = approach.iter().rev().copied().collect();
-    let range = retraction[0].0 - retraction[retraction.len() - 1].0;
-    let spacing = range.abs() / retraction.len() as f64;
+    let approach = &branches.approach;
+    let retraction = &branches.retraction;
+    let noise = branches.noise;
+    let back_from_turn: Vec<Point> = approach.iter().rev().copied().collect();
+    let count = retraction.len() as f64;
+    let range = retraction[0].displacement - retraction[retraction.len() - 1].displacement;
+    let spacing = range.abs() / count;
     let least_force = FLOOR * noise;
     // Noise of an integral over all points.
-    let least_work = least_force * spacing * (retraction.len() as f64).sqrt();
-    let way = |branch: &[Point], level: f64| (-below(branch, level)).max(spacing);
-    let (deepest, place) = largest_tension(retraction);
-    let area = work(approach, |force| force) + work(retraction, |force| force);
+    let least_work = least_force * spacing * count.sqrt();
     let tension = |force: f64| (-force - TENSION * noise).max(0.0);
+
+    let pull_off = largest_tension(retraction);
+    let loop_area = work(approach, |force| force) + work(retraction, |force| force);
+    let work_on_retraction = -work(retraction, tension);
+    let way_to_half = -below(retraction, 0.5 * preload);
+    let way_from_half = -below(&back_from_turn, 0.5 * preload);
+    let way_to_zero = -below(retraction, 0.0);
+    let way_from_tenth = -below(&back_from_turn, 0.1 * preload);
+    let way_to_pull_off = -pull_off.displacement;
+    let way_to_loss = -loss(retraction, LOST * noise);
+    let tension_on_approach = largest_tension(approach).force;
+    let work_on_approach = work(approach, tension);
     [
-        deepest.max(least_force),
-        area.max(least_work),
-        (-work(retraction, tension)).max(least_work),
-        way(retraction, 0.5 * preload),
-        way(&backwards, 0.5 * preload),
-        way(retraction, 0.0),
-        way(&backwards, 0.1 * preload),
-        (-place).max(spacing),
-        (-loss(retraction, LOST * noise)).max(spacing),
-        largest_tension(approach).0.max(least_force),
-        work(approach, tension).max(least_work),
+        pull_off.force.max(least_force),
+        loop_area.max(least_work),
+        work_on_retraction.max(least_work),
+        way_to_half.max(spacing),
+        way_from_half.max(spacing),
+        way_to_zero.max(spacing),
+        way_from_tenth.max(spacing),
+        way_to_pull_off.max(spacing),
+        way_to_loss.max(spacing),
+        tension_on_approach.max(least_force),
+        work_on_approach.max(least_work),
     ]
     .map(f64::ln)
 }
 
 /// Integrates a function of the force over the displacement, J.
-fn work(branch: &[Point], of: impl Fn(f64) -> f64) -> f64 {
+fn work(branch: &[Point], force_of: impl Fn(f64) -> f64) -> f64 {
     branch
         .windows(2)
-        .map(|pair| 0.5 * (of(pair[0].1) + of(pair[1].1)) * (pair[1].0 - pair[0].0))
+        .map(|pair| {
+            let force = 0.5 * (force_of(pair[0].force) + force_of(pair[1].force));
+            force * (pair[1].displacement - pair[0].displacement)
+        })
         .sum()
 }
 
@@ -191,7 +209,7 @@ fn work(branch: &[Point], of: impl Fn(f64) -> f64) -> f64 {
 fn below(branch: &[Point], level: f64) -> f64 {
     let next = branch
         .iter()
-        .position(|point| point.1 < level)
+        .position(|point| point.force < level)
         .unwrap_or(branch.len() - 1);
     crossing(branch[next.saturating_sub(1)], branch[next], level)
 }
@@ -201,56 +219,77 @@ fn below(branch: &[Point], level: f64) -> f64 {
 fn loss(branch: &[Point], level: f64) -> f64 {
     let last = branch
         .iter()
-        .rposition(|point| point.1.abs() > level)
+        .rposition(|point| point.force.abs() > level)
         .unwrap_or(0);
     let next = (last + 1).min(branch.len() - 1);
-    let size = |point: Point| (point.0, point.1.abs());
-    crossing(size(branch[last]), size(branch[next]), level)
+    crossing(branch[last].magnitude(), branch[next].magnitude(), level)
+}
+
+impl Point {
+    /// Returns the point with the magnitude of its force.
+    fn magnitude(self) -> Self {
+        Point {
+            force: self.force.abs(),
+            ..self
+        }
+    }
 }
 
 /// Returns the displacement between two points at which the force has a value.
 fn crossing(from: Point, to: Point, level: f64) -> f64 {
-    let change = to.1 - from.1;
+    let change = to.force - from.force;
     let share = if change == 0.0 {
         1.0
     } else {
-        ((level - from.1) / change).clamp(0.0, 1.0)
+        ((level - from.force) / change).clamp(0.0, 1.0)
     };
-    from.0 + share * (to.0 - from.0)
+    from.displacement + share * (to.displacement - from.displacement)
 }
 
-/// Returns the largest tension in N and its displacement in m, from the parabola through
-/// neighbouring points.
-fn largest_tension(branch: &[Point]) -> (f64, f64) {
-    let smallest = branch
-        .iter()
-        .enumerate()
-        .min_by(|one, other| one.1.1.total_cmp(&other.1.1));
-    let index = smallest.map_or(0, |(index, _)| index);
-    let at = branch[index];
-    let (Some(before), Some(after)) = (
-        index.checked_sub(1).map(|one| branch[one]),
-        branch.get(index + 1),
-    ) else {
-        return (-at.1, at.0);
+/// Largest tension of a branch.
+struct LargestTension {
+    /// Tension as a positive force, N.
+    force: f64,
+    /// Displacement, m.
+    displacement: f64,
+}
+
+/// Returns the largest tension, from the parabola through neighbouring points.
+fn largest_tension(branch: &[Point]) -> LargestTension {
+    let points = branch.iter().enumerate();
+    let lowest = points.min_by(|(_, point), (_, next)| point.force.total_cmp(&next.force));
+    let index = lowest.map_or(0, |(index, _)| index);
+    let point = branch[index];
+    let mut tension = LargestTension {
+        force: -point.force,
+        displacement: point.displacement,
     };
-    let bend = before.1 - 2.0 * at.1 + after.1;
+    if index == 0 || index + 1 == branch.len() {
+        return tension;
+    }
+    let before = branch[index - 1];
+    let after = branch[index + 1];
+    let bend = before.force - 2.0 * point.force + after.force;
     let share = if bend > 0.0 {
-        0.5 * (before.1 - after.1) / bend
+        0.5 * (before.force - after.force) / bend
     } else {
         0.0
     };
-    (-at.1, at.0 + 0.5 * share * (after.0 - before.0))
+    tension.displacement += 0.5 * share * (after.displacement - before.displacement);
+    tension
 }
 
 /// How a curve was measured.
 pub(crate) struct Protocol {
-    /// Measured force at the turning point, and the standard deviation of its error, N.
+    /// Measured force at the turning point, N.
     pub preload: f64,
+    /// Standard deviation of the error of the preload, N.
     pub preload_error: f64,
+    /// Standard deviation of the noise of the force, N.
     pub noise: f64,
-    /// Displacements relative to the turning point, m.
+    /// Displacements of the approach relative to the turning point, m.
     pub approach: Vec<f64>,
+    /// Displacements of the retraction relative to the turning point, m.
     pub retraction: Vec<f64>,
     /// Number of points at the beginning of the approach that give the zero of the force.
     pub free: usize,
@@ -258,39 +297,42 @@ pub(crate) struct Protocol {
 
 impl Protocol {
     pub fn of(branches: &Branches, preload: f64) -> Self {
-        let places = |branch: &[Point]| branch.iter().map(|point| point.0).collect();
         Protocol {
             preload,
             preload_error: branches.preload_error(),
             noise: branches.noise,
-            approach: places(&branches.approach),
-            retraction: places(&branches.retraction),
+            approach: displacements(&branches.approach),
+            retraction: displacements(&branches.retraction),
             free: branches.free,
         }
     }
 }
 
+fn displacements(branch: &[Point]) -> Vec<f64> {
+    branch.iter().map(|point| point.displacement).collect()
+}
+
 /// Mean of the summaries of the measured curves, and the number of curves.
-pub(crate) struct Mean {
+pub(crate) struct MeanSummaries {
     pub summaries: Summaries,
     pub curves: usize,
 }
 
 /// Summaries of a curve, and the logarithm of its preload if the preloads differ.
 #[derive(Clone, Copy)]
-pub(crate) struct Described {
+pub(crate) struct Description {
     pub summaries: Summaries,
     pub preload: Option<f64>,
 }
 
-impl Described {
+impl Description {
     pub fn values(&self) -> impl Iterator<Item = f64> {
         self.summaries.into_iter().chain(self.preload)
     }
 }
 
 /// Measured curves as their summaries.
-pub(crate) struct Measured {
+pub(crate) struct Measurement {
     pub protocols: Vec<Protocol>,
     /// Largest force of each curve, N.
     pub preloads: Vec<f64>,
@@ -300,76 +342,94 @@ pub(crate) struct Measured {
     pub summaries: Vec<Summaries>,
 }
 
-impl Measured {
+impl Measurement {
     pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {
-            let of = Branches::of(curve).map_err(|error| match error {
-                ExperimentError::Refused { found, allowed } => ExperimentError::Refused {
-                    found: format!("{name}: {found}"),
-                    allowed,
-                },
-                error => error,
-            })?;
-            if of.preload() <= of.noise {
-                return refused(
-                    format!("{name}: the force at the turning point is not above the noise"),
-                    "a preload",
-                );
-            }
-            branches.push(of);
+            branches.push(branches_of(name, curve)?);
         }
-        let noise =
-            median(&mut branches.iter().map(|of| of.noise).collect::<Vec<_>>()).unwrap_or_default();
-        let is_alike = |of: &Branches| (of.noise / noise).ln().abs() < ONE_NOISE.ln();
-        if branches.iter().all(is_alike) {
-            branches.iter_mut().for_each(|of| of.noise = noise);
-        }
+        share_noise(&mut branches);
+
         let preloads: Vec<f64> = branches.iter().map(Branches::preload).collect();
-        let average = mean(&preloads);
-        let by_noise = mean(
-            &branches
-                .iter()
-                .map(Branches::preload_error)
-                .collect::<Vec<_>>(),
-        );
-        let scatter = standard_deviation(&preloads, average);
-        let differ = curves.len() > 1 && scatter > DIFFERENT * by_noise;
-        let preload_of = |index: usize| if differ { preloads[index] } else { average };
-        let of = |(index, branches): (usize, &Branches)| summaries(branches, preload_of(index));
-        let summaries = branches.iter().enumerate().map(of).collect();
-        let of = |(index, branches): (usize, &Branches)| Protocol::of(branches, preload_of(index));
-        let protocols = branches.iter().enumerate().map(of).collect();
-        Ok(Measured {
+        let preload_errors: Vec<f64> = branches.iter().map(Branches::preload_error).collect();
+        let mean_preload = mean(&preloads);
+        let scatter = standard_deviation(&preloads, mean_preload);
+        let preloads_differ = curves.len() > 1 && scatter > DIFFERENT * mean(&preload_errors);
+
+        let mut all_summaries = Vec::with_capacity(curves.len());
+        let mut protocols = Vec::with_capacity(curves.len());
+        for (branches, own_preload) in branches.iter().zip(&preloads) {
+            let preload = if preloads_differ {
+                *own_preload
+            } else {
+                mean_preload
+            };
+            all_summaries.push(summaries(branches, preload));
+            protocols.push(Protocol::of(branches, preload));
+        }
+        Ok(Measurement {
             protocols,
-            preload_scatter: differ.then(|| scatter / average),
             preloads,
-            summaries,
+            preload_scatter: preloads_differ.then(|| scatter / mean_preload),
+            summaries: all_summaries,
         })
     }
 
-    pub fn mean(&self) -> Mean {
-        let of = |index: usize| {
-            mean(
-                &self
-                    .summaries
-                    .iter()
-                    .map(|of| of[index])
-                    .collect::<Vec<_>>(),
-            )
-        };
-        Mean {
-            summaries: std::array::from_fn(of),
+    pub fn mean(&self) -> MeanSummaries {
+        let mut means = Summaries::default();
+        for (index, mean_value) in means.iter_mut().enumerate() {
+            let values: Vec<f64> = self.summaries.iter().map(|row| row[index]).collect();
+            *mean_value = mean(&values);
+        }
+        MeanSummaries {
+            summaries: means,
             curves: self.summaries.len(),
         }
     }
 
-    /// Returns the summaries of a curve, with its preload if the preloads differ.
-    pub fn described(&self, summaries: Summaries, curve: usize) -> Described {
-        let preload = self
-            .preload_scatter
-            .map(|_| self.protocols[curve % self.protocols.len()].preload.ln());
-        Described { summaries, preload }
+    /// Returns the summaries of a curve, with its preload if the preloads differ. More computed
+    /// curves than measured ones repeat the protocols.
+    pub fn describe(&self, summaries: Summaries, curve: usize) -> Description {
+        let mut preload = None;
+        if self.preload_scatter.is_some() {
+            let protocol = &self.protocols[curve % self.protocols.len()];
+            preload = Some(protocol.preload.ln());
+        }
+        Description { summaries, preload }
+    }
+}
+
+/// Returns the branches of a curve. Errors begin with the name of the curve.
+fn branches_of(name: &str, curve: &MeasuredCurve) -> Result<Branches, ExperimentError> {
+    let branches = Branches::of(curve).map_err(|error| named(error, name))?;
+    if branches.preload() <= branches.noise {
+        let found = format!("{name}: the force at the turning point is not above the noise");
+        return refused(found, "a preload");
+    }
+    Ok(branches)
+}
+
+/// Returns the error with the name of a curve in front.
+fn named(error: ExperimentError, name: &str) -> ExperimentError {
+    match error {
+        ExperimentError::Refused { found, allowed } => ExperimentError::Refused {
+            found: format!("{name}: {found}"),
+            allowed,
+        },
+        other => other,
+    }
+}
+
+/// Replaces the noise of each curve by the median if all are alike, because the noise of a single
+/// curve has an error.
+fn share_noise(branches: &mut [Branches]) {
+    let mut noises: Vec<f64> = branches.iter().map(|branches| branches.noise).collect();
+    let median_noise = median(&mut noises).unwrap_or_default();
+    let is_alike = |noise: f64| (noise / median_noise).ln().abs() < ONE_NOISE.ln();
+    if branches.iter().all(|branches| is_alike(branches.noise)) {
+        for branches in branches {
+            branches.noise = median_noise;
+        }
     }
 }
 
@@ -379,15 +439,25 @@ mod tests {
 
     /// A spring of 1 N/m that presses to 100 N, and whose contact breaks at −40 N.
     fn sawtooth() -> Branches {
-        let ramp = |place: f64, end: f64| if place >= end { 100.0 + place } else { 0.0 };
-        let approach = (0..=250)
-            .map(|at| f64::from(at) - 200.5)
-            .map(|at| (at, ramp(at, -100.0)))
-            .filter(|at| at.0 < 0.0);
-        let approach: Vec<Point> = approach.chain([(0.0, 100.0)]).collect();
+        let point = |displacement: f64, end: f64| {
+            let force = if displacement >= end {
+                100.0 + displacement
+            } else {
+                0.0
+            };
+            Point {
+                displacement,
+                force,
+            }
+        };
+        let mut approach: Vec<Point> = (0..=250)
+            .map(|index| f64::from(index) - 200.5)
+            .filter(|displacement| *displacement < 0.0)
+            .map(|displacement| point(displacement, -100.0))
+            .collect();
+        approach.push(point(0.0, -100.0));
         let retraction = (0..=400)
-            .map(|at| -0.5 * f64::from(at))
-            .map(|at| (at, ramp(at, -140.0)))
+            .map(|index| point(-0.5 * f64::from(index), -140.0))
             .collect();
         Branches {
             approach,

@@ -1,7 +1,7 @@
 //! Computed curves of random profiles at the nodes of a grid over ln(γ/E*) and ln E*, with the mean
 //! and the scatter of their summaries, and the place around which the grid lies.
 
-use super::summary::{Branches, Measured, Point, Protocol, SUMMARIES, Summaries, summaries};
+use super::summary::{Branches, Measurement, Point, Protocol, SUMMARIES, Summaries, summaries};
 use crate::error::ExperimentError;
 use crate::fit::model::Sampling;
 use asperity_contact::motion::{Body, MovingBody};
@@ -28,13 +28,21 @@ const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
 const SEEDS_OF_SCENE: u64 = 1 << 32;
 /// Smallest force at a turning point, divided by the preload.
 const LEAST_TURN: f64 = 0.5;
-/// Number of random profiles of the coarse table, its steps in ln(γ/E*) and ln E*, and numbers of
-/// nodes.
-const LINES: u64 = 8;
-const STEPS: [f64; 2] = [0.8, 0.7];
-const NODES: [usize; 2] = [13, 7];
-/// Number of places between two nodes, and number of coarse tables.
+/// Number of random profiles of the coarse table.
+const COARSE_LINES: u64 = 8;
+/// Nodes of the coarse table in ln(γ/E*).
+const COARSE_RANGES: Axis = Axis {
+    step: 0.8,
+    nodes: 13,
+};
+/// Nodes of the coarse table in ln E*.
+const COARSE_MODULI: Axis = Axis {
+    step: 0.7,
+    nodes: 7,
+};
+/// Number of places between two nodes of the coarse table.
 const FINE_STEPS: usize = 6;
+/// Number of coarse tables.
 const MOST_MOVES: usize = 4;
 /// Largest κ = √(h⟨∇z⟩E*/γ) of the first table. The smallest is about 1.
 const HIGHEST_KAPPA: f64 = 80.0;
@@ -100,12 +108,12 @@ impl Specimen<'_> {
                     return Err(ContactError::Interrupted.into());
                 }
                 let scale = modulus.exp() / contact.effective_modulus();
-                let loop_ = Loop {
+                let force_loop = ForceLoop {
                     stiffness: self.stiffness / scale,
                     scale,
                     protocol,
                 };
-                let branches = loop_.branches(&mut approach, &mut noise)?;
+                let branches = force_loop.branches(&mut approach, &mut noise)?;
                 all.push(summaries(&branches, protocol.preload));
             }
             all[first..].reverse();
@@ -117,29 +125,29 @@ impl Specimen<'_> {
 /// Returns the seed of a random profile of the table. Another seed of the scene gives other
 /// profiles.
 pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
-    let of_scene = scene
-        .seed()
-        .unwrap_or_default()
-        .wrapping_mul(SEEDS_OF_SCENE);
-    FIRST_SEED.wrapping_add(of_scene).wrapping_add(line)
+    let seed = scene.seed().unwrap_or_default();
+    FIRST_SEED
+        .wrapping_add(seed.wrapping_mul(SEEDS_OF_SCENE))
+        .wrapping_add(line)
 }
 
 /// One computed curve. Forces and the stiffness of the instrument are in units of `scale`.
-struct Loop<'a> {
+struct ForceLoop<'a> {
     stiffness: f64,
     scale: f64,
     protocol: &'a Protocol,
 }
 
-impl Loop<'_> {
+impl ForceLoop<'_> {
     /// Presses the body, which is on its approach, to the preload, where it stays. The measured
     /// preload has an error by the noise, and so the force at which the body turns differs from it.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
-        let turning_force =
-            (protocol.preload + noise.of_preload).max(LEAST_TURN * protocol.preload);
+        let least_force = LEAST_TURN * protocol.preload;
+        let turning_force = (protocol.preload + noise.of_preload).max(least_force);
         body.move_to(Move::ToForce(turning_force / self.scale))?;
-        let (approach, turn) = (body.leg(), body.point().indentation);
+        let approach = body.leg();
+        let turn = body.point().indentation;
         let retraction = approach.turn(turn)?;
         let sampling = Sampling {
             stiffness: self.stiffness,
@@ -148,63 +156,61 @@ impl Loop<'_> {
         };
         let pressed = sampling.over(&approach, [0.0, turn], 1, Some(CurvePoint::default()))?;
         let pulled = sampling.pull(&retraction, turn)?;
-        let top = pressed
-            .points()
-            .last()
-            .map_or(turn, |point| point.displacement);
-        let force = |curve: &DisplacementCurve, place: f64| {
-            curve.at(top + place).map_or_else(
-                // At the turning point itself, by rounding.
-                || {
-                    if place > -1e-9 * top.abs() {
-                        turning_force
-                    } else {
-                        0.0
-                    }
-                },
-                |point| self.scale * point.force,
-            )
+
+        let top = match pressed.points().last() {
+            Some(point) => point.displacement,
+            None => turn,
         };
-        let approach: Vec<Point> = protocol
-            .approach
-            .iter()
-            .enumerate()
-            .map(|(index, &place)| (place, force(&pressed, place) + noise.at(index)))
-            .collect();
-        let first = approach.len();
-        let end = pulled
-            .points()
-            .last()
-            .map_or(0.0, |point| point.displacement)
-            - top;
-        let (count, last) = (
-            protocol.retraction.len(),
-            protocol.retraction[protocol.retraction.len() - 1],
-        );
-        let step = (last - protocol.retraction[0]) / (count - 1) as f64;
-        // A retraction that is too short for this curve goes on until contact is lost.
-        let more = if end < last {
-            (((end - last) / step) as usize + 4).min(LONGEST * count)
-        } else {
-            0
+        let end = match pulled.points().last() {
+            Some(point) => point.displacement - top,
+            None => -top,
         };
-        let beyond = (1..=more).map(|index| last + step * index as f64);
-        let places = protocol
-            .retraction
-            .iter()
-            .copied()
-            .chain(beyond)
-            .enumerate();
-        let retraction = places
-            .map(|(index, place)| (place, force(&pulled, place) + noise.at(first + index)))
-            .collect();
-        Ok(Branches {
-            approach,
-            retraction,
+        let force_at = |curve: &DisplacementCurve, displacement: f64| {
+            if let Some(point) = curve.at(top + displacement) {
+                return self.scale * point.force;
+            }
+            // The turning point itself may lie beyond the curve by rounding.
+            let is_turn = displacement > -1e-9 * top.abs();
+            if is_turn { turning_force } else { 0.0 }
+        };
+        let mut branches = Branches {
+            approach: Vec::with_capacity(protocol.approach.len()),
+            retraction: Vec::with_capacity(protocol.retraction.len()),
             noise: protocol.noise,
             free: protocol.free,
-        })
+        };
+        for &displacement in &protocol.approach {
+            let force = force_at(&pressed, displacement) + noise.at(branches.approach.len());
+            branches.approach.push(Point {
+                displacement,
+                force,
+            });
+        }
+        let first = branches.approach.len();
+        for displacement in until_loss(&protocol.retraction, end) {
+            let index = first + branches.retraction.len();
+            let force = force_at(&pulled, displacement) + noise.at(index);
+            branches.retraction.push(Point {
+                displacement,
+                force,
+            });
+        }
+        Ok(branches)
     }
+}
+
+/// Returns the displacements of a retraction. If they do not reach the end of a computed curve,
+/// they go on until contact is lost.
+fn until_loss(retraction: &[f64], end: f64) -> Vec<f64> {
+    let mut displacements = retraction.to_vec();
+    let count = retraction.len();
+    let last = retraction[count - 1];
+    if end < last {
+        let step = (last - retraction[0]) / (count - 1) as f64;
+        let more = (((end - last) / step) as usize + 4).min(LONGEST * count);
+        displacements.extend((1..=more).map(|index| last + step * index as f64));
+    }
+    displacements
 }
 
 /// Normally distributed noise of a curve, the same for all places of the table. Its mean before
@@ -221,23 +227,24 @@ struct Noise {
 impl Noise {
     fn new(seed: u64, protocol: &Protocol) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
-        let of_preload = protocol.preload_error * normal_pair(&mut generator)[0];
+        let [of_preload, _] = normal_pair(&mut generator);
         let mut noise = Noise {
             generator,
             deviation: protocol.noise,
             values: Vec::new(),
             zero: 0.0,
-            of_preload,
+            of_preload: protocol.preload_error * of_preload,
         };
         let free = protocol.free.max(1);
-        noise.zero = (0..free).map(|index| noise.at(index)).sum::<f64>() / free as f64;
+        let sum: f64 = (0..free).map(|index| noise.at(index)).sum();
+        noise.zero = sum / free as f64;
         noise
     }
 
     fn at(&mut self, index: usize) -> f64 {
         while self.values.len() <= index {
-            self.values
-                .extend(normal_pair(&mut self.generator).map(|value| self.deviation * value));
+            let pair = normal_pair(&mut self.generator);
+            self.values.extend(pair.map(|value| self.deviation * value));
         }
         self.values[index] - self.zero
     }
@@ -245,10 +252,10 @@ impl Noise {
 
 /// Returns two independent values with the standard normal distribution (Box and Muller).
 fn normal_pair(generator: &mut ChaCha8Rng) -> [f64; 2] {
-    let [one, other]: [f64; 2] = [generator.random(), generator.random()];
-    let size = (-2.0 * (1.0 - one).ln()).sqrt();
-    let (sine, cosine) = (std::f64::consts::TAU * other).sin_cos();
-    [size * cosine, size * sine]
+    let [for_radius, for_angle]: [f64; 2] = [generator.random(), generator.random()];
+    let radius = (-2.0 * (1.0 - for_radius).ln()).sqrt();
+    let (sine, cosine) = (std::f64::consts::TAU * for_angle).sin_cos();
+    [radius * cosine, radius * sine]
 }
 
 /// Threads that compute the curves of a table.
@@ -258,8 +265,9 @@ pub(crate) struct Workers<'a> {
     /// Folder of the files of the scene.
     pub folder: &'a Path,
     pub jobs: usize,
-    /// Number of curves computed so far, and the function that is notified of it.
+    /// Number of curves computed so far.
     pub computed: &'a AtomicUsize,
+    /// Receives the number of curves computed so far.
     pub report: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -294,6 +302,31 @@ pub(crate) fn nodes(first: f64, step: f64, count: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Step and number of the nodes of an axis of a table.
+pub(crate) struct Axis {
+    pub step: f64,
+    pub nodes: usize,
+}
+
+impl Axis {
+    fn width(&self) -> f64 {
+        (self.nodes - 1) as f64 * self.step
+    }
+
+    /// Returns the first node of an axis around a centre.
+    fn first_around(&self, centre: f64) -> f64 {
+        centre - 0.5 * self.width()
+    }
+
+    fn nodes_from(&self, first: f64) -> Vec<f64> {
+        nodes(first, self.step, self.nodes)
+    }
+
+    pub fn nodes_around(&self, centre: f64) -> Vec<f64> {
+        self.nodes_from(self.first_around(centre))
+    }
+}
+
 /// Grid of nodes, each with the summaries of the curves of all random profiles.
 pub(crate) struct Table {
     /// ln(γ/E*), ascending and evenly spaced.
@@ -317,6 +350,25 @@ impl End {
     /// Returns true for an end of the axis of E*.
     pub fn is_of_modulus(self) -> bool {
         matches!(self, End::LowModulus | End::HighModulus)
+    }
+
+    fn is_low(self) -> bool {
+        matches!(self, End::LowRange | End::LowModulus)
+    }
+
+    /// Returns `count` further nodes at this end of an axis.
+    fn nodes_beyond(self, axis: &[f64], count: usize) -> Vec<f64> {
+        let step = axis[1] - axis[0];
+        if self.is_low() {
+            nodes(axis[0] - step * count as f64, step, count)
+        } else {
+            nodes(axis[axis.len() - 1] + step, step, count)
+        }
+    }
+
+    /// Returns the index in an axis at which further nodes are inserted.
+    fn place_in(self, axis: &[f64]) -> usize {
+        if self.is_low() { 0 } else { axis.len() }
     }
 }
 
@@ -342,57 +394,68 @@ impl Table {
         end: End,
         count: usize,
     ) -> Result<(), ExperimentError> {
-        let axis = match end {
-            End::LowRange | End::HighRange => &self.ranges,
-            End::LowModulus | End::HighModulus => &self.moduli,
-        };
-        let (step, last) = (axis[1] - axis[0], axis[axis.len() - 1]);
-        let added = match end {
-            End::LowRange | End::LowModulus => nodes(axis[0] - step * count as f64, step, count),
-            End::HighRange | End::HighModulus => nodes(last + step, step, count),
-        };
-        let lines = self.lines.len() as u64;
-        match end {
-            End::LowRange | End::HighRange => {
-                let at = if end == End::LowRange {
-                    0
-                } else {
-                    self.ranges.len()
-                };
-                let new = workers.curves(lines, &added, &self.moduli)?;
-                let start = at * self.moduli.len();
-                for (line, curves) in self.lines.iter_mut().zip(new) {
-                    line.splice(start..start, curves);
-                }
-                self.ranges.splice(at..at, added);
-            }
-            End::LowModulus | End::HighModulus => {
-                let at = if end == End::LowModulus {
-                    0
-                } else {
-                    self.moduli.len()
-                };
-                let new = workers.curves(lines, &self.ranges, &added)?;
-                for (line, curves) in self.lines.iter_mut().zip(new) {
-                    let rows = line.chunks(self.moduli.len()).zip(curves.chunks(count));
-                    *line = rows
-                        .flat_map(|(old, new)| [&old[..at], new, &old[at..]].concat())
-                        .collect();
-                }
-                self.moduli.splice(at..at, added);
-            }
+        if end.is_of_modulus() {
+            self.extend_moduli(workers, end, count)
+        } else {
+            self.extend_ranges(workers, end, count)
         }
+    }
+
+    fn extend_ranges(
+        &mut self,
+        workers: &Workers<'_>,
+        end: End,
+        count: usize,
+    ) -> Result<(), ExperimentError> {
+        let added = end.nodes_beyond(&self.ranges, count);
+        let place = end.place_in(&self.ranges);
+        let new = workers.curves(self.lines.len() as u64, &added, &self.moduli)?;
+        let start = place * self.moduli.len();
+        for (line, curves) in self.lines.iter_mut().zip(new) {
+            line.splice(start..start, curves);
+        }
+        self.ranges.splice(place..place, added);
+        Ok(())
+    }
+
+    fn extend_moduli(
+        &mut self,
+        workers: &Workers<'_>,
+        end: End,
+        count: usize,
+    ) -> Result<(), ExperimentError> {
+        let added = end.nodes_beyond(&self.moduli, count);
+        let place = end.place_in(&self.moduli);
+        let new = workers.curves(self.lines.len() as u64, &self.ranges, &added)?;
+        for (line, curves) in self.lines.iter_mut().zip(new) {
+            let mut extended = Vec::with_capacity(line.len() + curves.len());
+            let rows = line.chunks(self.moduli.len()).zip(curves.chunks(count));
+            for (old, new) in rows {
+                extended.extend_from_slice(&old[..place]);
+                extended.extend_from_slice(new);
+                extended.extend_from_slice(&old[place..]);
+            }
+            *line = extended;
+        }
+        self.moduli.splice(place..place, added);
         Ok(())
     }
 
     /// Nodes in the order of the curves of a line.
-    pub fn places(&self) -> impl Iterator<Item = Place> {
-        self.ranges.iter().flat_map(|&range| {
-            self.moduli
-                .iter()
-                .map(move |&modulus| Place { range, modulus })
-        })
+    pub fn places(&self) -> Vec<Place> {
+        places(&self.ranges, &self.moduli)
     }
+}
+
+/// Returns the places of a grid, with all moduli of one range together.
+fn places(ranges: &[f64], moduli: &[f64]) -> Vec<Place> {
+    let mut places = Vec::with_capacity(ranges.len() * moduli.len());
+    for &range in ranges {
+        for &modulus in moduli {
+            places.push(Place { range, modulus });
+        }
+    }
+    places
 }
 
 /// Mean and covariance of two values over the random profiles at a place.
@@ -403,15 +466,24 @@ pub(crate) struct Moments {
     pub covariance: [f64; 3],
 }
 
+/// Inverse of a covariance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InverseCovariance {
+    /// Elements in the order of [`Moments::covariance`].
+    elements: [f64; 3],
+    /// Logarithm of the determinant of the covariance.
+    pub log_determinant: f64,
+}
+
 impl Moments {
     pub fn of(values: &[[f64; 2]]) -> Self {
         let count = values.len() as f64;
         let mean = [0, 1].map(|index| values.iter().map(|value| value[index]).sum::<f64>() / count);
-        let product = |one: usize, other: usize| {
-            let of = values
+        let product = |first: usize, second: usize| {
+            let products = values
                 .iter()
-                .map(|value| (value[one] - mean[one]) * (value[other] - mean[other]));
-            of.sum::<f64>() / (count - 1.0).max(1.0)
+                .map(|value| (value[first] - mean[first]) * (value[second] - mean[second]));
+            products.sum::<f64>() / (count - 1.0).max(1.0)
         };
         Moments {
             mean,
@@ -419,26 +491,43 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance, in the order of the field `covariance`, and the
-    /// logarithm of its determinant. A second value that does not vary is ignored.
-    pub fn inverse(&self) -> ([f64; 3], f64) {
-        let [one, both, other] = self.covariance;
-        if other == 0.0 {
-            let one = one.max(f64::MIN_POSITIVE);
-            return ([1.0 / one, 0.0, 0.0], one.ln());
+    /// Returns the inverse of the covariance. A second value that does not vary is ignored.
+    pub fn inverse(&self) -> InverseCovariance {
+        let [first, both, second] = self.covariance;
+        if second == 0.0 {
+            let first = first.max(f64::MIN_POSITIVE);
+            return InverseCovariance {
+                elements: [1.0 / first, 0.0, 0.0],
+                log_determinant: first.ln(),
+            };
         }
-        let determinant = (one * other - both * both).max(f64::MIN_POSITIVE);
-        (
-            [other / determinant, -both / determinant, one / determinant],
-            determinant.ln(),
-        )
+        let determinant = (first * second - both * both).max(f64::MIN_POSITIVE);
+        InverseCovariance {
+            elements: [
+                second / determinant,
+                -both / determinant,
+                first / determinant,
+            ],
+            log_determinant: determinant.ln(),
+        }
     }
 }
 
-/// Returns (x − mean)ᵀ Σ⁻¹ (x − mean).
-pub(crate) fn distance(mean: [f64; 2], inverse: [f64; 3], at: [f64; 2]) -> f64 {
-    let [one, other] = [at[0] - mean[0], at[1] - mean[1]];
-    inverse[0] * one * one + 2.0 * inverse[1] * one * other + inverse[2] * other * other
+impl InverseCovariance {
+    /// Returns the squared Mahalanobis distance (x − mean)ᵀ Σ⁻¹ (x − mean).
+    pub fn squared_distance(&self, mean: [f64; 2], values: [f64; 2]) -> f64 {
+        let [first, both, second] = self.elements;
+        let x = values[0] - mean[0];
+        let y = values[1] - mean[1];
+        first * x * x + 2.0 * both * x * y + second * y * y
+    }
+
+    /// Returns the product Σ⁻¹ x.
+    pub fn times(&self, values: [f64; 2]) -> [f64; 2] {
+        let [first, both, second] = self.elements;
+        let [x, y] = values;
+        [first * x + both * y, both * x + second * y]
+    }
 }
 
 /// Mean and covariance over the random profiles at all nodes.
@@ -449,45 +538,44 @@ pub(crate) struct Scatter {
     nodes: Vec<Moments>,
 }
 
-/// First of the nodes that surround a place, and their weights.
+/// First of the nodes that surround a place, and the weights of these nodes.
 struct Weights<const COUNT: usize> {
     first: usize,
-    of: [f64; COUNT],
+    weights: [f64; COUNT],
 }
 
-/// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or through
-/// all nodes of a shorter axis.
-fn weights<const COUNT: usize>(axis: &[f64], at: f64) -> Weights<COUNT> {
-    let count = COUNT.min(axis.len());
-    let next = axis.partition_point(|node| *node < at);
-    let first = next
-        .saturating_sub(count.div_ceil(2))
-        .min(axis.len() - count);
-    let mut of = [0.0; COUNT];
-    for (index, weight) in of.iter_mut().enumerate().take(count) {
-        let node = axis[first + index];
-        let others = (first..first + count).filter(|other| *other != first + index);
-        *weight = others
-            .map(|other| (at - axis[other]) / (node - axis[other]))
-            .product();
+impl<const COUNT: usize> Weights<COUNT> {
+    /// Returns the weights of the polynomial through the `COUNT` nearest nodes of an axis, or
+    /// through all nodes of a shorter axis.
+    fn new(axis: &[f64], place: f64) -> Self {
+        let count = COUNT.min(axis.len());
+        let next = axis.partition_point(|node| *node < place);
+        let first = next
+            .saturating_sub(count.div_ceil(2))
+            .min(axis.len() - count);
+        let mut weights = [0.0; COUNT];
+        for (index, weight) in weights.iter_mut().enumerate().take(count) {
+            let node = axis[first + index];
+            let others = (first..first + count).filter(|other| *other != first + index);
+            *weight = others
+                .map(|other| (place - axis[other]) / (node - axis[other]))
+                .product();
+        }
+        Weights { first, weights }
     }
-    Weights { first, of }
 }
 
 impl Scatter {
     /// Computes the moments of two values, which `value` returns for the number of a random profile
     /// and of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
-        let node = |node: usize| {
-            Moments::of(
-                &(0..table.lines.len())
-                    .map(|line| value(line, node))
-                    .collect::<Vec<_>>(),
-            )
-        };
-        let nodes = (0..table.ranges.len() * table.moduli.len())
-            .map(node)
-            .collect();
+        let count = table.ranges.len() * table.moduli.len();
+        let mut nodes = Vec::with_capacity(count);
+        for node in 0..count {
+            let lines = 0..table.lines.len();
+            let values: Vec<[f64; 2]> = lines.map(|line| value(line, node)).collect();
+            nodes.push(Moments::of(&values));
+        }
         Scatter {
             ranges: table.ranges.clone(),
             moduli: table.moduli.clone(),
@@ -495,124 +583,95 @@ impl Scatter {
         }
     }
 
+    /// Computes the moments of one summary; the second value is 0.
+    pub fn of_summary(table: &Table, index: usize) -> Self {
+        Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])
+    }
+
     /// Returns the moments at a place: the mean by cubic interpolation, the covariance by linear
     /// interpolation.
     pub fn at(&self, place: Place) -> Moments {
-        let of = |one: usize, other: usize| &self.nodes[one * self.moduli.len() + other];
         let mut moments = Moments {
             mean: [0.0; 2],
             covariance: [0.0; 3],
         };
-        let (range, modulus) = (
-            weights::<4>(&self.ranges, place.range),
-            weights::<4>(&self.moduli, place.modulus),
-        );
-        for (one, first) in range
-            .of
-            .iter()
-            .enumerate()
-            .filter(|(_, weight)| **weight != 0.0)
-        {
-            for (other, second) in modulus
-                .of
-                .iter()
-                .enumerate()
-                .filter(|(_, weight)| **weight != 0.0)
-            {
-                let node = of(range.first + one, modulus.first + other);
-                (0..2).for_each(|index| moments.mean[index] += first * second * node.mean[index]);
+        self.interpolate::<4>(place, |weight, node| {
+            for (sum, mean) in moments.mean.iter_mut().zip(node.mean) {
+                *sum += weight * mean;
             }
-        }
-        let inside = |axis: &[f64], at: f64| at.clamp(axis[0], axis[axis.len() - 1]);
-        let range = weights::<2>(&self.ranges, inside(&self.ranges, place.range));
-        let modulus = weights::<2>(&self.moduli, inside(&self.moduli, place.modulus));
-        for (one, first) in range
-            .of
-            .iter()
-            .enumerate()
-            .filter(|(_, weight)| **weight != 0.0)
-        {
-            for (other, second) in modulus
-                .of
-                .iter()
-                .enumerate()
-                .filter(|(_, weight)| **weight != 0.0)
-            {
-                let node = of(range.first + one, modulus.first + other);
-                (0..3).for_each(|index| {
-                    moments.covariance[index] += first * second * node.covariance[index]
-                });
+        });
+        let inside = Place {
+            range: clamp_to(&self.ranges, place.range),
+            modulus: clamp_to(&self.moduli, place.modulus),
+        };
+        self.interpolate::<2>(inside, |weight, node| {
+            for (sum, covariance) in moments.covariance.iter_mut().zip(node.covariance) {
+                *sum += weight * covariance;
             }
-        }
+        });
         moments
+    }
+
+    /// Calls `add` with the weights and the moments of the nodes around a place, `COUNT` along each
+    /// axis.
+    fn interpolate<const COUNT: usize>(&self, place: Place, mut add: impl FnMut(f64, &Moments)) {
+        let ranges = Weights::<COUNT>::new(&self.ranges, place.range);
+        let moduli = Weights::<COUNT>::new(&self.moduli, place.modulus);
+        for (range, of_range) in ranges.weights.iter().enumerate() {
+            if *of_range == 0.0 {
+                continue;
+            }
+            let row = (ranges.first + range) * self.moduli.len();
+            for (modulus, of_modulus) in moduli.weights.iter().enumerate() {
+                if *of_modulus != 0.0 {
+                    let node = &self.nodes[row + moduli.first + modulus];
+                    add(of_range * of_modulus, node);
+                }
+            }
+        }
     }
 }
 
+fn clamp_to(axis: &[f64], place: f64) -> f64 {
+    place.clamp(axis[0], axis[axis.len() - 1])
+}
+
 /// Finds the place, to about a step of the table, where the computed curves have the mean summaries
-/// of the measured curves.
+/// of the measured curves. `known` is ln E* if it is given.
 pub(crate) fn placed(
     workers: &Workers<'_>,
-    measured: &Measured,
+    measured: &Measurement,
     governing: &Governing,
     known: Option<f64>,
 ) -> Result<Place, ExperimentError> {
-    let target = measured.mean().summaries;
-    let of_roughness = governing
-        .amplitude
-        .map_or(0.0, |of| of.rms_height * of.rms_gradient);
-    let largest = of_roughness.max(f64::MIN_POSITIVE).ln();
+    let largest_range = match governing.amplitude {
+        Some(amplitude) => amplitude.rms_height * amplitude.rms_gradient,
+        None => 0.0,
+    };
+    let largest_range = largest_range.max(f64::MIN_POSITIVE).ln();
     let modulus = governing.effective_modulus.ln();
-    let width = |index: usize| (NODES[index] - 1) as f64 * STEPS[index];
-    let (mut low, mut soft) = (
-        largest - HIGHEST_KAPPA.powi(2).ln(),
-        modulus - 0.5 * width(1),
-    );
-    let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / LINES as f64;
-    for last in (0..MOST_MOVES).rev() {
-        let ranges = nodes(low, STEPS[0], NODES[0]);
-        let moduli = known.map_or_else(|| nodes(soft, STEPS[1], NODES[1]), |modulus| vec![modulus]);
-        let table = Table::new(workers, LINES, ranges, moduli)?;
-        let of_summary =
-            |index: usize| Scatter::of(&table, |line, node| [table.lines[line][node][index], 0.0]);
-        let scatters: Vec<Scatter> = (0..SUMMARIES).map(of_summary).collect();
-        let misfit = |place: Place| {
-            let of = |(scatter, target): (&Scatter, f64)| {
-                let moments = scatter.at(place);
-                let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
-                (moments.mean[0] - target).powi(2) / square / variance + square.ln()
-            };
-            scatters.iter().zip(target).map(of).sum::<f64>()
+    let mut low = largest_range - HIGHEST_KAPPA.powi(2).ln();
+    let mut soft = COARSE_MODULI.first_around(modulus);
+    for moves_left in (0..MOST_MOVES).rev() {
+        let ranges = COARSE_RANGES.nodes_from(low);
+        let moduli = match known {
+            Some(modulus) => vec![modulus],
+            None => COARSE_MODULI.nodes_from(soft),
         };
-        let within = |axis: &[f64]| {
-            let fine = FINE_STEPS * (axis.len() - 1);
-            let (first, last) = (axis[0], axis[axis.len() - 1]);
-            (0..=fine)
-                .map(move |index| first + (last - first) * index as f64 / fine.max(1) as f64)
-                .collect()
-        };
-        let (ranges, moduli): (Vec<f64>, Vec<f64>) = (within(&table.ranges), within(&table.moduli));
-        let places = ranges
-            .iter()
-            .flat_map(|&range| moduli.iter().map(move |&modulus| Place { range, modulus }));
-        let misfits = places.map(|place| (misfit(place), place));
-        let Some((_, best)) = misfits.min_by(|one, other| one.0.total_cmp(&other.0)) else {
+        let table = Table::new(workers, COARSE_LINES, ranges, moduli)?;
+        let Some(best) = best_place(&table, measured) else {
             break;
         };
-        let is_at_end = |axis: &[f64], at: f64, step: f64| {
-            axis.len() > 1 && (at - axis[0]).min(axis[axis.len() - 1] - at) < 0.5 * step
-        };
-        let moved = [
-            is_at_end(&table.ranges, best.range, STEPS[0]),
-            is_at_end(&table.moduli, best.modulus, STEPS[1]),
-        ];
-        if moved == [false; 2] || last == 0 {
+        let is_range_at_end = is_at_end(&table.ranges, best.range, COARSE_RANGES.step);
+        let is_modulus_at_end = is_at_end(&table.moduli, best.modulus, COARSE_MODULI.step);
+        if moves_left == 0 || !(is_range_at_end || is_modulus_at_end) {
             return Ok(best);
         }
-        if moved[0] {
-            low = best.range - 0.5 * width(0);
+        if is_range_at_end {
+            low = COARSE_RANGES.first_around(best.range);
         }
-        if moved[1] {
-            soft = best.modulus - 0.5 * width(1);
+        if is_modulus_at_end {
+            soft = COARSE_MODULI.first_around(best.modulus);
         }
     }
     Ok(Place {
@@ -621,12 +680,52 @@ pub(crate) fn placed(
     })
 }
 
+/// Returns the place of a fine grid over a table where the mean summaries agree best with the
+/// measured ones.
+fn best_place(table: &Table, measured: &Measurement) -> Option<Place> {
+    let target = measured.mean().summaries;
+    let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / COARSE_LINES as f64;
+    let scatters: Vec<Scatter> = (0..SUMMARIES)
+        .map(|index| Scatter::of_summary(table, index))
+        .collect();
+    let mut best: Option<(f64, Place)> = None;
+    for place in places(&refined(&table.ranges), &refined(&table.moduli)) {
+        let terms = scatters.iter().zip(target).map(|(scatter, target)| {
+            let moments = scatter.at(place);
+            let square = moments.covariance[0] + LEAST_SCATTER.powi(2);
+            (moments.mean[0] - target).powi(2) / square / variance + square.ln()
+        });
+        let misfit: f64 = terms.sum();
+        if best.is_none_or(|(least, _)| misfit.total_cmp(&least).is_lt()) {
+            best = Some((misfit, place));
+        }
+    }
+    best.map(|(_, place)| place)
+}
+
+/// Returns the values of an axis with further values between its nodes.
+fn refined(axis: &[f64]) -> Vec<f64> {
+    let count = FINE_STEPS * (axis.len() - 1);
+    let first = axis[0];
+    let last = axis[axis.len() - 1];
+    (0..=count)
+        .map(|index| first + (last - first) * index as f64 / count.max(1) as f64)
+        .collect()
+}
+
+/// Returns true for a place within half a step of an end of an axis with several nodes.
+fn is_at_end(axis: &[f64], place: f64, step: f64) -> bool {
+    let first = axis[0];
+    let last = axis[axis.len() - 1];
+    axis.len() > 1 && (place - first).min(last - place) < 0.5 * step
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::common::bodies::{self, Body};
     use crate::common::specimens::{curve, scene};
-    use crate::fit::ensemble::summary::NAMES;
+    use crate::fit::ensemble::summary::{Measurement, NAMES};
     use asperity_data::{mean, standard_deviation};
 
     /// A table that was extended is the larger table from the beginning, by any number of threads.
@@ -696,7 +795,7 @@ mod tests {
             moduli,
             lines: Vec::new(),
         };
-        let places: Vec<Place> = table.places().collect();
+        let places: Vec<Place> = table.places();
         table.lines = (0..2)
             .map(|line| {
                 places
@@ -730,19 +829,19 @@ mod tests {
         let values = [[1.0, 2.0], [3.0, 1.0], [2.0, 6.0], [6.0, 3.0]];
         let moments = Moments::of(&values);
         assert_eq!(moments.mean, [3.0, 3.0]);
-        let (inverse, determinant) = moments.inverse();
+        let inverse = moments.inverse();
         // The squared distances of n values sum up to their dimension times n − 1.
         let sum: f64 = values
             .iter()
-            .map(|value| distance(moments.mean, inverse, *value))
+            .map(|value| inverse.squared_distance(moments.mean, *value))
             .sum();
         assert!((sum - 6.0).abs() < 1e-12);
         let [one, both, other] = moments.covariance;
-        assert!((determinant.exp() - (one * other - both * both)).abs() < 1e-12);
+        assert!((inverse.log_determinant.exp() - (one * other - both * both)).abs() < 1e-12);
     }
 
-    /// Measured curves and computed curves of the same profiles have the same summaries, up to their
-    /// noise and a small part of the scatter over profiles.
+    /// Measured curves and computed curves of the same profiles have the same summaries, up to
+    /// their noise and a small part of the scatter over profiles.
     #[test]
     fn computed_curves_have_the_summaries_of_measured_ones() {
         const LINES: u64 = 32;
@@ -759,7 +858,7 @@ mod tests {
                     specimen.curve(&mut simulation, seed_of(&truth, line)),
                 )
             };
-            let measured = Measured::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
+            let measured = Measurement::of(&(0..LINES).map(curve).collect::<Vec<_>>()).unwrap();
             let table = Specimen {
                 scene: &truth,
                 stiffness: truth.loading_stiffness.unwrap_or(f64::INFINITY),
