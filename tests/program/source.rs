@@ -1,4 +1,5 @@
-//! The source as a whole: circles of files, names that two crates publish, words.
+//! The source as a whole: directions of imports, circles of files, names that two crates publish,
+//! words.
 
 use super::generated::root;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,6 +18,17 @@ const CRATES: [&str; 10] = [
     "experiment",
     "study",
     "report",
+];
+
+/// Rooms of crates from the ground up: each imports only earlier rooms.
+const ROOMS: [(&str, &str); 4] = [
+    ("surface", "error topography spectrum line"),
+    (
+        "scene",
+        "scene analysis reference simulation error front profile_builder accuracy",
+    ),
+    ("experiment", "error read curve fit"),
+    ("program", "explorer cli"),
 ];
 
 /// Path of a module behind its crate, as `["contact", "adhesive"]`; the program is the crate
@@ -216,6 +228,33 @@ impl Source {
             .filter(|there| there != module)
             .collect()
     }
+}
+
+#[test]
+fn rooms_import_in_one_direction() {
+    let source = Source::new();
+    let mut seen = 0;
+    for (name, rooms) in ROOMS {
+        let place = |module: &Module| {
+            let room = &module[1];
+            let found = rooms.split(' ').position(|one| one == room);
+            found.unwrap_or_else(|| panic!("{room} is not in the list of rooms of {name}"))
+        };
+        let is_inside =
+            |module: &Module| module[0] == name && module.len() > 1 && module[1] != "main";
+        for here in source.modules.keys().filter(|here| is_inside(here)) {
+            for there in source.imports(here).iter().filter(|there| is_inside(there)) {
+                seen += 1;
+                assert!(
+                    place(there) <= place(here),
+                    "{} imports {}",
+                    here.join("::"),
+                    there.join("::")
+                );
+            }
+        }
+    }
+    assert!(seen > 300, "{seen} imports");
 }
 
 #[test]

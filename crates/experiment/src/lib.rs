@@ -14,47 +14,25 @@
 //!   [`RoughnessShifts`], [`SummaryDeviation`]s and a [`CurveOfEnsemble`] for each curve.
 //! * Errors: an [`ExperimentError`] says why a curve cannot be read or fitted.
 
-mod baseline;
-mod columns;
 mod curve;
-mod ensemble;
 mod error;
 mod fit;
-mod fit_result;
-mod foreign;
-mod free;
-mod metadata;
-mod model;
-mod options;
-mod parameter;
-mod points;
-mod population;
 mod read;
-mod reason;
-mod scene;
-mod search;
-mod segment;
-mod space;
-mod start;
-mod statistics;
-mod text;
-mod zero;
 
+// Fixtures of the tests of this crate and of its executables of tests.
 #[cfg(test)]
-mod coverage;
+extern crate self as asperity_experiment;
 #[cfg(test)]
-mod made;
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 pub use curve::MeasuredCurve;
-pub use ensemble::find::fit_ensemble;
-pub use ensemble::posterior::IntervalEstimate;
-pub use ensemble::result::{
-    CurveOfEnsemble, EnsembleFit, EnsembleOptions, Prospect, RoughnessShifts, Shares,
-    SummaryDeviation,
-};
 pub use error::ExperimentError;
 pub use fit::Fit;
-pub use fit_result::{FitResult, FittedParameter};
-pub use options::{CurveOptions, Drift, Negate, Tilt};
-pub use parameter::{Free, Parameter, ParameterRow};
-pub use reason::Reason;
+pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};
+pub use fit::ensemble::posterior::{CurveOfEnsemble, IntervalEstimate};
+pub use fit::ensemble::{EnsembleFit, EnsembleOptions, Prospect, Shares, fit_ensemble};
+pub use fit::parameter::{Free, Parameter, ParameterRow};
+pub use fit::reason::Reason;
+pub use fit::result::{FitResult, FittedParameter};
+pub use read::options::{CurveOptions, Drift, Negate, Tilt};

@@ -201,7 +201,9 @@ impl Simulation {
             .map_or(0.0, |amplitude| amplitude.rms_height);
         // Measured heights are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
-        let modes = rough.and_then(|rough| rough.modes);
+        let modes = rough
+            .and_then(|rough| rough.modes)
+            .map(|modes| (modes.first, modes.last));
         if let Some(form) = &scene.form {
             form.load(&self.maker.folder, length)?;
         }

@@ -1,0 +1,393 @@
+//! The parts of a curve without contact, and the place at which the contact begins.
+
+use crate::curve::numerics::{Baseline, Extent, correlated, growing};
+use crate::curve::points::Points;
+use crate::error::{ExperimentError, refused};
+use crate::read::options::CurveOptions;
+use asperity_data::format_quantity;
+use std::ops::Range;
+
+/// Smallest number of points without contact.
+pub(crate) const FEWEST: usize = 10;
+/// Smallest number of points in contact.
+const FEWEST_IN_CONTACT: usize = 4;
+/// Least gain by a contact over a straight line. The gain is the number of points times the
+/// decrease of the logarithm of the sum of squared residuals. A smaller gain is attributed to
+/// noise.
+const GAIN: f64 = 40.0;
+/// Deviation of the last points from the line before them, in standard errors, above which these
+/// points are in contact.
+const DEVIATES: f64 = 4.0;
+/// Values of n: the last n-th of the points without contact is compared with the points before.
+const PARTS: [usize; 3] = [5, 10, 20];
+/// A segment is in contact from its first point if the slope of its beginning exceeds this share of
+/// the slope in contact, and the change of the force before contact is notable.
+const STEEP: f64 = 0.5;
+/// Share of the range of the force above which a change of the force is notable.
+const NOTABLE: f64 = 0.05;
+
+/// Reason why a segment has no part without contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NoFreePart {
+    /// The segment has too few points.
+    Few,
+    /// The segment is a straight line, with this range and this noise of the force in N.
+    Straight { range: f64, noise: f64 },
+    /// The force changes from the first point on.
+    InContact,
+}
+
+/// Returns the number of forces before contact at the beginning of a segment. The noise is assumed
+/// to be at least `least_noise`.
+///
+/// The contact begins where a straight line before it and a parabola after it describe the segment
+/// best. This place lies in the steep part of the contact. Its weak beginning is found by going
+/// back until the last points no longer deviate from the line through the points before.
+pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
+    let count = forces.len();
+    if count < 2 * FEWEST {
+        return Err(NoFreePart::Few);
+    }
+    // Residuals of a line up to each place, and of a parabola from there.
+    let before = growing(forces.iter().copied(), 2);
+    let mut after = growing(forces.iter().rev().copied(), 3);
+    after.reverse();
+    // Sums of squares below those of the least noise mean nothing.
+    let floor = count as f64 * least_noise * least_noise;
+    let residual = |place: usize| before[place - 1] + after[place] + floor;
+    let places = FEWEST..=count - FEWEST_IN_CONTACT;
+    let contact = places
+        .min_by(|place, next| residual(*place).total_cmp(&residual(*next)))
+        .unwrap_or(FEWEST);
+    let whole = before[count - 1] + floor;
+    if count as f64 * (whole / residual(contact)).ln() < GAIN {
+        return Err(NoFreePart::Straight {
+            range: range_of(forces),
+            noise: Baseline::through(forces).noise,
+        });
+    }
+
+    let free = without_weak_contact(forces, contact, least_noise);
+    if free <= FEWEST
+        || begins_steep(forces, free)
+        || begins_curved(forces, free, before[free - 1], floor)
+    {
+        return Err(NoFreePart::InContact);
+    }
+    Ok(free)
+}
+
+fn range_of(forces: &[f64]) -> f64 {
+    Extent::of(forces.iter().copied()).width()
+}
+
+/// Returns true if the force changes before contact nearly as fast as in contact.
+fn begins_steep(forces: &[f64], free: usize) -> bool {
+    let slope = Baseline::through(&forces[..free]).slope.abs();
+    let slope_in_contact = range_of(&forces[free..]) / (forces.len() - free) as f64;
+    slope > STEEP * slope_in_contact && slope * free as f64 > NOTABLE * range_of(forces)
+}
+
+/// Returns true if the part before contact is short and curved, as the beginning of a contact is.
+/// `squares` is the sum of squared residuals of its straight line.
+fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool {
+    if 10 * free >= forces.len() {
+        return false;
+    }
+    let squares_of_parabola = growing(forces[..free].iter().copied(), 3)[free - 1];
+    free as f64 * ((squares + floor) / (squares_of_parabola + floor)).ln() > GAIN
+}
+
+/// Reduces the number `free` of forces without contact until the last of these forces do not
+/// deviate from the line through the forces before.
+fn without_weak_contact(forces: &[f64], mut free: usize, least_noise: f64) -> usize {
+    while free > 2 * FEWEST {
+        let parts = PARTS.map(|part| (free / part).max(3));
+        let deviating = parts
+            .into_iter()
+            .chain([1])
+            .find(|last| end_deviates(&forces[..free], *last, least_noise));
+        let Some(last) = deviating else {
+            break;
+        };
+        free -= last.div_ceil(3);
+    }
+    free
+}
+
+/// Returns true if the mean of the last forces deviates from the line through the forces before.
+fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
+    let free = forces.len();
+    let line = Baseline::through(&forces[..free - last]);
+    let residuals = line.residuals(forces);
+    let (before, end) = residuals.split_at(free - last);
+    let count = before.len() as f64;
+    let mean = end.iter().sum::<f64>() / last as f64;
+    // The error of the line grows beyond its end.
+    let ahead = 0.5 * free as f64;
+    let variance = 1.0 / last as f64 + 1.0 / count + ahead * ahead * 12.0 / count.powi(3);
+    let error = line.noise.max(least_noise) * (correlated(before) * variance).sqrt();
+    mean.abs() > DEVIATES * error
+}
+
+/// Points without contact: at the beginning of an approach and at the end of a retraction.
+pub(crate) struct FreeParts {
+    /// Number of points before contact; `None` for a retraction without an approach, or if contact
+    /// is not found in the approach and only other segments are used.
+    pub before: Option<usize>,
+    /// Number of points after contact at the end; 0 if there are few.
+    pub after: usize,
+    /// Time and displacement of each point, as shares of the whole curve.
+    pub shares: [Vec<f64>; 2],
+}
+
+impl FreeParts {
+    /// Finds the points without contact. `averaged` is the number of points of the file that a
+    /// point averages.
+    pub fn of(
+        points: &Points,
+        options: &CurveOptions,
+        averaged: usize,
+        least_noise: f64,
+    ) -> Result<Self, ExperimentError> {
+        let count = points.force.len();
+        let approach = &points.force[points.moving(0)];
+        let is_retraction = approach.is_empty();
+        let asked = options.free_points.map(|free| free / averaged);
+        let before = match asked {
+            Some(free) if !is_retraction => Ok(free),
+            _ => free_count(approach, least_noise),
+        };
+        let after = match asked {
+            Some(free) if is_retraction => free,
+            _ => count_after_contact(points, least_noise),
+        };
+
+        let needs_approach =
+            !is_retraction && (options.segments.is_empty() || options.segments.contains(&1));
+        let deciding = if needs_approach {
+            before
+        } else {
+            before.or(Ok(after))
+        };
+        let most = if needs_approach {
+            approach.len()
+        } else {
+            count
+        };
+        let free = match deciding {
+            Ok(free) => free,
+            Err(reason) => return refuse(reason, points, approach, least_noise),
+        };
+        if !(FEWEST..most).contains(&free) {
+            let place = if needs_approach { "before" } else { "without" };
+            let found = format!("no part {place} contact: {free} of {most} points");
+            let allowed = format!("at least {FEWEST}, found or by --free-points");
+            return refused(found, allowed);
+        }
+        Ok(FreeParts {
+            before: before.ok(),
+            after,
+            shares: [shares_of_time(count), shares_of_range(&points.displacement)],
+        })
+    }
+
+    /// Returns the index range of the points without contact that give the zero and the noise.
+    pub fn base(&self) -> Range<usize> {
+        let count = self.shares[0].len();
+        match self.before {
+            Some(before) => 0..before,
+            None => count - self.after..count,
+        }
+    }
+
+    /// Returns the displacement in m at which the contact seems to begin, after the part before
+    /// contact. For a retraction without an approach it lies where compression ends, or half way to
+    /// its end.
+    pub fn contact_point(&self, points: &Points) -> f64 {
+        if let Some(before) = self.before {
+            return points.displacement[before];
+        }
+        let retraction = points.range_of(1);
+        let forces = &points.force[retraction.clone()];
+        let end = forces.len().saturating_sub(self.after).max(1);
+        let place = match forces[..end].iter().position(|force| *force <= 0.0) {
+            Some(0) => end / 2,
+            Some(crossing) => crossing,
+            None => end,
+        };
+        points.displacement[retraction.start + place.min(forces.len() - 1)]
+    }
+}
+
+fn shares_of_time(count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|index| index as f64 / (count - 1) as f64)
+        .collect()
+}
+
+fn shares_of_range(displacements: &[f64]) -> Vec<f64> {
+    let range = Extent::of(displacements.iter().copied());
+    displacements
+        .iter()
+        .map(|displacement| (displacement - range.low) / range.width())
+        .collect()
+}
+
+/// Returns the number of points after contact at the end of a curve that ends with a retraction; 0
+/// if they cannot be found.
+fn count_after_contact(points: &Points, least_noise: f64) -> usize {
+    let last = points.last_segment();
+    if last.is_multiple_of(2) {
+        return 0;
+    }
+    let forces = &points.force[points.moving(last)];
+    free_count(&reversed(forces), least_noise).unwrap_or(0)
+}
+
+fn reversed(forces: &[f64]) -> Vec<f64> {
+    forces.iter().rev().copied().collect()
+}
+
+/// Returns true if the forces of a segment end without contact.
+pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
+    let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
+        return false;
+    };
+    match free_change(forces, least_noise) {
+        Some(change_at_begin) => change_at_end < change_at_begin,
+        None => true,
+    }
+}
+
+/// Returns the change of the force in N over the part before contact, along its straight line.
+fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
+    let free = free_count(forces, least_noise).ok()?;
+    Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
+}
+
+/// Returns the error of a curve without a part before contact, according to the reason.
+fn refuse<T>(
+    reason: NoFreePart,
+    points: &Points,
+    approach: &[f64],
+    least_noise: f64,
+) -> Result<T, ExperimentError> {
+    match reason {
+        NoFreePart::Few if approach.is_empty() => refused(
+            "no part without contact after the retraction",
+            "a retraction that ends without contact",
+        ),
+        NoFreePart::Few => refused(
+            format!(
+                "{} points in the approach are too few to find the contact",
+                approach.len()
+            ),
+            format!("at least {}, or --free-points COUNT", 2 * FEWEST),
+        ),
+        NoFreePart::InContact if is_retraction_first(points, approach, least_noise) => refused(
+            "the first segment begins in contact and ends without it: a retraction",
+            "an approach first, in the order of time",
+        ),
+        NoFreePart::InContact => refused(
+            "no part before contact: the force changes from the first point on",
+            "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
+        ),
+        NoFreePart::Straight { range, noise } if range > 20.0 * noise => refused(
+            format!(
+                "no contact, or contact from the first point on: the force changes by {} along one straight line",
+                format_quantity(range, "N")
+            ),
+            "a part before contact, then another slope; --free-points COUNT for a weak contact",
+        ),
+        NoFreePart::Straight { noise, .. } => refused(
+            format!(
+                "no contact: in the approach the force stays within its noise of {}",
+                format_quantity(noise, "N")
+            ),
+            "a change by more than the noise; --free-points COUNT for a weak contact",
+        ),
+    }
+}
+
+/// Returns true if the segment that should be an approach ends without contact.
+fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
+    points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::curve::numerics::tests::noisy;
+
+    /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the
+    /// points.
+    fn hertz(count: usize, touch: f64) -> impl Iterator<Item = f64> {
+        let share =
+            move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
+        (0..count).map(move |index| share(index).powf(1.5))
+    }
+
+    /// Noise of up to 5 % of the largest force hides no contact; the later the contact is found,
+    /// the less of it exceeds the noise.
+    #[test]
+    fn contacts_are_found_under_noise() {
+        for (count, seed) in [(200, 1), (200, 2), (200, 3), (500, 4), (500, 5), (500, 6)] {
+            for noise in [0.001, 0.02, 0.05] {
+                for touch in [0.3, 0.6] {
+                    let values = noisy(hertz(count, touch), noise, seed);
+                    let free = free_count(&values, 0.0).unwrap() as f64 / count as f64;
+                    let late = touch + (1.0 - touch) * (1.5 * noise).powf(2.0 / 3.0) + 0.02;
+                    assert!(
+                        (touch - 0.15..late).contains(&free),
+                        "{count} {noise} {touch}: {free}"
+                    );
+                }
+                let snap = (0..count).map(|index| {
+                    if 2 * index < count {
+                        0.0
+                    } else {
+                        index as f64 / count as f64 - 0.95
+                    }
+                });
+                let free = free_count(&noisy(snap, noise, seed), 0.0).unwrap();
+                assert!(
+                    free.abs_diff(count / 2) <= count / 20,
+                    "{count} {noise}: {free}"
+                );
+            }
+            let flat = noisy((0..count).map(|index| 0.01 * index as f64), 1.0, seed);
+            assert!(
+                matches!(free_count(&flat, 0.0), Err(NoFreePart::Straight { .. })),
+                "{count}"
+            );
+        }
+    }
+
+    /// In a force without noise, as of a computed curve, the contact begins exactly where the force
+    /// does.
+    #[test]
+    fn a_contact_without_noise_begins_where_the_force_does() {
+        let parabola: Vec<f64> = (0..100)
+            .map(|index| (f64::from(index) - 59.0).max(0.0).powi(2))
+            .collect();
+        let free = free_count(&parabola, 0.0).unwrap();
+        assert!((59..=62).contains(&free), "{free}");
+    }
+
+    /// A weak contact, a few times the noise, long before the strong one does not count as part
+    /// without contact.
+    #[test]
+    fn weak_contact_is_not_part_of_the_noise() {
+        for seed in 1..=6 {
+            let force = |index: usize| {
+                let weak = 0.02 * (index as f64 - 250.0).max(0.0) / 100.0;
+                weak + (index as f64 - 400.0).max(0.0).powf(1.5) / 1000.0
+            };
+            let values = noisy((0..500).map(force), 0.002, seed);
+            let free = free_count(&values, 0.0).unwrap();
+            let noise = Baseline::through(&values[..free]).noise / 0.002;
+            assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
+        }
+    }
+}

@@ -1,0 +1,703 @@
+//! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing
+//! is positive.
+
+pub(crate) mod free_parts;
+pub(crate) mod numerics;
+pub(crate) mod points;
+pub(crate) mod segments;
+pub(crate) mod zero;
+
+use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
+use crate::curve::numerics::{Extent, right_angled};
+use crate::curve::points::Points;
+use crate::curve::segments::{Segments, are_shuffled};
+use crate::error::{ExperimentError, refused};
+use crate::read::Columns;
+use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
+use asperity_data::{format_quantity, grouped, mean};
+use asperity_surface::files::content;
+use std::path::Path;
+
+/// Largest number of points that a fit uses; of more points, neighbours are averaged.
+const MOST_POINTS: usize = 4096;
+const FEWEST_POINTS: usize = 4 * FEWEST;
+/// Noise that is assumed for a curve without noise, as a share of the range of the force.
+const NO_NOISE: f64 = 1e-6;
+/// Force at the end of the approach, in standard deviations of the noise. A force below this value
+/// is a tension, so the sign of the file is in doubt.
+const PULLS: f64 = -5.0;
+
+/// Measured force curve in SI units. The displacement grows when the body is pressed on. The force
+/// is positive in compression; before contact it is zero except for noise and drift.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredCurve {
+    /// Displacement of the instrument at each point, in m. If the file has only the displacement of
+    /// the body, and no stiffness of the instrument is known, these values are displacements of the
+    /// body.
+    pub displacement: Vec<f64>,
+    /// Force at each point, in N.
+    pub force: Vec<f64>,
+    /// Index, from 0, of the segment of each point. The body is pressed in segments with even
+    /// indices, and pulled in segments with odd indices.
+    pub segment: Vec<usize>,
+    /// Number of points at the beginning of the curve that lie before contact.
+    pub(crate) free: usize,
+    /// Displacement in m at which the contact begins, estimated from the force.
+    pub touch: f64,
+    /// Standard deviation of the noise of the force, N: from the points before contact, or
+    /// [`CurveOptions::noise`].
+    pub noise: f64,
+    /// Number of points of the file that are used. It is larger than the number of values of
+    /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
+    pub points: usize,
+    /// Number of points of the file that are left out because displacement or force is missing.
+    pub missing: usize,
+    /// Displacement at the end of each segment, in m.
+    pub(crate) turns: Vec<f64>,
+    /// Changes of the force that remain in the curve without contact, in N: over time, over the
+    /// displacement, and from before to after contact. A change that was not found is 0.
+    pub(crate) remaining: [f64; 3],
+    /// Time and displacement of each point, as shares of the whole curve.
+    pub(crate) shares: [Vec<f64>; 2],
+    /// Whether the zero of the force, a drift and a tilt were estimated from the points without
+    /// contact and subtracted.
+    pub(crate) is_estimated: [bool; 3],
+    /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
+    pub(crate) stiffness: Option<(String, f64)>,
+    /// Name of the column of the displacement, if the column excludes the deflection of the
+    /// instrument.
+    pub(crate) of_body: Option<String>,
+    /// Sentences on the assumptions and changes made when the curve was read, such as the columns
+    /// and units.
+    pub statements: Vec<String>,
+}
+
+impl MeasuredCurve {
+    /// Reads a curve from a file with text, CSV or a NumPy array, of at most 1 GiB. The file may be
+    /// compressed by gzip.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read or has no columns of displacement and force. It
+    /// also returns an error if the curve has no points before contact, no points in contact, or no
+    /// retraction. A curve without a retraction is allowed if [`CurveOptions::segments`] selects
+    /// only the first approach.
+    pub fn read(path: &Path, options: &CurveOptions) -> Result<Self, ExperimentError> {
+        MeasuredCurve::parse(path, &content(path)?, options)
+    }
+
+    /// Reads a curve from `bytes`, the content of a file with this name. No file is opened.
+    ///
+    /// # Errors
+    /// Returns an error in the same cases as [`MeasuredCurve::read`].
+    ///
+    /// ```
+    /// use asperity_experiment::{CurveOptions, MeasuredCurve};
+    /// use std::path::Path;
+    ///
+    /// let way = |i: i32| if i < 150 { i - 100 } else { 200 - i }; // nm
+    /// let rows: String = (0..300)
+    ///     .map(way)
+    ///     .map(|d| format!("{d},{}\n", 2 * d.max(0)))
+    ///     .collect();
+    /// let text = format!("displacement [nm],force [nN]\n{rows}");
+    /// let curve = MeasuredCurve::parse(
+    ///     Path::new("curve.csv"),
+    ///     text.as_bytes(),
+    ///     &CurveOptions::default(),
+    /// )?;
+    /// assert_eq!(curve.points().last(), Some((-99e-9, 0.0)));
+    /// assert!(curve.statements[0].contains("2 segments"));
+    /// # Ok::<(), asperity_experiment::ExperimentError>(())
+    /// ```
+    pub fn parse(
+        name: &Path,
+        bytes: &[u8],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
+        MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
+    }
+
+    /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a
+    /// value that is not finite is left out. The options `columns`, `units` and `ramp` have no
+    /// effect, because they describe a file.
+    ///
+    /// # Errors
+    /// Returns an error if the slices differ in length, or if [`MeasuredCurve::read`] would refuse
+    /// a file with this curve.
+    ///
+    /// ```
+    /// use asperity_experiment::{CurveOptions, MeasuredCurve};
+    ///
+    /// // A spring of 10 N/m that is pressed from 0 to 50 nm and released.
+    /// let way = |i: i32| 1e-9 * f64::from(if i < 150 { i - 100 } else { 200 - i });
+    /// let displacement: Vec<f64> = (0..300).map(way).collect();
+    /// let force: Vec<f64> = displacement.iter().map(|d| 10.0 * d.max(0.0)).collect();
+    /// let curve = MeasuredCurve::from_columns(&displacement, &force, &CurveOptions::default())?;
+    /// assert_eq!((curve.points, curve.segment[299]), (300, 1));
+    /// assert!(curve.touch.abs() < 2e-9 && curve.pull_off_force().is_none());
+    /// assert!(
+    ///     MeasuredCurve::from_columns(&displacement, &force[1..], &CurveOptions::default())
+    ///         .is_err()
+    /// );
+    /// # Ok::<(), asperity_experiment::ExperimentError>(())
+    /// ```
+    pub fn from_columns(
+        displacement: &[f64],
+        force: &[f64],
+        options: &CurveOptions,
+    ) -> Result<Self, ExperimentError> {
+        MeasuredCurve::prepare(Columns::of_arrays(displacement, force)?, options)
+    }
+
+    /// Returns true if the file at `path` can be read and has columns of displacement and force.
+    pub fn is_in(path: &Path) -> bool {
+        let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
+        content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
+    }
+
+    fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
+        check(&columns, options)?;
+        let left_out = columns.left_out();
+        let least_noise = NO_NOISE * Extent::of(columns.force.iter().copied()).width();
+        let mut segments = Segments::of(&columns.displacement, &columns.labels);
+        let reordered = put_in_order(&mut columns, &mut segments, least_noise);
+        let averaged = points_in_mean(&segments);
+        let mut points =
+            Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
+
+        let mut statements = columns.statements;
+        statements.extend(recognise_retraction(&mut points, options, least_noise)?);
+        let negate = points.reverse(options.negate)?;
+        let stated_stiffness = columns.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
+        let mut of_body = columns.of_body;
+        if let Some(name) = &of_body
+            && let Some(stiffness) = options.instrument.or(stated_stiffness)
+        {
+            statements.push(points.add_deflection(name, stiffness));
+            of_body = None;
+        }
+
+        let free = FreeParts::of(&points, options, averaged, least_noise)?;
+        let found_noise = free.line(&points).noise;
+        let noise = options.noise.unwrap_or(found_noise).max(least_noise);
+        let subtracted = free.subtract_lines(&mut points, options, noise)?;
+        check_sign(&points, options, noise)?;
+        let kept = kept(&points, options)?;
+
+        let mut assumed = vec![columns.assumed];
+        assumed.extend(reordered.map(str::to_owned));
+        if negate != Negate::None {
+            assumed.push(format!("{negate} reversed, so that pressing is positive"));
+        }
+        assumed.extend(counted(&points, &kept, &free, options));
+        assumed.extend(left_out);
+        assumed.extend(means_in_words(&points, averaged));
+        statements.insert(0, format!("{}.", assumed.join("; ")));
+        let noise_statement = noise_in_words(noise, options, &free);
+        statements.push(format!("{} {noise_statement}", subtracted.statement));
+        let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
+        Ok(MeasuredCurve {
+            displacement: values_of(&points.displacement),
+            force: values_of(&points.force),
+            segment: kept.iter().map(|index| points.segment[*index]).collect(),
+            free: count_before_contact(&kept, &free),
+            touch: free.contact_point(&points),
+            noise,
+            points: kept.iter().map(|index| points.counts[*index]).sum(),
+            missing: columns.missing,
+            turns: points.turns(last_turn(&points, options)),
+            remaining: subtracted.remaining,
+            shares: free.shares.each_ref().map(|shares| values_of(shares)),
+            is_estimated: is_estimated(options),
+            stiffness: columns.stiffness,
+            of_body,
+            statements,
+        })
+    }
+
+    /// Returns the displacement in m and the force in N of each point.
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.displacement
+            .iter()
+            .copied()
+            .zip(self.force.iter().copied())
+    }
+
+    /// Returns the largest tensile force during the retractions in N, as a positive number; `None`
+    /// if this force is at most 5 times the [`Self::noise`].
+    pub fn pull_off_force(&self) -> Option<f64> {
+        let points = self.force.iter().zip(&self.segment);
+        let pulled = points.filter(|(_, segment)| *segment % 2 == 1);
+        let force = -Extent::of(pulled.map(|(force, _)| *force)).low;
+        (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
+    }
+
+    /// Returns the curve with about `count` of its points, evenly chosen; `None` if it has fewer
+    /// than twice as many.
+    pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
+        let step = self.force.len() / count;
+        if step < 2 {
+            return None;
+        }
+        let thin = |values: &[f64]| values.iter().step_by(step).copied().collect::<Vec<f64>>();
+        Some(MeasuredCurve {
+            displacement: thin(&self.displacement),
+            force: thin(&self.force),
+            segment: self.segment.iter().step_by(step).copied().collect(),
+            free: self.free.div_ceil(step),
+            shares: self.shares.each_ref().map(|shares| thin(shares)),
+            turns: self.turns.clone(),
+            statements: self.statements.clone(),
+            stiffness: self.stiffness.clone(),
+            of_body: self.of_body.clone(),
+            ..*self
+        })
+    }
+
+    /// Returns orthonormal columns for the zero of the force, the removed drift and the removed
+    /// tilt, if these were estimated from the curve. Each model refines the estimates. `has_zero`
+    /// is true if the zero is a free parameter.
+    pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
+        let [time, displacement] = &self.shares;
+        let [zero, drift, tilt] = self.is_estimated;
+        let mut columns = Vec::new();
+        if zero && !has_zero {
+            columns.push(vec![1.0; time.len()]);
+        }
+        if drift {
+            columns.push(time.clone());
+        }
+        if tilt {
+            columns.push(displacement.clone());
+        }
+        right_angled(&columns)
+    }
+}
+
+/// Returns whether zero, drift and tilt are estimated from the points without contact.
+fn is_estimated(options: &CurveOptions) -> [bool; 3] {
+    let has_zero = options.zero.is_none();
+    let has_drift = options.drift == Drift::Remove;
+    let has_tilt = options.tilt == Tilt::Remove;
+    [has_zero, has_drift, has_tilt]
+}
+
+/// Returns the number of means in place of the points of the file, if several are averaged.
+fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
+    if averaged == 1 {
+        return None;
+    }
+    let means = grouped(points.force.len() as u64);
+    Some(format!("means of {averaged} points each, {means} of them"))
+}
+
+/// Returns an error for columns or options from which no curve can be made.
+fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentError> {
+    let count = columns.displacement.len();
+    if count < FEWEST_POINTS {
+        let found = format!("{count} points with displacement and force");
+        return refused(found, format!("at least {FEWEST_POINTS}"));
+    }
+    if let Some(noise) = options.noise
+        && !(noise > 0.0 && noise.is_finite())
+    {
+        let found = format!("a noise of {noise} N");
+        return refused(found, "a standard deviation above 0");
+    }
+    if are_shuffled(&columns.displacement) {
+        let found = "the displacement goes to and fro from point to point";
+        let allowed =
+            "points in the order of time, and the column of the displacement by --columns";
+        return refused(found, allowed);
+    }
+    Ok(())
+}
+
+/// Returns the number of points that a mean has, so that not too many means are left.
+fn points_in_mean(segments: &Segments) -> usize {
+    let moving = segments
+        .is_still
+        .iter()
+        .filter(|is_still| !**is_still)
+        .count();
+    moving.div_ceil(MOST_POINTS).max(1)
+}
+
+/// Makes a single segment that ends without contact a retraction, and says so in a sentence.
+/// Returns an error for another single segment, unless it alone is chosen.
+fn recognise_retraction(
+    points: &mut Points,
+    options: &CurveOptions,
+    least_noise: f64,
+) -> Result<Option<String>, ExperimentError> {
+    if points.last_segment() != 0 {
+        return Ok(None);
+    }
+    if ends_free(&points.force, least_noise) {
+        points.segment.fill(1);
+        let statement = "A retraction alone: the model is loaded up to its first point.";
+        return Ok(Some(statement.to_owned()));
+    }
+    if options.segments == [1] {
+        return Ok(None);
+    }
+    let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
+                   contact; --segments 1 for an approach alone";
+    refused("the displacement does not turn: one segment", allowed)
+}
+
+/// Brings approach and retraction into the order of time, and says in words what was done. Columns
+/// side by side may begin at the turning point, and a file may begin with the retraction.
+fn put_in_order(
+    columns: &mut Columns,
+    segments: &mut Segments,
+    least_noise: f64,
+) -> Option<&'static str> {
+    let first = segments.numbers.partition_point(|number| *number == 0);
+    let (first_forces, second_forces) = columns.force.split_at(first);
+    let reversed: Vec<f64> = second_forces.iter().rev().copied().collect();
+    let has_two = segments.numbers.last() == Some(&1);
+    if !(has_two && ends_free(first_forces, least_noise) && ends_free(&reversed, least_noise)) {
+        return None;
+    }
+    if columns.is_beside {
+        for values in [&mut columns.displacement, &mut columns.force] {
+            values[..first].reverse();
+            values[first..].reverse();
+        }
+        segments.is_still.fill(false);
+        return Some("both parts begin at their turn and were reversed");
+    }
+    columns.displacement.rotate_left(first);
+    columns.force.rotate_left(first);
+    segments.exchange(first);
+    Some("the retraction comes first and was put behind the approach")
+}
+
+/// Returns the number of the points used that lie before contact.
+fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
+    match free.before {
+        Some(before) => kept.partition_point(|index| *index < before),
+        None => 0,
+    }
+}
+
+/// Returns the index of the last segment through which the model runs. After the last approach that
+/// is used the body is pulled off.
+fn last_turn(points: &Points, options: &CurveOptions) -> usize {
+    let last = points.last_segment();
+    let chosen = match options.segments.iter().max() {
+        Some(most) => (most - 1).min(last),
+        None => last,
+    };
+    let is_approach = chosen.is_multiple_of(2);
+    if is_approach && (chosen < last || last == 0) {
+        return chosen + 1;
+    }
+    chosen
+}
+
+/// Returns the sentence on the noise and where it comes from.
+fn noise_in_words(noise: f64, options: &CurveOptions, free: &FreeParts) -> String {
+    let source = if options.noise.is_some() {
+        "given"
+    } else if free.before.is_some() {
+        "that before contact"
+    } else {
+        "that after contact"
+    };
+    format!("Noise {}, {source}.", format_quantity(noise, "N"))
+}
+
+/// Returns the indices of the points of the chosen segments without pauses; of all segments if none
+/// is chosen.
+fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
+    let numbers = points.segment[0] + 1..=points.last_segment() + 1;
+    for number in &options.segments {
+        if !numbers.contains(number) {
+            let found = format!("--segments {number}: the curve has no such segment");
+            let allowed: Vec<String> = numbers.map(|number| number.to_string()).collect();
+            return refused(found, allowed.join(", "));
+        }
+    }
+    let mut kept = Vec::with_capacity(points.force.len());
+    for (index, segment) in points.segment.iter().enumerate() {
+        let is_chosen = options.segments.is_empty() || options.segments.contains(&(segment + 1));
+        if is_chosen && !points.is_still[index] {
+            kept.push(index);
+        }
+    }
+    if kept.len() < 2 * FEWEST {
+        let found = format!(
+            "{} points in the segments that are used, without pauses",
+            kept.len()
+        );
+        return refused(found, format!("at least {}", 2 * FEWEST));
+    }
+    Ok(kept)
+}
+
+/// Returns the numbers of points that are used, that lie before or after contact, and that belong
+/// to pauses, in words.
+fn counted(
+    points: &Points,
+    kept: &[usize],
+    free: &FreeParts,
+    options: &CurveOptions,
+) -> Vec<String> {
+    let count = points.counts.len();
+    let place = match free.before {
+        Some(before) if points.begins_with_approach() => {
+            format!("{} before contact", points_of_file(points, 0..before))
+        }
+        _ => {
+            let after = count - free.after..count;
+            format!("{} after contact", points_of_file(points, after))
+        }
+    };
+    let used = points_of_file(points, kept.iter().copied());
+    let segments = segments_in_words(points, options);
+    let mut words = vec![format!("{used} points used in {segments}, {place}")];
+    if points.is_still.contains(&true) {
+        let still = points_of_file(points, (0..count).filter(|index| points.is_still[*index]));
+        words.push(format!("{still} of pauses left out"));
+    }
+    words
+}
+
+/// Returns the number of points of the file that these points average.
+fn points_of_file(points: &Points, indices: impl Iterator<Item = usize>) -> String {
+    let count: usize = indices.map(|index| points.counts[index]).sum();
+    grouped(count as u64)
+}
+
+/// Returns the number of segments, or the numbers of those that are chosen.
+fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
+    let last = points.last_segment();
+    match &options.segments[..] {
+        [] if points.segment[0] == last => "1 segment".to_owned(),
+        [] => format!("{} segments", last + 1),
+        [number] => format!("segment {number}"),
+        several => {
+            let numbers: Vec<String> = several.iter().map(ToString::to_string).collect();
+            format!("segments {}", numbers.join(", "))
+        }
+    }
+}
+
+/// Returns an error if the force is negative where the body is pressed most.
+fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
+    let first = points.range_of(points.segment[0]);
+    let count = (first.len() / 20).max(1);
+    let is_approach = points.begins_with_approach();
+    let pressed = if is_approach {
+        mean(&points.force[first.end - count..first.end])
+    } else {
+        mean(&points.force[..count])
+    };
+    if options.negate.is_some() || pressed >= PULLS * noise {
+        return Ok(());
+    }
+    let place = if is_approach {
+        "end of the approach"
+    } else {
+        "beginning of the retraction"
+    };
+    let force = format_quantity(pressed, "N");
+    let found = format!("the force is negative where the body presses: {force} at the {place}");
+    let allowed = "--negate force where tension counts as positive, --negate none for a body that is pulled there";
+    refused(found, allowed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{from_text, lines, of_spring, text_of_spring};
+
+    #[test]
+    fn many_points_are_averaged_and_missing_ones_counted() {
+        let text = text_of_spring(
+            "displacement [nm],force [nN]\nNaN,1\n0,\n",
+            100_000,
+            |d, f| format!("{d},{f}"),
+        );
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        assert_eq!((curve.missing, curve.points), (2, 100_000));
+        assert!(
+            curve.force.len() <= MOST_POINTS && curve.statements.len() == 2,
+            "{:?}",
+            curve.statements
+        );
+        let said = "2 left out since a value is missing; means of 25 points each, 4 000 of them.";
+        assert!(
+            curve.statements[0].ends_with(said),
+            "{:?}",
+            curve.statements
+        );
+        assert!(
+            (curve.force[2000] / 1e-7 - 1.0).abs() < 0.01,
+            "{:e}",
+            curve.force[2000]
+        );
+        // Points of the file are counted, not means.
+        let options = CurveOptions {
+            free_points: Some(2700),
+            ..CurveOptions::default()
+        };
+        let curve = from_text(&lines(of_spring(9000)), &options).unwrap();
+        assert_eq!((curve.force.len(), curve.free), (3000, 900));
+    }
+
+    /// The approach gives zero and contact of a retraction; a retraction alone has both at its end.
+    #[test]
+    fn chosen_segments_are_used_without_pauses() {
+        let read = |points: &[(f64, f64)], segments: &[usize]| {
+            let options = CurveOptions {
+                segments: segments.to_vec(),
+                ..CurveOptions::default()
+            };
+            from_text(&lines(points.iter().copied()), &options).unwrap()
+        };
+        let mut all = of_spring(600);
+        let (whole, retraction) = (read(&all, &[]), read(&all, &[2]));
+        assert_eq!(
+            (retraction.points, retraction.free, retraction.segment[0]),
+            (300, 0, 1)
+        );
+        assert_eq!(
+            (&retraction.force[..], retraction.touch),
+            (&whole.force[300..], whole.touch)
+        );
+        assert_eq!(retraction.turns, whole.turns);
+        let alone = read(&all[300..], &[]);
+        assert_eq!(
+            (alone.points, alone.segment[0], alone.turns.len()),
+            (300, 1, 2)
+        );
+        assert!(
+            alone
+                .force
+                .iter()
+                .zip(&retraction.force)
+                .all(|(one, other)| (one - other).abs() < 5e-11)
+        );
+        assert!(
+            (alone.touch - whole.touch).abs() < 2e-9,
+            "{} {}",
+            alone.touch,
+            whole.touch
+        );
+        let approach = read(&all[..300], &[1]);
+        assert_eq!(
+            (&approach.force[..], approach.turns.len()),
+            (&whole.force[..300], 2)
+        );
+        all.splice(
+            300..300,
+            (0..200).map(|index| (50.0, 101.0 - 0.02 * f64::from(index))),
+        );
+        let (moving, retraction) = (read(&all, &[]), read(&all, &[2]));
+        assert!((590..=600).contains(&moving.points), "{}", moving.points);
+        assert!(
+            (290..=300).contains(&retraction.points),
+            "{}",
+            retraction.points
+        );
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused() {
+        let of = |force: &dyn Fn(f64, f64) -> f64| {
+            lines(of_spring(600).into_iter().map(|(d, f)| (d, force(d, f))))
+        };
+        let (all, plain) = (of_spring(600), of(&|_, f| f));
+        // 17 points of an approach.
+        let few = (0..42_i32).map(|index| {
+            if index < 17 {
+                10 * index
+            } else {
+                170 - 7 * (index - 17)
+            }
+        });
+        for (text, said) in [
+            (
+                of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }),
+                "no contact: ",
+            ),
+            // A curve that begins in contact: it has no line before a change.
+            (
+                of(&|d, f| f + (d + 100.0).powi(2)),
+                "no part before contact: the force",
+            ),
+            (of(&|d, f| f + 9.0 * d), "no part before contact: the force"),
+            (
+                of(&|d, _| 9.0 * d + (d * 7.0).sin()),
+                "no contact, or contact from the first",
+            ),
+            (
+                of(&|_, f| -f),
+                "the force is negative where the body presses: -9",
+            ),
+            (
+                lines(few.map(|d| (f64::from(d), f64::from((d - 90).max(0))))),
+                "18 points in the approach are too few",
+            ),
+            (
+                lines((0..600).map(|index| all[index * 251 % 600])),
+                "the displacement goes to and fro",
+            ),
+            (
+                lines(all[..301].iter().copied()),
+                "the displacement does not turn",
+            ),
+            (
+                lines([(1.0, 2.0)]),
+                "1 points with displacement and force; allowed: at least 40",
+            ),
+            (String::new(), "0 points"),
+        ] {
+            let error = from_text(&text, &CurveOptions::default()).expect_err(said);
+            assert!(
+                error.starts_with(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
+        }
+        let with = CurveOptions::default;
+        for (options, said) in [
+            (
+                CurveOptions {
+                    negate: Some(Negate::Displacement),
+                    ..with()
+                },
+                "the body moves away",
+            ),
+            (
+                CurveOptions {
+                    free_points: Some(400),
+                    ..with()
+                },
+                "no part before contact: 400 of",
+            ),
+            (
+                CurveOptions {
+                    noise: Some(-5e-9),
+                    ..with()
+                },
+                "a noise of -0.000000005 N",
+            ),
+            (
+                CurveOptions {
+                    segments: vec![3],
+                    ..with()
+                },
+                "--segments 3: the curve has no such segment",
+            ),
+        ] {
+            let error = from_text(&plain, &options).expect_err(said);
+            assert!(
+                error.starts_with(said) && error.contains("allowed: "),
+                "{said}: {error}"
+            );
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! The points of a curve in the order of time, with signs such that pressing is positive.
+
+use crate::curve::numerics::Extent;
+use crate::curve::segments::Segments;
+use crate::error::{ExperimentError, refused};
+use crate::read::options::Negate;
+use asperity_data::{format_quantity, mean};
+use std::ops::Range;
+
+/// Points in the order of time. If there are many, each is the mean of several points of the file.
+pub(crate) struct Points {
+    pub displacement: Vec<f64>,
+    pub force: Vec<f64>,
+    pub segment: Vec<usize>,
+    pub is_still: Vec<bool>,
+    /// Number of points of the file that each point averages.
+    pub counts: Vec<usize>,
+}
+
+impl Points {
+    /// Averages up to `count` neighbours each.
+    pub fn averaged(
+        displacement: &[f64],
+        force: &[f64],
+        segments: &Segments,
+        count: usize,
+    ) -> Points {
+        let mut points = Points {
+            displacement: Vec::new(),
+            force: Vec::new(),
+            segment: Vec::new(),
+            is_still: Vec::new(),
+            counts: Vec::new(),
+        };
+        for range in like_neighbours(segments, count) {
+            points.segment.push(segments.numbers[range.start]);
+            points.is_still.push(segments.is_still[range.start]);
+            points.counts.push(range.len());
+            points.displacement.push(mean(&displacement[range.clone()]));
+            points.force.push(mean(&force[range]));
+        }
+        points
+    }
+
+    /// Returns true if the curve begins with an approach.
+    pub fn begins_with_approach(&self) -> bool {
+        self.segment[0] == 0
+    }
+
+    /// Returns the index of the last segment.
+    pub fn last_segment(&self) -> usize {
+        self.segment[self.segment.len() - 1]
+    }
+
+    /// Returns the index range of the points of a segment.
+    pub fn range_of(&self, number: usize) -> Range<usize> {
+        let start = self.segment.partition_point(|segment| *segment < number);
+        let end = self.segment.partition_point(|segment| *segment <= number);
+        start..end
+    }
+
+    /// Returns the index range of the points of a segment without the pause at its turning point.
+    pub fn moving(&self, number: usize) -> Range<usize> {
+        let range = self.range_of(number);
+        let is_still = |index: &usize| self.is_still[*index];
+        if number % 2 == 1 {
+            let pause = range.clone().take_while(is_still).count();
+            return range.start + pause..range.end;
+        }
+        let pause = range.clone().rev().take_while(is_still).count();
+        range.start..range.end - pause
+    }
+
+    /// Reverses displacement and force so that pressing is positive: as `asked`, or else according
+    /// to the first segment.
+    pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
+        let first = self.range_of(self.segment[0]);
+        let moved = self.displacement[first.end - 1] - self.displacement[0];
+        let is_reversed = if self.begins_with_approach() {
+            moved < 0.0
+        } else {
+            moved > 0.0
+        };
+        let negate = match asked {
+            Some(negate) => negate,
+            None if is_reversed => Negate::Displacement,
+            None => Negate::None,
+        };
+        let negates_displacement = matches!(negate, Negate::Displacement | Negate::Both);
+        if negates_displacement != is_reversed {
+            let direction = if self.begins_with_approach() {
+                "away"
+            } else {
+                "closer"
+            };
+            let found =
+                format!("the body moves {direction} in the first segment with --negate {negate}");
+            let allowed =
+                "an approach first; --negate displacement for a distance between the bodies";
+            return refused(found, allowed);
+        }
+        if negates_displacement {
+            reverse_signs(&mut self.displacement);
+        }
+        if matches!(negate, Negate::Force | Negate::Both) {
+            reverse_signs(&mut self.force);
+        }
+        Ok(negate)
+    }
+
+    /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the
+    /// body, which the column `name` contains. Returns a sentence that says so.
+    pub fn add_deflection(&mut self, name: &str, stiffness: f64) -> String {
+        for (displacement, force) in self.displacement.iter_mut().zip(&self.force) {
+            *displacement += force / stiffness;
+        }
+        let stiffness = format_quantity(stiffness, "N/m");
+        format!(
+            "{name} is a displacement of the body: the deflection of an instrument of {stiffness} was added."
+        )
+    }
+
+    /// Returns the displacements in m at which the segments up to number `last` end. A single
+    /// retraction begins at the largest displacement.
+    pub fn turns(&self, last: usize) -> Vec<f64> {
+        let mut turns = Vec::with_capacity(last + 1);
+        for number in 0..=last {
+            let range = self.range_of(number);
+            let displacements = if range.is_empty() {
+                &self.displacement[..]
+            } else {
+                &self.displacement[range]
+            };
+            let extent = Extent::of(displacements.iter().copied());
+            turns.push(if number.is_multiple_of(2) {
+                extent.high
+            } else {
+                extent.low
+            });
+        }
+        turns
+    }
+}
+
+fn reverse_signs(values: &mut [f64]) {
+    for value in values {
+        *value = -*value;
+    }
+}
+
+/// Returns index ranges of up to `count` neighbouring points that belong to one segment, and either
+/// all to a pause or none.
+fn like_neighbours(segments: &Segments, count: usize) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for (index, number) in segments.numbers.iter().enumerate() {
+        let is_still = segments.is_still[index];
+        match ranges.last_mut() {
+            Some(range)
+                if range.len() < count
+                    && segments.numbers[range.start] == *number
+                    && segments.is_still[range.start] == is_still =>
+            {
+                range.end = index + 1;
+            }
+            _ => ranges.push(index..index + 1),
+        }
+    }
+    ranges
+}

@@ -1,0 +1,976 @@
+//! The probability of the parameters. Polynomials, learned from computed curves, predict the
+//! parameters of a curve from its summaries, and the mean prediction over the measured curves is
+//! compared with the predictions over random profiles.
+
+use super::summary::{
+    Description, LOOP_AREA, Measurement, PULL_OFF, SUMMARIES, Summaries, WAY_TO_HALF,
+};
+use super::table::{End, Place, Scatter, Table};
+use crate::curve::MeasuredCurve;
+use asperity_data::{Cholesky, mean, standard_deviation};
+
+/// Index of ln γ among the parameters and the axes of a grid.
+pub(crate) const WORK: usize = 0;
+/// Index of ln E* among the parameters and the axes of a grid.
+pub(crate) const MODULUS: usize = 1;
+/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut
+/// off.
+const LARGEST: f64 = 4.0;
+/// Penalty of the size of the coefficients, divided by the mean weight of the curves.
+const RIDGE: f64 = 1e-5;
+/// Number of cells of a grid along each axis.
+const CELLS: usize = 96;
+/// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth
+/// of its standard deviation.
+const MOST_AT_VALUE: f64 = 0.08;
+/// Probability at one value of an axis below which this value is beyond the distribution.
+const NEGLIGIBLE: f64 = 1e-7;
+/// Number of values that a finer grid keeps beyond the values with a probability. On a coarse grid
+/// the largest probability of a narrow ridge may be some values away from its summit.
+const MARGIN: usize = 8;
+/// Largest number of grids, each of which is finer or wider than the one before.
+const MOST_GRIDS: usize = 60;
+/// Smallest step of a grid, which rounding allows.
+const LEAST_STEP: f64 = 1e-12;
+/// Share of the probability within `EDGE` of an end of the table, above which the table is too
+/// short.
+const MOST_AT_END: f64 = 2e-3;
+/// Width of the edge of the table, on the scale of natural logarithms.
+const EDGE: f64 = 0.1;
+/// Density divided by the largest density above which a value is not excluded: exp(−1.96²/2).
+const NOT_EXCLUDED: f64 = 0.146_5;
+/// Quantiles of the result and of its 95 % interval.
+const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
+/// Squared distance of a curve from the others that one curve of a thousand exceeds, if E* is
+/// given: quantile of χ² for one value.
+const FOREIGN_OF_WORK: f64 = 10.8;
+/// The same distance if E* is free: quantile of χ² for two values.
+const FOREIGN_OF_BOTH: f64 = 13.8;
+/// Smallest pull-off force that is reported, in standard deviations of the noise.
+const LEAST_PULL_OFF: f64 = 5.0;
+/// Smallest number of curves whose scatter is compared with the scatter of the random profiles.
+const FEWEST_FOR_SCATTER: usize = 4;
+
+/// Computed curve of a random profile with known parameters.
+struct Example {
+    /// Number of the random profile.
+    line: u64,
+    description: Description,
+    /// ln γ and ln E*.
+    parameters: [f64; 2],
+}
+
+/// Mean and standard deviation of a summary.
+struct Standard {
+    mean: f64,
+    deviation: f64,
+}
+
+/// Two polynomials of second degree in the summaries. Each is learned from one half of the random
+/// profiles, and predicts the parameters of the other half.
+struct Polynomials {
+    /// For each summary.
+    standards: Vec<Standard>,
+    /// Coefficients of both parameters, learned from the even and from the odd profiles.
+    halves: [Vec<[f64; 2]>; 2],
+    /// Mean of the parameters.
+    centre: [f64; 2],
+}
+
+impl Polynomials {
+    fn learned(examples: &[Example]) -> Self {
+        let mut polynomials = Polynomials {
+            standards: standards(examples),
+            halves: [Vec::new(), Vec::new()],
+            centre: [WORK, MODULUS].map(|parameter| {
+                let values = examples.iter().map(|example| example.parameters[parameter]);
+                mean(&values.collect::<Vec<f64>>())
+            }),
+        };
+        polynomials.halves = [0, 1].map(|half| polynomials.coefficients(examples, half));
+        polynomials
+    }
+
+    /// Returns the coefficients that are learned from one half of the profiles (ridge regression).
+    fn coefficients(&self, examples: &[Example], half: u64) -> Vec<[f64; 2]> {
+        let count = self.terms(&examples[0].description).len();
+        let mut products = vec![0.0; count * count];
+        let mut right_of_work = vec![0.0; count];
+        let mut right_of_modulus = vec![0.0; count];
+        for example in examples {
+            if example.line % 2 != half {
+                continue;
+            }
+            let terms = self.terms(&example.description);
+            let work = example.parameters[WORK] - self.centre[WORK];
+            let modulus = example.parameters[MODULUS] - self.centre[MODULUS];
+            for (row, term) in terms.iter().enumerate() {
+                // The lower triangle is enough.
+                let sums = &mut products[row * count..][..=row];
+                for (sum, other) in sums.iter_mut().zip(&terms) {
+                    *sum += term * other;
+                }
+                right_of_work[row] += term * work;
+                right_of_modulus[row] += term * modulus;
+            }
+        }
+        let trace: f64 = (0..count).map(|index| products[index * (count + 1)]).sum();
+        for index in 0..count {
+            products[index * (count + 1)] += RIDGE * trace / count as f64;
+        }
+        let Some(factor) = Cholesky::new(products, count) else {
+            return vec![[0.0; 2]; count];
+        };
+        let work = factor.solve(right_of_work);
+        let modulus = factor.solve(right_of_modulus);
+        work.into_iter()
+            .zip(modulus)
+            .map(<[f64; 2]>::from)
+            .collect()
+    }
+
+    /// Returns 1, the standardised summaries and all their products.
+    fn terms(&self, description: &Description) -> Vec<f64> {
+        let mut factors = Vec::with_capacity(self.standards.len() + 1);
+        factors.push(1.0);
+        for (value, standard) in description.values().zip(&self.standards) {
+            let deviation = (value - standard.mean) / standard.deviation;
+            factors.push(deviation.clamp(-LARGEST, LARGEST));
+        }
+        let mut terms = Vec::with_capacity(factors.len() * (factors.len() + 1) / 2);
+        for (index, factor) in factors.iter().enumerate() {
+            for other in &factors[..=index] {
+                terms.push(factor * other);
+            }
+        }
+        terms
+    }
+
+    /// Predicts by the polynomial that was learned from one half.
+    fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
+        [WORK, MODULUS].map(|parameter| {
+            let products = terms
+                .iter()
+                .zip(&self.halves[half])
+                .map(|(term, coefficients)| term * coefficients[parameter]);
+            self.centre[parameter] + products.sum::<f64>()
+        })
+    }
+
+    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the
+    /// other half.
+    fn of_line(&self, line: u64, description: &Description) -> [f64; 2] {
+        self.by_half(&self.terms(description), 1 - (line % 2) as usize)
+    }
+
+    /// Predicts ln γ and ln E* of another curve, as the mean of both polynomials.
+    fn of_curve(&self, description: &Description) -> [f64; 2] {
+        let terms = self.terms(description);
+        let even = self.by_half(&terms, 0);
+        let odd = self.by_half(&terms, 1);
+        [WORK, MODULUS].map(|parameter| 0.5 * (even[parameter] + odd[parameter]))
+    }
+}
+
+/// Returns the mean and the standard deviation of each summary, and of the preload if the examples
+/// have one.
+fn standards(examples: &[Example]) -> Vec<Standard> {
+    let mut standards = Vec::with_capacity(SUMMARIES + 1);
+    for index in 0..SUMMARIES + 1 {
+        let values = examples
+            .iter()
+            .map(|example| example.description.values().nth(index));
+        let Some(values) = values.collect::<Option<Vec<f64>>>() else {
+            break;
+        };
+        let average = mean(&values);
+        standards.push(Standard {
+            mean: average,
+            deviation: standard_deviation(&values, average).max(f64::MIN_POSITIVE),
+        });
+    }
+    standards
+}
+
+/// Estimate of the work of adhesion in J/m² or of the effective modulus in Pa, with its 95 %
+/// interval.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct IntervalEstimate {
+    /// Estimated value: the median of the probability distribution of the parameter.
+    pub value: f64,
+    /// Lower end of the 95 % interval.
+    pub low: f64,
+    /// Upper end of the 95 % interval.
+    pub high: f64,
+}
+
+impl IntervalEstimate {
+    /// Returns half the width of the interval on the scale of the natural logarithm, ½
+    /// ln(high/low).
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.high / self.low).ln()
+    }
+
+    pub(crate) fn known(value: f64) -> Self {
+        IntervalEstimate {
+            value,
+            low: value,
+            high: value,
+        }
+    }
+
+    /// Returns the estimate of a parameter that has an upper bound only.
+    pub(crate) fn at_most(self, most: f64) -> Self {
+        IntervalEstimate {
+            value: self.value.min(most),
+            low: 0.0,
+            high: most,
+        }
+    }
+
+    /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural
+    /// logarithm.
+    pub(crate) fn widened(self, half_width: f64) -> Self {
+        let factor_below = (self.low / self.value).ln().hypot(half_width).exp();
+        let factor_above = (self.high / self.value).ln().hypot(half_width).exp();
+        IntervalEstimate {
+            value: self.value,
+            low: self.value / factor_below,
+            high: self.value * factor_above,
+        }
+    }
+}
+
+/// Data from which the probability of the parameters is computed.
+struct Likelihood {
+    scatter: Scatter,
+    limits: Limits,
+    /// Number of random profiles of the table.
+    lines: f64,
+}
+
+/// Ends of a table.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// Smallest and largest ln(γ/E*).
+    ranges: Extent,
+    /// Smallest and largest ln E*, which are one value if E* is given.
+    moduli: Extent,
+}
+
+impl Limits {
+    /// Returns the values of ln γ and ln E* in the table.
+    fn extents(self) -> [Extent; 2] {
+        let works = Extent {
+            low: self.ranges.low + self.moduli.low,
+            high: self.ranges.high + self.moduli.high,
+        };
+        [works, self.moduli]
+    }
+
+    /// Returns true for a place near an end of the table.
+    fn is_near(self, place: Place, end: End) -> bool {
+        let is_modulus_free = self.moduli.high > self.moduli.low;
+        match end {
+            End::LowRange => place.range < self.ranges.low + EDGE,
+            End::HighRange => place.range > self.ranges.high - EDGE,
+            End::LowModulus => is_modulus_free && place.modulus < self.moduli.low + EDGE,
+            End::HighModulus => is_modulus_free && place.modulus > self.moduli.high - EDGE,
+        }
+    }
+}
+
+/// Mean prediction over measured curves.
+struct Observed {
+    prediction: [f64; 2],
+    /// Variance of the difference between this mean and the mean of the table, in units of the
+    /// variance of one profile.
+    variance: f64,
+}
+
+/// Interval of values of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Extent {
+    low: f64,
+    high: f64,
+}
+
+/// Probability of the parameters on a grid over ln γ and ln E*.
+pub(crate) struct Posterior {
+    /// Evenly spaced values of ln γ and of ln E*.
+    axes: [Vec<f64>; 2],
+    /// Probability of each pair of values, all values of ln E* of one ln γ together.
+    weights: Vec<f64>,
+    limits: Limits,
+}
+
+impl Likelihood {
+    /// Prepares the comparison with a table, or with the part of it that has a known ln E*.
+    fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
+        let moduli = match known {
+            Some(modulus) => Extent {
+                low: modulus,
+                high: modulus,
+            },
+            None => Extent::of(&table.moduli),
+        };
+        Likelihood {
+            scatter: scatter.clone(),
+            limits: Limits {
+                ranges: Extent::of(&table.ranges),
+                moduli,
+            },
+            lines: table.lines.len() as f64,
+        }
+    }
+
+    /// Returns the probability of the parameters if the mean prediction over `curves` curves is
+    /// `prediction`. The prior is flat over ln γ and ln E*. The error of the mean comes from the
+    /// number of curves and from the number of random profiles.
+    ///
+    /// The grid begins with the whole table. It is cut to the values that have a probability, and
+    /// widened where the probability does not end, until no value of a parameter has much of the
+    /// probability.
+    fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
+        let observed = Observed {
+            prediction,
+            variance: 1.0 / curves + 1.0 / self.lines,
+        };
+        let whole = self.limits.extents();
+        let mut extents = whole;
+        let mut posterior = self.on_grid(&observed, extents);
+        for _ in 1..MOST_GRIDS {
+            let next = [WORK, MODULUS].map(|axis| posterior.next_extent(axis, whole[axis]));
+            if next == extents {
+                break;
+            }
+            extents = next;
+            posterior = self.on_grid(&observed, extents);
+        }
+        posterior
+    }
+
+    /// Computes the probability on a grid over these values of ln γ and ln E*.
+    fn on_grid(&self, observed: &Observed, extents: [Extent; 2]) -> Posterior {
+        let [works, moduli] = extents.map(Extent::values);
+        let mut weights = Vec::with_capacity(works.len() * moduli.len());
+        for work in &works {
+            for modulus in &moduli {
+                let place = Place {
+                    range: work - modulus,
+                    modulus: *modulus,
+                };
+                weights.push(self.logarithm(observed, place));
+            }
+        }
+        let largest = weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut sum = 0.0;
+        for weight in &mut weights {
+            *weight = (*weight - largest).exp();
+            sum += *weight;
+        }
+        for weight in &mut weights {
+            *weight /= sum;
+        }
+        Posterior {
+            axes: [works, moduli],
+            weights,
+            limits: self.limits,
+        }
+    }
+
+    /// Returns the logarithm of the probability density, up to a constant. A power in place of an
+    /// exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
+    fn logarithm(&self, observed: &Observed, place: Place) -> f64 {
+        let Extent { low, high } = self.limits.ranges;
+        let rounding = 1e-9;
+        if place.range < low - rounding || place.range > high + rounding {
+            return f64::NEG_INFINITY;
+        }
+        let moments = self.scatter.at(place);
+        let inverse = moments.inverse();
+        let distance = inverse.squared_distance(moments.mean, observed.prediction);
+        let square = distance / observed.variance;
+        -0.5 * inverse.log_determinant - 0.5 * self.lines * (square / (self.lines - 1.0)).ln_1p()
+    }
+}
+
+impl Extent {
+    fn of(axis: &[f64]) -> Self {
+        Extent {
+            low: axis[0],
+            high: axis[axis.len() - 1],
+        }
+    }
+
+    fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    /// Evenly spaced values; one value if the width is 0.
+    fn values(self) -> Vec<f64> {
+        if self.width() == 0.0 {
+            return vec![self.low];
+        }
+        (0..=CELLS)
+            .map(|index| self.low + self.width() * index as f64 / CELLS as f64)
+            .collect()
+    }
+}
+
+impl Posterior {
+    /// Returns the values of ln γ and ln E* of each weight, in the order of the weights.
+    fn nodes(&self) -> impl Iterator<Item = Place> {
+        let [works, moduli] = &self.axes;
+        works.iter().flat_map(move |work| {
+            moduli.iter().map(move |modulus| Place {
+                range: work - modulus,
+                modulus: *modulus,
+            })
+        })
+    }
+
+    /// Returns the probability of each value of an axis.
+    fn along(&self, axis: usize) -> Vec<f64> {
+        let moduli = self.axes[MODULUS].len();
+        let mut sums = vec![0.0; self.axes[axis].len()];
+        for (index, weight) in self.weights.iter().enumerate() {
+            let value = if axis == WORK {
+                index / moduli
+            } else {
+                index % moduli
+            };
+            sums[value] += weight;
+        }
+        sums
+    }
+
+    /// Returns the values of an axis that the next grid should have, within `whole`: the same
+    /// values if this grid is fine and wide enough.
+    fn next_extent(&self, axis: usize, whole: Extent) -> Extent {
+        let values = &self.axes[axis];
+        let last = values.len() - 1;
+        let present = Extent::of(values);
+        if last == 0 {
+            return present;
+        }
+        let probabilities = self.along(axis);
+        let is_present = |probability: &f64| *probability > NEGLIGIBLE;
+        let first_present = probabilities.iter().position(is_present).unwrap_or(0);
+        let last_present = probabilities.iter().rposition(is_present).unwrap_or(last);
+        let grows_below = first_present == 0 && present.low > whole.low;
+        let grows_above = last_present == last && present.high < whole.high;
+        if grows_below || grows_above {
+            let mut wider = present;
+            if grows_below {
+                wider.low -= present.width();
+            }
+            if grows_above {
+                wider.high += present.width();
+            }
+            return Extent {
+                low: wider.low.max(whole.low),
+                high: wider.high.min(whole.high),
+            };
+        }
+        let most = probabilities.iter().copied().fold(0.0, f64::max);
+        if most <= MOST_AT_VALUE || present.width() < LEAST_STEP * CELLS as f64 {
+            return present;
+        }
+        Extent {
+            low: values[first_present.saturating_sub(MARGIN)],
+            high: values[(last_present + MARGIN).min(last)],
+        }
+    }
+
+    /// Returns the most probable place.
+    pub fn best(&self) -> Place {
+        let weights = self.weights.iter().enumerate();
+        let best = weights.max_by(|(_, weight), (_, next)| weight.total_cmp(next));
+        let index = best.map_or(0, |(index, _)| index);
+        let moduli = self.axes[MODULUS].len();
+        let work = self.axes[WORK][index / moduli];
+        let modulus = self.axes[MODULUS][index % moduli];
+        Place {
+            range: work - modulus,
+            modulus,
+        }
+    }
+
+    /// Returns γ in J/m² for the parameter [`WORK`], and E* in Pa for the parameter [`MODULUS`].
+    pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
+        let probabilities = self.along(parameter);
+        let [low, value, high] =
+            QUANTILES.map(|share| quantile(&self.axes[parameter], &probabilities, share).exp());
+        IntervalEstimate { value, low, high }
+    }
+
+    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability
+    /// density is at least exp(−1.96²/2) times the largest one.
+    pub fn most_work(&self) -> f64 {
+        let densities = self.along(WORK);
+        let largest = densities.iter().copied().fold(0.0, f64::max);
+        let last = densities
+            .iter()
+            .rposition(|density| *density >= NOT_EXCLUDED * largest);
+        self.axes[WORK][last.unwrap_or(densities.len() - 1)].exp()
+    }
+
+    /// Returns the mean of a function of ln γ and ln E*.
+    fn mean(&self, value_of: impl Fn(f64, f64) -> f64) -> f64 {
+        let [works, moduli] = &self.axes;
+        let mut sum = 0.0;
+        for (index, weight) in self.weights.iter().enumerate() {
+            sum += weight * value_of(works[index / moduli.len()], moduli[index % moduli.len()]);
+        }
+        sum
+    }
+
+    /// Returns the correlation of ln γ and ln E*; 0 for a known E*.
+    pub fn correlation(&self) -> f64 {
+        if self.axes[MODULUS].len() == 1 {
+            return 0.0;
+        }
+        let mean_work = self.mean(|work, _| work);
+        let mean_modulus = self.mean(|_, modulus| modulus);
+        let variance_of_work = self.mean(|work, _| (work - mean_work).powi(2));
+        let variance_of_modulus = self.mean(|_, modulus| (modulus - mean_modulus).powi(2));
+        let covariance = self.mean(|work, modulus| (work - mean_work) * (modulus - mean_modulus));
+        let scale = (variance_of_work * variance_of_modulus).sqrt();
+        if scale > 0.0 {
+            (covariance / scale).clamp(-1.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
+    /// Returns the ends of the table beyond which the parameters may lie.
+    pub fn beyond(&self) -> Vec<End> {
+        let mut ends = vec![
+            End::LowRange,
+            End::HighRange,
+            End::LowModulus,
+            End::HighModulus,
+        ];
+        ends.retain(|end| self.probability_near(*end) > MOST_AT_END);
+        ends
+    }
+
+    /// Returns the probability of places near an end of the table.
+    fn probability_near(&self, end: End) -> f64 {
+        let mut sum = 0.0;
+        for (place, weight) in self.nodes().zip(&self.weights) {
+            if self.limits.is_near(place, end) {
+                sum += weight;
+            }
+        }
+        sum
+    }
+}
+
+/// Returns the value below which a parameter lies with the probability `share`. The density is
+/// linear between the values of the axis, at which it is in proportion to `probabilities`.
+fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
+    let cells: Vec<f64> = probabilities
+        .windows(2)
+        .map(|ends| 0.5 * (ends[0] + ends[1]))
+        .collect();
+    let mut remainder = share * cells.iter().sum::<f64>();
+    for (index, cell) in cells.iter().enumerate() {
+        if remainder <= *cell {
+            let from = probabilities[index];
+            let to = probabilities[index + 1];
+            // The positive root of from·x + (to − from)·x²/2 = remainder.
+            let root = (from * from + 2.0 * (to - from) * remainder)
+                .max(0.0)
+                .sqrt();
+            let part = if from + root > 0.0 {
+                2.0 * remainder / (from + root)
+            } else {
+                0.0
+            };
+            return values[index] + part.clamp(0.0, 1.0) * (values[index + 1] - values[index]);
+        }
+        remainder -= cell;
+    }
+    values[values.len() - 1]
+}
+
+/// Results of one measured curve when it is used without the others.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct CurveOfEnsemble {
+    /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
+    pub name: String,
+    /// Preload of the curve, which is its largest force, N.
+    pub preload: f64,
+    /// Largest tensile force of the retraction as a positive number, N; `None` if it is at most 5
+    /// times the noise of the force.
+    pub pull_off_force: Option<f64>,
+    /// Energy dissipated in the loop, J: area between approach and retraction over the displacement
+    /// of the instrument.
+    pub loop_area: f64,
+    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change
+    /// of the displacement while the force falls from the preload to half the preload.
+    pub stiffness: f64,
+    /// Work of adhesion found from this single curve, J/m².
+    pub work: IntervalEstimate,
+    /// True if the interval of [`Self::work`] ends where the values end for which curves were
+    /// computed. The true interval is then wider.
+    pub at_end_of_table: bool,
+    /// True if the values of γ and E* found from this curve are further from the mean of the random
+    /// profiles than the values found from 999 of 1000 random profiles (Mahalanobis distance).
+    pub foreign: bool,
+}
+
+/// Predictions of the parameters of computed and of measured curves, by polynomials that are
+/// learned from a table.
+pub(crate) struct Predictions {
+    polynomials: Polynomials,
+    has_one_modulus: bool,
+    /// Predicted ln γ and ln E* of each random profile at each node.
+    pub of_lines: Vec<Vec<[f64; 2]>>,
+    /// Scatter of the predictions over the random profiles.
+    pub scatter: Scatter,
+    likelihood: Likelihood,
+    /// Predicted ln γ and ln E* of each measured curve.
+    of_curves: Vec<[f64; 2]>,
+}
+
+impl Predictions {
+    /// Learns from a table. `known` is ln E* if it is given.
+    pub fn new(table: &Table, measured: &Measurement, known: Option<f64>) -> Self {
+        let examples = examples(table, measured);
+        let polynomials = Polynomials::learned(&examples);
+        let has_one_modulus = table.moduli.len() == 1;
+        let mut of_lines = Vec::with_capacity(table.lines.len());
+        for line in examples.chunks(table.places().len()) {
+            let predict = |example: &Example| {
+                let prediction = polynomials.of_line(example.line, &example.description);
+                without_modulus_if(has_one_modulus, prediction)
+            };
+            of_lines.push(line.iter().map(predict).collect::<Vec<_>>());
+        }
+        let mut of_curves = Vec::with_capacity(measured.summaries.len());
+        for (index, summaries) in measured.summaries.iter().enumerate() {
+            let prediction = polynomials.of_curve(&measured.describe(*summaries, index));
+            of_curves.push(without_modulus_if(has_one_modulus, prediction));
+        }
+        let scatter = Scatter::of(table, |line, node| of_lines[line][node]);
+        Predictions {
+            likelihood: Likelihood::new(table, &scatter, known),
+            polynomials,
+            has_one_modulus,
+            of_lines,
+            scatter,
+            of_curves,
+        }
+    }
+
+    /// Predicts ln γ and ln E* of another computed curve of a random profile.
+    pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measurement) -> [f64; 2] {
+        let description = measured.describe(*curve, line);
+        let prediction = self.polynomials.of_line(line as u64, &description);
+        without_modulus_if(self.has_one_modulus, prediction)
+    }
+
+    /// Returns the mean prediction over the measured curves.
+    fn mean_of_curves(&self) -> [f64; 2] {
+        [WORK, MODULUS].map(|parameter| {
+            let values = self.of_curves.iter().map(|values| values[parameter]);
+            mean(&values.collect::<Vec<f64>>())
+        })
+    }
+
+    /// Returns the probability of the parameters given all measured curves.
+    pub fn posterior(&self) -> Posterior {
+        let curves = self.of_curves.len() as f64;
+        self.likelihood.posterior(self.mean_of_curves(), curves)
+    }
+
+    /// Returns the standard deviation of the measured curves divided by the standard deviation of
+    /// the random profiles; `None` for few curves.
+    pub fn scatter_ratio(&self, best: Place) -> Option<f64> {
+        let count = self.of_curves.len();
+        if count < FEWEST_FOR_SCATTER {
+            return None;
+        }
+        let inverse = self.scatter.at(best).inverse();
+        let centre = self.mean_of_curves();
+        let distances = self
+            .of_curves
+            .iter()
+            .map(|values| inverse.squared_distance(centre, *values));
+        let sum: f64 = distances.sum();
+        let values = if self.has_one_modulus { 1.0 } else { 2.0 };
+        Some((sum / (count as f64 - 1.0) / values).sqrt())
+    }
+
+    /// Returns the results of each curve used without the others.
+    pub fn rows(
+        &self,
+        curves: &[(String, MeasuredCurve)],
+        measured: &Measurement,
+        best: Place,
+    ) -> Vec<CurveOfEnsemble> {
+        let mut rows = Vec::with_capacity(curves.len());
+        for (index, (name, _)) in curves.iter().enumerate() {
+            let summaries = &measured.summaries[index];
+            let protocol = &measured.protocols[index];
+            let pull_off = summaries[PULL_OFF].exp();
+            let posterior = self.likelihood.posterior(self.of_curves[index], 1.0);
+            rows.push(CurveOfEnsemble {
+                name: name.clone(),
+                preload: measured.preloads[index],
+                pull_off_force: (pull_off > LEAST_PULL_OFF * protocol.noise).then_some(pull_off),
+                loop_area: summaries[LOOP_AREA].exp(),
+                stiffness: 0.5 * protocol.preload / summaries[WAY_TO_HALF].exp(),
+                work: posterior.estimate(WORK),
+                at_end_of_table: !posterior.beyond().is_empty(),
+                foreign: self.is_foreign(index, best),
+            });
+        }
+        rows
+    }
+
+    /// Returns true if a measured curve is far from the random profiles at the best place.
+    fn is_foreign(&self, index: usize, best: Place) -> bool {
+        let moments = self.scatter.at(best);
+        let inverse = moments.inverse();
+        let distance = inverse.squared_distance(moments.mean, self.of_curves[index]);
+        let relative = distance / (1.0 + 1.0 / self.of_lines.len() as f64);
+        let most = if self.has_one_modulus {
+            FOREIGN_OF_WORK
+        } else {
+            FOREIGN_OF_BOTH
+        };
+        relative > most
+    }
+}
+
+/// Returns the computed curves of a table, line by line.
+fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
+    let places = table.places();
+    let mut examples = Vec::with_capacity(table.lines.len() * places.len());
+    for (line, curves) in table.lines.iter().enumerate() {
+        for (curve, place) in curves.iter().zip(&places) {
+            examples.push(Example {
+                line: line as u64,
+                description: measured.describe(*curve, line),
+                parameters: place.parameters(),
+            });
+        }
+    }
+    examples
+}
+
+/// Returns a prediction, with 0 for ln E* if the table has one modulus.
+fn without_modulus_if(has_one_modulus: bool, prediction: [f64; 2]) -> [f64; 2] {
+    if has_one_modulus {
+        [prediction[WORK], 0.0]
+    } else {
+        prediction
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+
+    /// A relation of second degree is learned, by each half from its own lines.
+    #[test]
+    fn a_polynomial_of_second_degree_is_learned() {
+        let mut generator = ChaCha8Rng::seed_from_u64(1);
+        let mut random = || {
+            let summaries: Summaries = std::array::from_fn(|_| generator.random_range(-1.0..1.0));
+            Description {
+                summaries,
+                preload: Some(generator.random_range(5.0..6.0)),
+            }
+        };
+        let parameters = |of: &Description| {
+            let [one, other, third] = [of.summaries[0], of.summaries[4], of.preload.unwrap()];
+            [3.0 + one - 2.0 * other * third, 7.0 * one * one - other]
+        };
+        let curves: Vec<_> = (0..2000)
+            .map(|index| {
+                let of = random();
+                // The lines of one half are off by 1: the other half does not learn it.
+                let [work, modulus] = parameters(&of);
+                Example {
+                    line: index % 16,
+                    description: of,
+                    parameters: [work + f64::from(u8::from(index % 2 == 0)), modulus],
+                }
+            })
+            .collect();
+        let learned = Polynomials::learned(&curves);
+        let of = random();
+        let [work, modulus] = parameters(&of);
+        for (found, expected) in [
+            (learned.of_line(0, &of), [work, modulus]),
+            (learned.of_line(1, &of), [work + 1.0, modulus]),
+            (learned.of_curve(&of), [work + 0.5, modulus]),
+        ] {
+            assert!(
+                found
+                    .iter()
+                    .zip(expected)
+                    .all(|(one, other)| (one - other).abs() < 0.01),
+                "{found:?} {expected:?}"
+            );
+        }
+    }
+
+    /// Learned values that are the parameters themselves, whose deviations over the profiles have
+    /// this standard deviation and this correlation of ln γ and ln E*.
+    fn likelihood(
+        deviation: f64,
+        correlation: f64,
+        known: Option<f64>,
+        lines: usize,
+    ) -> Likelihood {
+        let axis = |count: u8, step: f64| (0..count).map(|at| step * f64::from(at) - 1.5).collect();
+        let moduli = known.map_or_else(|| axis(7, 0.5), |modulus| vec![modulus]);
+        let mut table = Table {
+            ranges: axis(16, 0.2),
+            moduli,
+            lines: Vec::new(),
+        };
+        let places: Vec<Place> = table.places();
+        table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
+        // Two uncorrelated values of each profile, of this standard deviation.
+        let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();
+        let sign = |is_positive: bool| if is_positive { size } else { -size };
+        let scatter = Scatter::of(&table, |line, node| {
+            let [work, modulus] = places[node].parameters();
+            let [one, other] = [sign(line % 2 == 0), sign(line / 2 % 2 == 0)];
+            if known.is_some() {
+                return [work + one, 0.0];
+            }
+            [
+                work + one,
+                modulus + correlation * one + (1.0 - correlation * correlation).sqrt() * other,
+            ]
+        });
+        Likelihood::new(&table, &scatter, known)
+    }
+
+    /// Asserts that an interval of a parameter is that of a normal distribution.
+    fn assert_normal(found: IntervalEstimate, mean: f64, error: f64) {
+        assert!(
+            found.low < found.value && found.value < found.high,
+            "{found:?}"
+        );
+        assert!(
+            (found.value.ln() - mean).abs() < 0.01 * error,
+            "{found:?}: {mean} {error}"
+        );
+        for (end, sign) in [(found.low, -1.0), (found.high, 1.0)] {
+            let expected = mean + sign * 1.96 * error;
+            assert!(
+                (end.ln() - expected).abs() < 0.02 * error,
+                "{found:?}: {mean} {error}"
+            );
+        }
+    }
+
+    /// For scatters from a ten-thousandth of a step of the table to a whole step, alone and with
+    /// strong correlation, the intervals are those of normal distributions.
+    #[test]
+    fn intervals_have_the_errors_of_curves_and_profiles() {
+        for deviation in [1e-5, 1e-4, 1e-3, 5e-3, 0.02, 0.1, 0.2] {
+            let error = deviation * (1.0_f64 / 8.0 + 1.0 / 1000.0).sqrt();
+            for place in [0.1, 0.100_37, -0.731] {
+                for correlation in [0.0, 0.9, 0.99, -0.95] {
+                    let both = likelihood(deviation, correlation, None, 1000);
+                    let posterior = both.posterior([place, 0.03], 8.0);
+                    assert_normal(posterior.estimate(0), place, error);
+                    assert_normal(posterior.estimate(1), 0.03, error);
+                    assert_eq!(posterior.beyond(), []);
+                    assert!(
+                        (posterior.correlation() - correlation).abs() < 0.01,
+                        "{deviation} {correlation}"
+                    );
+                    let best = posterior.best();
+                    let [work, modulus] = best.parameters();
+                    assert!(
+                        (work - place).abs().max((modulus - 0.03).abs()) < 0.5 * error,
+                        "{best:?}"
+                    );
+                }
+                let one = likelihood(deviation, 0.0, Some(0.3), 1000);
+                let posterior = one.posterior([place, 0.0], 8.0);
+                assert_normal(posterior.estimate(0), place, error);
+                assert_eq!(posterior.correlation(), 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn quantiles_are_those_of_a_density_that_is_linear_between_values() {
+        // The density x over 0 to 2 has the distribution x²/4, and the density 2 − x that of its
+        // mirror image.
+        for share in [0.0_f64, 0.01, 0.25, 0.3, 0.9, 1.0] {
+            let rising = quantile(&[0.0, 1.0, 2.0], &[0.0, 1.0, 2.0], share);
+            assert!(
+                (rising - 2.0 * share.sqrt()).abs() < 1e-12,
+                "{share}: {rising}"
+            );
+            let falling = quantile(&[0.0, 1.0, 2.0], &[2.0, 1.0, 0.0], share);
+            assert!(
+                (falling - (2.0 - 2.0 * (1.0 - share).sqrt())).abs() < 1e-7,
+                "{share}: {falling}"
+            );
+        }
+        assert_eq!(quantile(&[5.0], &[1.0], 0.5), 5.0);
+    }
+
+    /// A probability that the table cuts off, or that fills the whole table, has an interval within
+    /// the table.
+    #[test]
+    fn intervals_end_with_the_table() {
+        for (deviation, work, modulus) in [
+            (30.0, 0.0, 0.0),
+            (0.2, 4.0, 0.0),
+            (0.01, -2.9, -1.6),
+            (3.0, 0.0, -3.0),
+        ] {
+            let posterior = likelihood(deviation, 0.5, None, 64).posterior([work, modulus], 2.0);
+            assert!(!posterior.beyond().is_empty());
+            for (parameter, [least, most]) in [[-3.0_f64, 3.0], [-1.5, 1.5]].into_iter().enumerate()
+            {
+                let IntervalEstimate { value, low, high } = posterior.estimate(parameter);
+                assert!(
+                    least <= low.ln() && low < value && value < high && high.ln() <= most,
+                    "{low} {value} {high}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn ends_of_the_table_are_named_and_errors_add_in_quadrature() {
+        let likelihood = likelihood(0.2, 0.0, None, 64);
+        assert_eq!(
+            likelihood.posterior([1.4, -0.1], 8.0).beyond(),
+            [End::HighRange]
+        );
+        assert_eq!(
+            likelihood.posterior([0.0, -1.4], 8.0).beyond(),
+            [End::HighRange, End::LowModulus]
+        );
+        let widened = IntervalEstimate {
+            value: 1.0,
+            low: (-0.3_f64).exp(),
+            high: 0.4_f64.exp(),
+        }
+        .widened(0.3);
+        assert!(
+            (widened.low.ln() + 0.3_f64.hypot(0.3)).abs() < 1e-12
+                && (widened.high.ln() - 0.5).abs() < 1e-12
+        );
+    }
+}

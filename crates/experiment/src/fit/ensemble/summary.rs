@@ -1,0 +1,494 @@
+//! Measured curves as a few logarithms. The same code serves computed curves.
+
+use crate::curve::MeasuredCurve;
+use crate::error::{ExperimentError, refused};
+use asperity_data::{mean, median, standard_deviation};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+/// Smallest number of points of a branch.
+const FEWEST: usize = 20;
+/// Smallest number of points of the part of a branch without contact.
+const FEWEST_FREE: usize = 5;
+/// Mean force at the end of the retraction, in standard deviations of its noise, above which the
+/// body is still in contact.
+const IN_CONTACT: f64 = 5.0;
+/// Smallest noise divided by the largest force. Computed curves are not more accurate.
+const LEAST_NOISE: f64 = 1e-4;
+/// Share of the largest force by which a force without contact may differ from zero because of
+/// drift.
+const NEAR_ZERO: f64 = 0.03;
+/// Number of summaries of a curve, without its preload.
+pub(crate) const SUMMARIES: usize = 11;
+/// Names of the summaries in words.
+pub(crate) const NAMES: [&str; SUMMARIES] = [
+    "pull-off force",
+    "area of the loop",
+    "work of the tension on retraction",
+    "way back to half of the preload",
+    "way from half of the preload on approach",
+    "way back to zero force",
+    "way from a tenth of the preload on approach",
+    "way back to the pull-off",
+    "way back to the loss of contact",
+    "largest tension on approach",
+    "work of the tension on approach",
+];
+/// Index of the pull-off force in the summaries.
+pub(crate) const PULL_OFF: usize = 0;
+/// Index of the area of the loop in the summaries.
+pub(crate) const LOOP_AREA: usize = 1;
+/// Index of the way back to half of the preload in the summaries.
+pub(crate) const WAY_TO_HALF: usize = 3;
+/// Smallest pull-off force, in units of the noise.
+const FLOOR: f64 = 3.0;
+/// Smallest tension that does work, in units of the noise.
+const TENSION: f64 = 2.0;
+/// Largest force after loss of contact, in units of the noise.
+const LOST: f64 = 5.0;
+/// Scatter of the preloads divided by the scatter due to noise, above which the preloads differ.
+const DIFFERENT: f64 = 2.0;
+/// Factor within which the noise of all curves must agree to be replaced by the median.
+const ONE_NOISE: f64 = 1.5;
+
+/// Point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Point {
+    /// Displacement relative to the turning point, m, at most about 0.
+    pub displacement: f64,
+    /// Force, N.
+    pub force: f64,
+}
+
+/// Approach and first retraction of a curve, each in the order of time.
+pub(crate) struct Branches {
+    pub approach: Vec<Point>,
+    pub retraction: Vec<Point>,
+    /// Standard deviation of the noise of the force, N.
+    pub noise: f64,
+    /// Number of points at the beginning of the approach that give the zero and the noise of the
+    /// force.
+    pub free: usize,
+}
+
+impl Branches {
+    /// Takes approach and retraction out of a measured curve.
+    ///
+    /// # Errors
+    /// The curve lacks an approach or a retraction, or ends before the contact is lost.
+    pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
+        let mut approach = branch_of(curve, 0);
+        let mut retraction = branch_of(curve, 1);
+        if approach.len().min(retraction.len()) < FEWEST || curve.free < 2 * FEWEST_FREE {
+            let found = "no approach and retraction of at least 20 points each";
+            let allowed = "an approach, which begins before contact, and its retraction";
+            return refused(found, allowed);
+        }
+        // The first contacts of a rough body are weak, and may lie in the part that seems to be
+        // free.
+        let free = curve.free / 2;
+        let before = &approach[..free.min(approach.len())];
+        let before: Vec<f64> = before.iter().map(|point| point.force).collect();
+        let zero = mean(&before);
+        let points = approach.iter().chain(&retraction);
+        let largest = points
+            .map(|point| (point.force - zero).abs())
+            .fold(0.0, f64::max);
+        let noise = standard_deviation(&before, zero).max(LEAST_NOISE * largest);
+        if curve.is_estimated[0] {
+            for point in approach.iter_mut().chain(&mut retraction) {
+                point.force -= zero;
+            }
+        }
+        let branches = Branches {
+            approach,
+            retraction,
+            noise,
+            free,
+        };
+        if branches.ends_in_contact() {
+            let found = "the retraction ends before contact is lost";
+            return refused(found, "a retraction until the force is zero");
+        }
+        Ok(branches)
+    }
+
+    fn ends_in_contact(&self) -> bool {
+        let end = &self.retraction[self.retraction.len() - FEWEST_FREE..];
+        let mean = end.iter().map(|point| point.force).sum::<f64>() / FEWEST_FREE as f64;
+        let forces = self.retraction.iter().map(|point| point.force.abs());
+        let largest = forces.fold(0.0, f64::max);
+        let error = self.noise / (FEWEST_FREE as f64).sqrt();
+        mean.abs() > (IN_CONTACT * error).max(NEAR_ZERO * largest)
+    }
+
+    /// Returns the force at the turning point in N, as the mean over the ends of both branches.
+    pub fn preload(&self) -> f64 {
+        0.5 * (self.approach[self.approach.len() - 1].force + self.retraction[0].force)
+    }
+
+    /// Returns the standard deviation of the preload due to the noise, in N.
+    pub fn preload_error(&self) -> f64 {
+        self.noise * FRAC_1_SQRT_2
+    }
+}
+
+/// Returns the points of a segment of a curve.
+fn branch_of(curve: &MeasuredCurve, number: usize) -> Vec<Point> {
+    let turn = curve.turns[0];
+    let mut branch = Vec::new();
+    for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
+        if *segment == number {
+            branch.push(Point {
+                displacement: displacement - turn,
+                force,
+            });
+        }
+    }
+    branch
+}
+
+/// Natural logarithms of forces in N, distances in m and energies in J.
+pub(crate) type Summaries = [f64; SUMMARIES];
+
+/// Computes the summaries of a curve whose preload in N is known. Distances are counted from the
+/// turning point, so that the displacement at first touch has no effect. Places between points are
+/// interpolated, because summaries that count points would change in steps with the parameters.
+pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
+    let approach = &branches.approach;
+    let retraction = &branches.retraction;
+    let noise = branches.noise;
+    let back_from_turn: Vec<Point> = approach.iter().rev().copied().collect();
+    let count = retraction.len() as f64;
+    let range = retraction[0].displacement - retraction[retraction.len() - 1].displacement;
+    let spacing = range.abs() / count;
+    let least_force = FLOOR * noise;
+    // Noise of an integral over all points.
+    let least_work = least_force * spacing * count.sqrt();
+    let tension = |force: f64| (-force - TENSION * noise).max(0.0);
+
+    let pull_off = largest_tension(retraction);
+    let loop_area = work(approach, |force| force) + work(retraction, |force| force);
+    let work_on_retraction = -work(retraction, tension);
+    let way_to_half = -below(retraction, 0.5 * preload);
+    let way_from_half = -below(&back_from_turn, 0.5 * preload);
+    let way_to_zero = -below(retraction, 0.0);
+    let way_from_tenth = -below(&back_from_turn, 0.1 * preload);
+    let way_to_pull_off = -pull_off.displacement;
+    let way_to_loss = -loss(retraction, LOST * noise);
+    let tension_on_approach = largest_tension(approach).force;
+    let work_on_approach = work(approach, tension);
+    [
+        pull_off.force.max(least_force),
+        loop_area.max(least_work),
+        work_on_retraction.max(least_work),
+        way_to_half.max(spacing),
+        way_from_half.max(spacing),
+        way_to_zero.max(spacing),
+        way_from_tenth.max(spacing),
+        way_to_pull_off.max(spacing),
+        way_to_loss.max(spacing),
+        tension_on_approach.max(least_force),
+        work_on_approach.max(least_work),
+    ]
+    .map(f64::ln)
+}
+
+/// Integrates a function of the force over the displacement, J.
+fn work(branch: &[Point], force_of: impl Fn(f64) -> f64) -> f64 {
+    branch
+        .windows(2)
+        .map(|pair| {
+            let force = 0.5 * (force_of(pair[0].force) + force_of(pair[1].force));
+            force * (pair[1].displacement - pair[0].displacement)
+        })
+        .sum()
+}
+
+/// Returns the displacement in m at which the force first falls below a level; the last
+/// displacement if it never does.
+fn below(branch: &[Point], level: f64) -> f64 {
+    let next = branch
+        .iter()
+        .position(|point| point.force < level)
+        .unwrap_or(branch.len() - 1);
+    crossing(branch[next.saturating_sub(1)], branch[next], level)
+}
+
+/// Returns the displacement in m at which the magnitude of the force is above a level for the last
+/// time.
+fn loss(branch: &[Point], level: f64) -> f64 {
+    let last = branch
+        .iter()
+        .rposition(|point| point.force.abs() > level)
+        .unwrap_or(0);
+    let next = (last + 1).min(branch.len() - 1);
+    crossing(branch[last].magnitude(), branch[next].magnitude(), level)
+}
+
+impl Point {
+    /// Returns the point with the magnitude of its force.
+    fn magnitude(self) -> Self {
+        Point {
+            force: self.force.abs(),
+            ..self
+        }
+    }
+}
+
+/// Returns the displacement between two points at which the force has a value.
+fn crossing(from: Point, to: Point, level: f64) -> f64 {
+    let change = to.force - from.force;
+    let share = if change == 0.0 {
+        1.0
+    } else {
+        ((level - from.force) / change).clamp(0.0, 1.0)
+    };
+    from.displacement + share * (to.displacement - from.displacement)
+}
+
+/// Largest tension of a branch.
+struct LargestTension {
+    /// Tension as a positive force, N.
+    force: f64,
+    /// Displacement, m.
+    displacement: f64,
+}
+
+/// Returns the largest tension, from the parabola through neighbouring points.
+fn largest_tension(branch: &[Point]) -> LargestTension {
+    let points = branch.iter().enumerate();
+    let lowest = points.min_by(|(_, point), (_, next)| point.force.total_cmp(&next.force));
+    let index = lowest.map_or(0, |(index, _)| index);
+    let point = branch[index];
+    let mut tension = LargestTension {
+        force: -point.force,
+        displacement: point.displacement,
+    };
+    if index == 0 || index + 1 == branch.len() {
+        return tension;
+    }
+    let before = branch[index - 1];
+    let after = branch[index + 1];
+    let bend = before.force - 2.0 * point.force + after.force;
+    let share = if bend > 0.0 {
+        0.5 * (before.force - after.force) / bend
+    } else {
+        0.0
+    };
+    tension.displacement += 0.5 * share * (after.displacement - before.displacement);
+    tension
+}
+
+/// How a curve was measured.
+pub(crate) struct Protocol {
+    /// Measured force at the turning point, N.
+    pub preload: f64,
+    /// Standard deviation of the error of the preload, N.
+    pub preload_error: f64,
+    /// Standard deviation of the noise of the force, N.
+    pub noise: f64,
+    /// Displacements of the approach relative to the turning point, m.
+    pub approach: Vec<f64>,
+    /// Displacements of the retraction relative to the turning point, m.
+    pub retraction: Vec<f64>,
+    /// Number of points at the beginning of the approach that give the zero of the force.
+    pub free: usize,
+}
+
+impl Protocol {
+    pub fn of(branches: &Branches, preload: f64) -> Self {
+        Protocol {
+            preload,
+            preload_error: branches.preload_error(),
+            noise: branches.noise,
+            approach: displacements(&branches.approach),
+            retraction: displacements(&branches.retraction),
+            free: branches.free,
+        }
+    }
+}
+
+fn displacements(branch: &[Point]) -> Vec<f64> {
+    branch.iter().map(|point| point.displacement).collect()
+}
+
+/// Mean of the summaries of the measured curves, and the number of curves.
+pub(crate) struct MeanSummaries {
+    pub summaries: Summaries,
+    pub curves: usize,
+}
+
+/// Summaries of a curve, and the logarithm of its preload if the preloads differ.
+#[derive(Clone, Copy)]
+pub(crate) struct Description {
+    pub summaries: Summaries,
+    pub preload: Option<f64>,
+}
+
+impl Description {
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        self.summaries.into_iter().chain(self.preload)
+    }
+}
+
+/// Measured curves as their summaries.
+pub(crate) struct Measurement {
+    pub protocols: Vec<Protocol>,
+    /// Largest force of each curve, N.
+    pub preloads: Vec<f64>,
+    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise
+    /// only.
+    pub preload_scatter: Option<f64>,
+    pub summaries: Vec<Summaries>,
+}
+
+impl Measurement {
+    pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
+        let mut branches = Vec::with_capacity(curves.len());
+        for (name, curve) in curves {
+            branches.push(branches_of(name, curve)?);
+        }
+        share_noise(&mut branches);
+
+        let preloads: Vec<f64> = branches.iter().map(Branches::preload).collect();
+        let preload_errors: Vec<f64> = branches.iter().map(Branches::preload_error).collect();
+        let mean_preload = mean(&preloads);
+        let scatter = standard_deviation(&preloads, mean_preload);
+        let preloads_differ = curves.len() > 1 && scatter > DIFFERENT * mean(&preload_errors);
+
+        let mut all_summaries = Vec::with_capacity(curves.len());
+        let mut protocols = Vec::with_capacity(curves.len());
+        for (branches, own_preload) in branches.iter().zip(&preloads) {
+            let preload = if preloads_differ {
+                *own_preload
+            } else {
+                mean_preload
+            };
+            all_summaries.push(summaries(branches, preload));
+            protocols.push(Protocol::of(branches, preload));
+        }
+        Ok(Measurement {
+            protocols,
+            preloads,
+            preload_scatter: preloads_differ.then(|| scatter / mean_preload),
+            summaries: all_summaries,
+        })
+    }
+
+    pub fn mean(&self) -> MeanSummaries {
+        let mut means = Summaries::default();
+        for (index, mean_value) in means.iter_mut().enumerate() {
+            let values: Vec<f64> = self.summaries.iter().map(|row| row[index]).collect();
+            *mean_value = mean(&values);
+        }
+        MeanSummaries {
+            summaries: means,
+            curves: self.summaries.len(),
+        }
+    }
+
+    /// Returns the summaries of a curve, with its preload if the preloads differ. More computed
+    /// curves than measured ones repeat the protocols.
+    pub fn describe(&self, summaries: Summaries, curve: usize) -> Description {
+        let mut preload = None;
+        if self.preload_scatter.is_some() {
+            let protocol = &self.protocols[curve % self.protocols.len()];
+            preload = Some(protocol.preload.ln());
+        }
+        Description { summaries, preload }
+    }
+}
+
+/// Returns the branches of a curve. Errors begin with the name of the curve.
+fn branches_of(name: &str, curve: &MeasuredCurve) -> Result<Branches, ExperimentError> {
+    let branches = Branches::of(curve).map_err(|error| named(error, name))?;
+    if branches.preload() <= branches.noise {
+        let found = format!("{name}: the force at the turning point is not above the noise");
+        return refused(found, "a preload");
+    }
+    Ok(branches)
+}
+
+/// Returns the error with the name of a curve in front.
+fn named(error: ExperimentError, name: &str) -> ExperimentError {
+    match error {
+        ExperimentError::Refused { found, allowed } => ExperimentError::Refused {
+            found: format!("{name}: {found}"),
+            allowed,
+        },
+        other => other,
+    }
+}
+
+/// Replaces the noise of each curve by the median if all are alike, because the noise of a single
+/// curve has an error.
+fn share_noise(branches: &mut [Branches]) {
+    let mut noises: Vec<f64> = branches.iter().map(|branches| branches.noise).collect();
+    let median_noise = median(&mut noises).unwrap_or_default();
+    let is_alike = |noise: f64| (noise / median_noise).ln().abs() < ONE_NOISE.ln();
+    if branches.iter().all(|branches| is_alike(branches.noise)) {
+        for branches in branches {
+            branches.noise = median_noise;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A spring of 1 N/m that presses to 100 N, and whose contact breaks at −40 N.
+    fn sawtooth() -> Branches {
+        let point = |displacement: f64, end: f64| {
+            let force = if displacement >= end {
+                100.0 + displacement
+            } else {
+                0.0
+            };
+            Point {
+                displacement,
+                force,
+            }
+        };
+        let mut approach: Vec<Point> = (0..=250)
+            .map(|index| f64::from(index) - 200.5)
+            .filter(|displacement| *displacement < 0.0)
+            .map(|displacement| point(displacement, -100.0))
+            .collect();
+        approach.push(point(0.0, -100.0));
+        let retraction = (0..=400)
+            .map(|index| point(-0.5 * f64::from(index), -140.0))
+            .collect();
+        Branches {
+            approach,
+            retraction,
+            noise: 0.1,
+            free: 50,
+        }
+    }
+
+    #[test]
+    fn summaries_are_those_of_a_sawtooth() {
+        let found = summaries(&sawtooth(), 100.0).map(f64::exp);
+        // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies
+        // between two points.
+        let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
+        let expected = [
+            40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work,
+        ];
+        for ((found, expected), name) in found.into_iter().zip(expected).zip(NAMES) {
+            assert!(
+                (found / expected - 1.0).abs() < 0.01,
+                "{name}: {found}, {expected}"
+            );
+        }
+    }
+
+    /// A place that lies between two points moves with the curve, and not by steps from point to
+    /// point.
+    #[test]
+    fn distances_are_interpolated() {
+        let of = |preload: f64| summaries(&sawtooth(), preload)[WAY_TO_HALF].exp();
+        assert!((of(100.2) - 49.9).abs() < 1e-9 && (of(100.4) - 49.8).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,626 @@
+//! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit
+//! also finds the parameters that the curve cannot separate.
+
+pub(crate) mod ensemble;
+pub(crate) mod model;
+pub(crate) mod parameter;
+pub(crate) mod population;
+pub(crate) mod posterior;
+pub(crate) mod reason;
+pub(crate) mod result;
+pub(crate) mod scene;
+pub(crate) mod search;
+pub(crate) mod space;
+pub(crate) mod start;
+pub(crate) mod statistics;
+
+use crate::curve::MeasuredCurve;
+use crate::curve::numerics::dot;
+use crate::error::ExperimentError;
+use crate::fit::model::Model;
+use crate::fit::parameter::{Free, Parameter};
+use crate::fit::population::WRONG_SIDE;
+use crate::fit::posterior::Posterior;
+use crate::fit::reason::reason;
+use crate::fit::result::FitResult;
+use crate::fit::scene::{with_values, wrong};
+use crate::fit::search::{MISFIT, Search, SearchResult};
+use crate::fit::space::Space;
+use asperity_data::{Control, format_rounded};
+use asperity_scene::{Document, Simulation};
+
+/// Number of points that are enough for a curve whose residuals are more than noise.
+const ENOUGH: usize = 400;
+
+/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the
+/// computed force of the scene with a [`MeasuredCurve`].
+///
+/// ```
+/// use asperity_data::Control;
+/// use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter};
+/// use asperity_scene::{Document, open, run};
+///
+/// // The computed curve of a sphere with a work of adhesion of 0.05 J/m², by a rigid instrument.
+/// let scene = open("jkr-sphere")?.set("numerics.points", "256")?;
+/// let legs = run(&scene)?.history.legs;
+/// let points = legs.iter().flat_map(|leg| {
+///     leg.curve
+///         .iter()
+///         .map(|point| (point.indentation, point.force))
+/// });
+/// let free = (0..100).map(|i| (1e-8 * f64::from(i - 100), 0.0));
+/// let (displacement, force): (Vec<f64>, Vec<f64>) = free.chain(points).unzip();
+/// let curve = MeasuredCurve::from_columns(
+///     &displacement,
+///     &force,
+///     &CurveOptions {
+///         noise: Some(1e-8),
+///         ..CurveOptions::default()
+///     },
+/// )?;
+///
+/// let start = scene.set("adhesion.work", "0.03")?;
+/// let fit = Fit::of(&start)
+///     .free(Parameter::Work)
+///     .free(Free::within(Parameter::Offset, (-1e-7, 1e-7))?);
+/// let found = fit.run(&curve, Control::default())?;
+/// assert!((found.parameters[0].value / 0.05 - 1.0).abs() < 0.01);
+/// assert!(
+///     Fit::of(&start).run(&curve, Control::default()).is_err(),
+///     "no free parameter"
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Fit<'a> {
+    document: &'a Document,
+    free: Vec<Free>,
+}
+
+impl<'a> Fit<'a> {
+    /// Makes a fit of a scene, so far without free parameters. [`Fit::free`] adds them.
+    pub fn of(document: &'a Document) -> Self {
+        Fit {
+            document,
+            free: Vec::new(),
+        }
+    }
+
+    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare
+    /// [`Parameter`] the fit chooses the range.
+    #[must_use]
+    pub fn free(mut self, free: impl Into<Free>) -> Self {
+        self.free.push(free.into());
+        self
+    }
+
+    /// Fits the free parameters to a curve on one thread, by a sequential Monte Carlo method.
+    /// `control` reports the number of force curves computed so far, and can stop the fit.
+    ///
+    /// # Errors
+    /// Returns an error if no parameter is free, if a parameter is given twice, or if the scene
+    /// lacks a free parameter, such as the radius of its form. It also returns an error if
+    /// `numerics.solver` of the scene is `Stepwise`, if the curve turns before contact, if a
+    /// computation fails, or if `control` stops the fit.
+    pub fn run(
+        &self,
+        curve: &MeasuredCurve,
+        mut control: Control<'_>,
+    ) -> Result<FitResult, ExperimentError> {
+        let stop = control.stop();
+        find(curve, self.document, &self.free, stop, &mut |computed| {
+            control.report(computed as u64)
+        })
+    }
+}
+
+/// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
+///
+/// If the best work of adhesion lies at the end of a range that was not given, the fit is repeated
+/// with a wider range.
+fn find(
+    curve: &MeasuredCurve,
+    given: &Document,
+    free: &[Free],
+    stop: &(dyn Fn() -> bool + Sync),
+    report: &mut dyn FnMut(usize),
+) -> Result<FitResult, ExperimentError> {
+    let mut simulation = Simulation::new(given.resolve(""));
+    let (_, instrument) = curve.with_instrument(given).map_err(wrong)?;
+    let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
+    let searched = search(curve, &document, &mut simulation, &space, report)?;
+    if let Some(wider) = space.extended(&searched.result.best.place, free) {
+        let before = searched.evaluations;
+        let mut report_all = |computed| report(before + computed);
+        let mut fit = find(curve, given, &wider, stop, &mut report_all)?;
+        fit.evaluations += before;
+        return Ok(fit);
+    }
+
+    let free = space.parameters();
+    let has_other_profile = searched.misfit > MISFIT && document.scene().seed().is_some();
+    let posterior = Posterior::new(&space, &searched.result, has_other_profile);
+    let parameters = posterior.parameters();
+    let is_free = |parameter| free.contains(&parameter);
+    let fitted = with_values(&document, &posterior.best, is_free, curve)?;
+    let (_, governing) = simulation.contact(fitted.scene())?;
+    let tabor = governing.tabor_number(fitted.scene());
+    let mut reason_of_misfit = None;
+    if searched.misfit > MISFIT {
+        let best = &posterior.best;
+        let scene = fitted.scene();
+        let reason = reason(curve, scene, &mut simulation, best, &free, tabor)?;
+        reason_of_misfit = Some(reason);
+    }
+
+    let residual_over_noise = searched.root_mean_square();
+    Ok(FitResult {
+        work_at_most: posterior.work_at_most(&parameters),
+        parameters,
+        residual: curve.noise * residual_over_noise,
+        misfit: searched.misfit,
+        residual_over_noise,
+        beyond_five_sigma: searched.share_beyond(WRONG_SIDE),
+        tabor,
+        reason: reason_of_misfit,
+        warnings: simulation.compute(fitted.scene())?.warnings,
+        correlations: posterior.correlations(),
+        not_distinguished: posterior.not_distinguished(),
+        assumptions: assumptions(curve, instrument, &free),
+        evaluations: searched.evaluations,
+        model: searched.model_forces(curve),
+        document: fitted,
+    })
+}
+
+/// Returns what the fit takes for granted, in sentences.
+fn assumptions(
+    curve: &MeasuredCurve,
+    instrument: Option<String>,
+    free: &[Parameter],
+) -> Vec<String> {
+    let mut assumptions = Vec::from_iter(instrument);
+    if !free.contains(&Parameter::Offset) {
+        assumptions.push(fixed_contact_point(curve));
+    }
+    assumptions
+}
+
+/// Returns the sentence on the first touch, which a fit takes from the curve if it does not search
+/// the offset. A displacement that is off by half the distance of two points shifts the modulus by
+/// more than its interval if the noise is small.
+fn fixed_contact_point(curve: &MeasuredCurve) -> String {
+    let mut next = f64::INFINITY;
+    for displacement in &curve.displacement {
+        let distance = (displacement - curve.touch).abs();
+        if distance > 0.0 {
+            next = next.min(distance);
+        }
+    }
+    let contact_point = format_rounded(curve.touch, 3, "m");
+    let next = format_rounded(next, 3, "m");
+    format!(
+        "First touch was taken at the point at {contact_point}, and the next point is {next} away. The offset was not fitted, so the \
+         intervals leave out this uncertainty: --free {} fits it.",
+        Parameter::Offset.name()
+    )
+}
+
+/// Result of a search, compared with all points of the curve.
+struct Searched {
+    result: SearchResult,
+    /// Residuals of all points of the curve, in units of the noise.
+    residuals: Vec<f64>,
+    /// [`FitResult::misfit`] of the residuals.
+    misfit: f64,
+    /// Number of curves computed.
+    evaluations: usize,
+}
+
+impl Searched {
+    fn root_mean_square(&self) -> f64 {
+        (dot(&self.residuals, &self.residuals) / self.residuals.len() as f64).sqrt()
+    }
+
+    /// Returns the share of the residuals that are larger than `limit`.
+    fn share_beyond(&self, limit: f64) -> f64 {
+        let beyond = self
+            .residuals
+            .iter()
+            .filter(|residual| residual.abs() > limit)
+            .count();
+        beyond as f64 / self.residuals.len() as f64
+    }
+
+    /// Returns the forces of the model in N at the points of the curve.
+    fn model_forces(&self, curve: &MeasuredCurve) -> Vec<f64> {
+        curve
+            .force
+            .iter()
+            .zip(&self.residuals)
+            .map(|(measured, residual)| measured - residual * curve.noise)
+            .collect()
+    }
+}
+
+/// Searches the parameters. If the residuals of a part of the points are more than noise, the
+/// search uses only these points, because further points would not reduce the residuals.
+fn search(
+    curve: &MeasuredCurve,
+    document: &Document,
+    simulation: &mut Simulation,
+    space: &Space<'_>,
+    report: &mut dyn FnMut(usize),
+) -> Result<Searched, ExperimentError> {
+    let mut result_of_part = None;
+    let mut computed = 0;
+    if let Some(part) = curve.thinned(ENOUGH) {
+        let space = Space {
+            curve: &part,
+            ..space.clone()
+        };
+        let mut search = Search {
+            space: &space,
+            model: Model::new(&part, document.scene(), simulation),
+            report: &mut *report,
+            lines: space.lines(),
+        };
+        let (population, generator) = search.first()?;
+        if search.is_systematic(&population) {
+            result_of_part = Some(search.find_from(population, generator)?);
+        }
+        computed = search.model.evaluations;
+    }
+
+    let mut report_all = |evaluations: usize| report(computed + evaluations);
+    let mut search = Search {
+        space,
+        model: Model::new(curve, document.scene(), simulation),
+        report: &mut report_all,
+        lines: space.lines(),
+    };
+    let result = match result_of_part {
+        Some(result) => result,
+        None => search.find()?,
+    };
+    let best = &result.best.place;
+    let residuals = search.residuals(best, WRONG_SIDE * result.noise)?;
+    let misfit = space.misfit(&search.beyond_jumps(best, &residuals)?);
+    Ok(Searched {
+        residuals,
+        misfit,
+        evaluations: computed + search.model.evaluations,
+        result,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{
+        Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
+    };
+    use crate::fit::reason::Reason;
+    use crate::read::options::Drift;
+    use asperity_contact::Move;
+
+    /// Asserts that the values differ from the truth by at most a few standard errors, and that the
+    /// residuals are as large as the noise.
+    fn assert_found(made: &Made, fit: &FitResult) {
+        assert!(fit.describes() && fit.misfit < 1.1, "{}", fit.misfit);
+        for one in &fit.parameters {
+            let truth = truth(made, one.parameter);
+            assert!(
+                (one.value - truth).abs() < 4.0 * one.noise_error,
+                "{one:?}: {truth:e}"
+            );
+            assert!(one.noise_error < 0.02 * truth, "{one:?}");
+        }
+    }
+
+    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it
+    /// within its errors.
+    #[test]
+    fn a_rough_sphere_is_found_within_its_errors() {
+        let made = random(13, 1024);
+        let curve = measured(&made, 13);
+        assert_found(&made, &fitted(&curve, &made, "work,offset"));
+    }
+
+    #[test]
+    fn a_sphere_is_found_within_its_errors_and_written_into_its_scene() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert_found(&made, &fit);
+        // The forces of the model, with the zero and drift of the curve, leave the residual.
+        let squares = curve
+            .force
+            .iter()
+            .zip(&fit.model)
+            .map(|(force, model)| (force - model).powi(2));
+        let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
+        assert!(
+            (residual / fit.residual - 1.0).abs() < 1e-9,
+            "{residual} {}",
+            fit.residual
+        );
+        assert!((fit.residual / curve.noise / fit.residual_over_noise - 1.0).abs() < 1e-9);
+        let work = fit.parameters[0].value;
+        assert_eq!(serde_json::json!(fit)["parameters"]["work"]["value"], work);
+        let scene = fit.document.scene();
+        assert_eq!(scene.adhesion.unwrap().work(), Some(work));
+        assert!(
+            matches!(scene.loading[..], [Move::ToDisplacement(at), Move::ToSeparation] if at > 0.0)
+        );
+    }
+
+    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond
+    /// its interval, which is said.
+    #[test]
+    fn an_offset_that_is_not_fitted_is_named() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let [fixed, free] =
+            ["work,modulus", "work,modulus,offset"].map(|free| fitted(&curve, &made, free));
+        let truth = truth(&made, Parameter::Modulus);
+        let holds = |fit: &FitResult| {
+            let (low, high) = fit.parameters[1].interval;
+            (low..=high).contains(&truth)
+        };
+        assert!(
+            !holds(&fixed) && holds(&free),
+            "{truth:e} {:?} {:?}",
+            fixed.parameters,
+            free.parameters
+        );
+        let of_offset = |fit: &FitResult| {
+            fit.assumptions
+                .iter()
+                .any(|text| text.contains("--free offset"))
+        };
+        assert!(
+            of_offset(&fixed) && !of_offset(&free),
+            "{:?}",
+            fixed.assumptions
+        );
+    }
+
+    /// A point in the middle of the jump at pull-off changes neither the fit nor the number of
+    /// curves computed for it; as far from the model elsewhere, points are a misfit.
+    #[test]
+    fn a_point_inside_a_jump_counts_as_described() {
+        let made = random(4, 512);
+        let curve = measured(&made, 4);
+        let clean = fitted(&curve, &made, "work,modulus,offset");
+        let rise = |index: &usize| curve.force[*index] - curve.force[index - 1];
+        let retraction = curve.segment.partition_point(|segment| *segment == 0) + 1;
+        let jump = (retraction..1000)
+            .max_by(|one, other| rise(one).total_cmp(&rise(other)))
+            .unwrap();
+        let half = 0.5 * rise(&jump);
+        assert!(half > 10.0 * curve.noise, "{half:e} {:e}", curve.noise);
+        let with = |points: &[usize]| {
+            let mut curve = curve.clone();
+            points.iter().for_each(|index| curve.force[*index] -= half);
+            fitted(&curve, &made, "work,modulus,offset")
+        };
+        let inside = with(&[jump]);
+        assert!(
+            inside.describes() && inside.misfit < 1.02 * clean.misfit,
+            "{inside:?}"
+        );
+        assert!(
+            inside.beyond_five_sigma > 0.0 && inside.evaluations < clean.evaluations * 5 / 4,
+            "{inside:?}"
+        );
+        let apart: Vec<usize> = (1..11).map(|step| jump - 10 * step).collect();
+        assert!(with(&apart).misfit > 1.2 * clean.misfit);
+    }
+
+    /// A rough sphere whose pull-off force is 50 times smaller than that of a smooth one.
+    #[test]
+    fn a_range_that_ends_below_the_work_of_adhesion_is_extended() {
+        let made = random(67, 4096);
+        let curve = measured(&made, 67);
+        let fit = fitted(&curve, &made, "work,offset");
+        let (work, truth) = (fit.parameters[0], truth(&made, Parameter::Work));
+        assert!(
+            truth > 31.0 * work.start && work.range.1 > 800.0 * work.start,
+            "{work:?}"
+        );
+        let width = work.interval.1 - work.interval.0;
+        assert!(
+            fit.describes() && (work.value - truth).abs() < width,
+            "{work:?} {truth:e}"
+        );
+        assert!(
+            (work.value / truth - 1.0).abs() < 0.02,
+            "{work:?} {truth:e}"
+        );
+        let Free { parameter, .. } = "work".parse().unwrap();
+        let given = [
+            Free {
+                parameter,
+                range: Some((0.0, 30.0 * work.start)),
+            },
+            "offset".parse().unwrap(),
+        ];
+        let document = Document::from_scene(&made.scene, "made").unwrap();
+        let bounded = find(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
+        assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
+    }
+
+    /// The profile of a specimen is not the random one of the scene: no interval excludes the
+    /// truth, and the reason says so.
+    #[test]
+    fn another_random_profile_has_the_whole_range_as_interval() {
+        let mut made = random(13, 1024);
+        let curve = measured(&made, 13);
+        made.scene.set_seed(99);
+        let fit = fitted(&curve, &made, "work,modulus,offset");
+        assert!(
+            fit.has_other_profile() && fit.reason == Some(Reason::OtherProfile),
+            "{:?}",
+            fit.reason
+        );
+        for one in &fit.parameters[..2] {
+            assert_eq!(one.interval, one.range);
+            let truth = truth(&made, one.parameter);
+            assert!(one.interval.0 < truth && truth < one.interval.1, "{one:?}");
+        }
+    }
+
+    /// For any start the upper bound of the work of adhesion is at most a few times the work that
+    /// the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
+    #[test]
+    fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
+        for (seed, work) in [(1, 0.05), (2, 1e-6)] {
+            let curve = read(rubber(4e-8, seed, |_, _| 1.0).into_iter(), Drift::Keep);
+            let fit = fit_from(&curve, &on_rubber(work, 2.7e6), "work,modulus,offset");
+            let [work, modulus, _] = fit.parameters[..] else {
+                panic!("{:?}", fit.parameters)
+            };
+            assert!(fit.describes() && work.interval.0 == 0.0, "{fit:?}");
+            assert!((2e-4..5e-3).contains(&work.interval.1), "{work:?}");
+            assert_eq!(fit.work_at_most, Some(work.interval.1));
+            assert_eq!(
+                fit.not_distinguished
+                    .iter()
+                    .filter(|pair| pair.0 == Parameter::Work)
+                    .count(),
+                1
+            );
+            assert!(
+                modulus.interval.0 < 2e6 && 2e6 < modulus.interval.1,
+                "{modulus:?}"
+            );
+        }
+    }
+
+    /// A tension in contact counts as adhesion if a model without adhesion costs more by half the
+    /// square of 1.96, which is 1.9. Such a model costs 2.4 more for a tension of one standard
+    /// deviation of the noise, and 1.5 more for half that tension.
+    #[test]
+    fn a_tension_beyond_the_noise_is_adhesion() {
+        let bound = |times: f64| {
+            let pulled = |(at, force): (f64, f64)| {
+                (
+                    at,
+                    if at > 2.001e-6 {
+                        force - times * 4e-8
+                    } else {
+                        force
+                    },
+                )
+            };
+            let mut curve = read(
+                rubber(4e-8, 1, |_, _| 1.0).into_iter().map(pulled),
+                Drift::Keep,
+            );
+            curve.touch = 2e-6;
+            fit_from(&curve, &on_rubber(1e-3, 2e6), "work,offset").work_at_most
+        };
+        assert!(bound(0.5).is_some() && bound(1.0).is_none());
+    }
+
+    /// For a contact that stiffens, with hysteresis, parts of one curve give overlapping intervals,
+    /// and the residual is stated truly.
+    #[test]
+    fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
+        let points = rubber(1e-9, 3, |indentation, direction| {
+            1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction
+        });
+        let fits = [0, 1].map(|part| {
+            let curve = read(points.iter().copied().skip(part).step_by(2), Drift::Keep);
+            fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset")
+        });
+        for fit in &fits {
+            assert!(
+                !fit.describes() && fit.misfit > 10.0 && fit.beyond_five_sigma > 0.2,
+                "{fit:?}"
+            );
+            assert!(fit.reason.is_some(), "{fit:?}");
+            assert!(
+                (fit.residual_over_noise / fit.misfit - 0.8).abs() < 0.2,
+                "{fit:?}"
+            );
+        }
+        for (one, other) in fits[0].parameters.iter().zip(&fits[1].parameters) {
+            let overlap =
+                one.interval.1.min(other.interval.1) - one.interval.0.max(other.interval.0);
+            assert!(
+                overlap > 0.2 * (one.interval.1 - one.interval.0),
+                "{one:?} {other:?}"
+            );
+        }
+        let modulus = fits[0].parameters[1];
+        assert!(
+            modulus.interval.1 / modulus.interval.0 > 1.02,
+            "{modulus:?}"
+        );
+    }
+
+    /// Ranges and starts are those of the curve: values of the scene for free parameters change no
+    /// bit.
+    #[test]
+    fn a_start_a_thousand_times_off_changes_nothing() {
+        let curve = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
+        let [one, other, stiff] = [(1e-6, 2e3), (50.0, 2e9), (1e-6, 2e3)]
+            .map(|(work, modulus)| on_rubber(work, modulus))
+            .map(|document| fit_from(&curve, &document, "work,modulus,offset"));
+        assert_eq!(
+            (&one.parameters, one.evaluations),
+            (&other.parameters, other.evaluations)
+        );
+        assert_eq!(
+            (one.document.text(), &one.parameters),
+            (other.document.text(), &stiff.parameters)
+        );
+        let start = one.parameters[1].start;
+        assert!((1e6..4e6).contains(&start), "{start:e}");
+    }
+
+    /// A model that does not describe a curve of many points is fitted to a part of them, and no
+    /// other population is computed to its end.
+    #[test]
+    fn few_curves_are_computed_where_the_model_does_not_describe_the_curve() {
+        let stiffens = |indentation: f64, direction: f64| {
+            1.0 + 0.3 * indentation.max(0.0) / 1e-6 + 0.1 * direction
+        };
+        let curve = read(rubber_of(500, 1e-9, 3, stiffens).into_iter(), Drift::Keep);
+        let fit = fit_from(&curve, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
+        assert!(
+            fit.reason.is_some() && fit.evaluations < 15_000,
+            "{}",
+            fit.evaluations
+        );
+        assert_eq!(fit.model.len(), 1000);
+        let described = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
+        let fit = fit_from(&described, &on_rubber(1e-3, 2.7e6), "work,modulus,offset");
+        assert!(
+            fit.reason.is_none() && fit.evaluations < 7_000,
+            "{}",
+            fit.evaluations
+        );
+    }
+
+    /// A parameter is undetermined if its interval is wider than a factor e either way.
+    #[test]
+    fn a_parameter_is_determined_within_a_factor_e() {
+        let plain = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let found = |share: f64| {
+            let mut curve = plain.clone();
+            curve.noise = share * dot(&curve.force, &curve.force).sqrt();
+            let noise = gauss(curve.noise, 4);
+            curve
+                .force
+                .iter_mut()
+                .zip(noise)
+                .for_each(|(force, noise)| *force += noise);
+            fit_from(&curve, &on_rubber(1e-6, 2e6), "modulus=1e5..1e7").not_distinguished
+        };
+        assert_eq!(found(0.05), []);
+        assert_eq!(found(0.2), [(Parameter::Modulus, Parameter::Modulus)]);
+    }
+}

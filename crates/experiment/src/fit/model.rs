@@ -1,0 +1,476 @@
+//! The force of a scene at the measured displacements, for any values of the parameters.
+
+use crate::curve::MeasuredCurve;
+use crate::curve::numerics::Extent;
+use crate::error::ExperimentError;
+use crate::fit::parameter::{Parameter, Values};
+use asperity_contact::motion::Leg;
+use asperity_contact::{Contact, ContactError, CurvePoint, Direction, Modulus};
+use asperity_scene::instrument::{DisplacementCurve, DisplacementPoint};
+use asperity_scene::{CheckedScene, RunError, Simulation};
+use asperity_surface::Form;
+use std::ops::Range;
+
+/// Number of points of the force curve of each segment without the points at jumps.
+const SAMPLES: usize = 128;
+/// Number of points of a coarse force curve.
+const FEW: usize = 64;
+/// Largest number of extensions of a loading that does not reach its last displacement.
+const EXTENSIONS: usize = 8;
+/// Number of halvings of the last extension.
+const HALVINGS: usize = 5;
+/// Smallest jump of the force, in units of the noise, that the points resolve.
+const NOTABLE: f64 = 2.0;
+/// Number of points on each side of a fold, each half as far from the fold as the point before. A
+/// jump needs none, because its ends are points.
+const FAN: i32 = 8;
+
+/// Computation of a scene at the displacements of a measured curve.
+pub(crate) struct Model<'a> {
+    curve: &'a MeasuredCurve,
+    scene: CheckedScene,
+    simulation: &'a mut Simulation,
+    contact: Option<ContactOfRadius>,
+    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
+    pub noise: f64,
+    pub evaluations: usize,
+}
+
+/// Contact of a scene whose form has this radius in m. Springs and tree are reused for all other
+/// parameters.
+struct ContactOfRadius {
+    contact: Contact,
+    radius: f64,
+}
+
+/// Instrument, and points at which a curve is computed.
+#[derive(Clone, Copy)]
+pub(crate) struct Sampling {
+    pub stiffness: f64,
+    pub points: usize,
+    /// Smallest jump of the force that gets points at both of its ends, N.
+    pub least_jump: f64,
+}
+
+/// Leg of a body and its indentation, m, while it touches.
+struct BodyOnLeg {
+    leg: Leg,
+    indentation: f64,
+}
+
+/// Jump of the force of a model over the displacement.
+struct Jump {
+    displacement: f64,
+    /// Forces before and after the jump, N.
+    forces: [f64; 2],
+}
+
+impl<'a> Model<'a> {
+    pub fn new(
+        curve: &'a MeasuredCurve,
+        scene: &CheckedScene,
+        simulation: &'a mut Simulation,
+    ) -> Self {
+        Model {
+            curve,
+            scene: scene.clone(),
+            simulation,
+            contact: None,
+            noise: 1.0,
+            evaluations: 0,
+        }
+    }
+
+    /// Returns the contact for these values of the parameters.
+    fn contact(&mut self, values: &Values) -> Result<Contact, ExperimentError> {
+        let radius = values[Parameter::Radius as usize];
+        let bare = match self.contact.take() {
+            Some(made) if made.radius == radius => made,
+            _ => self.contact_of_radius(radius)?,
+        };
+        let bare = self.contact.insert(bare);
+        let works = [
+            values[Parameter::ClosingWork as usize],
+            values[Parameter::Work as usize],
+        ];
+        let modulus = Modulus::effective(values[Parameter::Modulus as usize])?;
+        let contact = bare.contact.with(modulus);
+        Ok(contact.works_of_adhesion(works).build()?)
+    }
+
+    /// Makes the contact of the scene with another radius of its form.
+    fn contact_of_radius(&mut self, radius: f64) -> Result<ContactOfRadius, ExperimentError> {
+        let scene = self.scene.with(|scene| {
+            if let Some(of_form) = scene.form.as_mut().and_then(Form::radius_mut) {
+                *of_form = radius;
+            }
+        });
+        self.scene = scene.map_err(RunError::from)?;
+        let (contact, _) = self.simulation.contact(&self.scene)?;
+        Ok(ContactOfRadius { contact, radius })
+    }
+
+    /// Computes the forces in N at the points of the curve.
+    pub fn forces(&mut self, values: &Values) -> Result<Vec<f64>, ExperimentError> {
+        self.evaluations += 1;
+        let curve = self.curve;
+        let zero = values[Parameter::Zero as usize];
+        let mut forces = Vec::with_capacity(curve.force.len());
+        self.each_segment(values, |segment, points, offset| {
+            for displacement in &curve.displacement[points] {
+                forces.push(zero + force_at(segment, displacement - offset));
+            }
+        })?;
+        Ok(forces)
+    }
+
+    /// Returns for each point of the curve the range of the forces in N before and after the
+    /// nearest jump of the model, minus the force of the model at the point. A jump counts if it is
+    /// at least `least` N and no further away than the neighbouring points; otherwise `None`.
+    pub fn jumps(
+        &mut self,
+        values: &Values,
+        least: f64,
+    ) -> Result<Vec<Option<Extent>>, ExperimentError> {
+        self.evaluations += 1;
+        let curve = self.curve;
+        let mut all = vec![None; curve.force.len()];
+        self.each_segment(values, |segment, points, offset| {
+            let mut jumps = jumps_of(segment);
+            jumps.retain(|jump| (jump.forces[1] - jump.forces[0]).abs() >= least);
+            let place = |index: usize| curve.displacement[index] - offset;
+            for index in points.clone() {
+                let before = place(index.max(points.start + 1) - 1);
+                let after = place((index + 2).min(points.end) - 1);
+                let near = before.min(after)..=before.max(after);
+                let force = force_at(segment, place(index));
+                let changes = jumps
+                    .iter()
+                    .filter(|jump| near.contains(&jump.displacement))
+                    .flat_map(|jump| jump.forces)
+                    .map(|end| end - force);
+                let extent = Extent::of(changes.chain([0.0]));
+                if extent.low < extent.high {
+                    all[index] = Some(extent);
+                }
+            }
+        })?;
+        Ok(all)
+    }
+
+    /// Computes the curve of each segment. Calls `take` with the curve, the index range of its
+    /// points in the measured curve, and the displacement at first touch.
+    fn each_segment(
+        &mut self,
+        values: &Values,
+        mut take: impl FnMut(&DisplacementCurve, Range<usize>, f64),
+    ) -> Result<(), ExperimentError> {
+        let contact = self.contact(values)?;
+        let offset = values[Parameter::Offset as usize];
+        let stiffness = values[Parameter::Stiffness as usize];
+        let sampling = Sampling {
+            stiffness,
+            points: if self.noise > 1.0 { FEW } else { SAMPLES },
+            least_jump: NOTABLE * self.noise * self.curve.noise,
+        };
+        let segments = &self.curve.segment;
+        let mut begin = 0;
+        let mut body: Option<BodyOnLeg> = None;
+        for (number, turn) in self.curve.turns.iter().enumerate() {
+            let presses = number % 2 == 0;
+            let to = turn - offset;
+            let from = body.as_ref().map(|body| body.indentation);
+            let leg = match &body {
+                Some(body) => Some(body.leg.turn(body.indentation)?),
+                None if presses && *turn > offset => Some(Leg::approach(&contact)?),
+                None => None,
+            };
+            let curve = match &leg {
+                Some(leg) if presses => sampling.press(leg, from, to)?,
+                Some(leg) => sampling.pull(leg, from.unwrap_or_default())?,
+                None => {
+                    DisplacementCurve::new(Direction::Loading, &[CurvePoint::default()], stiffness)
+                }
+            };
+            let end = segments.partition_point(|segment| *segment <= number);
+            take(&curve, begin..end, offset);
+            begin = end;
+            let indentation = nearest(&curve, to).map_or(0.0, |point| point.indentation);
+            body = leg.and_then(|leg| BodyOnLeg::new(leg, indentation));
+        }
+        Ok(())
+    }
+}
+
+impl BodyOnLeg {
+    /// Returns `None` for a body that is separated at the indentation in m.
+    fn new(leg: Leg, indentation: f64) -> Option<Self> {
+        let is_apart = leg.direction() == Direction::Unloading && indentation < leg.end();
+        (!is_apart).then_some(BodyOnLeg { leg, indentation })
+    }
+}
+
+/// Returns the jumps of a segment. Where the body is separated beyond an end of the segment, it
+/// jumps there.
+fn jumps_of(segment: &DisplacementCurve) -> Vec<Jump> {
+    let mut jumps = Vec::new();
+    for ends in segment.jumps() {
+        jumps.push(Jump {
+            displacement: ends[0].displacement,
+            forces: [ends[0].force, ends[1].force],
+        });
+    }
+    let ends = [segment.points().first(), segment.points().last()];
+    for end in ends.into_iter().flatten() {
+        let above = segment.at(end.displacement.next_up());
+        let below = segment.at(end.displacement.next_down());
+        let is_separated = [above, below]
+            .into_iter()
+            .flatten()
+            .any(|point| point.force == 0.0);
+        jumps.push(Jump {
+            displacement: end.displacement,
+            forces: [end.force, if is_separated { 0.0 } else { end.force }],
+        });
+    }
+    jumps
+}
+
+/// Returns the point of a segment at a displacement in m, or the end of the segment for a
+/// displacement that lies beyond it by noise.
+fn nearest(segment: &DisplacementCurve, displacement: f64) -> Option<DisplacementPoint> {
+    if let Some(point) = segment.at(displacement) {
+        return Some(point);
+    }
+    let first = segment.points().first()?;
+    let last = segment.points().last()?;
+    let distance = |point: &DisplacementPoint| (point.displacement - displacement).abs();
+    if distance(last).total_cmp(&distance(first)).is_lt() {
+        Some(*last)
+    } else {
+        Some(*first)
+    }
+}
+
+fn force_at(segment: &DisplacementCurve, displacement: f64) -> f64 {
+    nearest(segment, displacement).map_or(0.0, |point| point.force)
+}
+
+impl Sampling {
+    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at an
+    /// indentation in m, or for `None` at first touch.
+    fn press(
+        self,
+        leg: &Leg,
+        from: Option<f64>,
+        to: f64,
+    ) -> Result<DisplacementCurve, ContactError> {
+        let free = from.is_none().then(CurvePoint::default);
+        let from = from.unwrap_or_default();
+        let displacement = |indentation: f64| -> Result<f64, ContactError> {
+            Ok(leg.point(indentation)?.displacement(self.stiffness))
+        };
+        // The indentation at which the instrument is at its end is close above `low`. It differs
+        // from the displacement, because the instrument takes a part of the way or is pulled on.
+        let mut low = from;
+        let mut high = to.max(from);
+        for _ in 0..EXTENSIONS {
+            let reached = displacement(high)?;
+            if reached >= to {
+                break;
+            }
+            low = high;
+            high += 2.0 * (to - reached);
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if displacement(middle)? < to {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        self.over(leg, [from, high], 1, free)
+    }
+
+    /// Returns the curve of an unloading from an indentation in m to separation.
+    pub fn pull(self, leg: &Leg, from: f64) -> Result<DisplacementCurve, ContactError> {
+        let end = leg.end().min(from);
+        let separated = CurvePoint {
+            indentation: end,
+            ..CurvePoint::default()
+        };
+        // Close to separation the force may fall as the root of the indentation.
+        self.over(leg, [end, from], 2, Some(separated))
+    }
+
+    /// Returns the curve of a leg, which is one motion of the body, between two indentations over
+    /// the displacement. Its points are dense near the lower end for a high `power`. They include
+    /// both ends of all resolved jumps, and the point `free` without contact.
+    pub fn over(
+        self,
+        leg: &Leg,
+        range: [f64; 2],
+        power: i32,
+        free: Option<CurvePoint>,
+    ) -> Result<DisplacementCurve, ContactError> {
+        let mut points = leg.curve(&self.indentations(leg, range, power))?;
+        let folds = self.indentations_at_folds(&points, leg.direction());
+        if !folds.is_empty() {
+            points.extend(leg.curve(&folds)?);
+            points.sort_by(|point, next| point.indentation.total_cmp(&next.indentation));
+        }
+        let points: Vec<CurvePoint> = match leg.direction() {
+            Direction::Loading => free.into_iter().chain(points).collect(),
+            Direction::Unloading => points.into_iter().rev().chain(free).collect(),
+        };
+        Ok(DisplacementCurve::new(
+            leg.direction(),
+            &points,
+            self.stiffness,
+        ))
+    }
+
+    /// Returns the ascending indentations in m between two ends, with both ends of the jumps of the
+    /// contact.
+    fn indentations(self, leg: &Leg, range: [f64; 2], power: i32) -> Vec<f64> {
+        let [low, high] = range;
+        let mut indentations = Vec::with_capacity(self.points);
+        for index in 0..self.points {
+            let share = (index as f64 / (self.points - 1) as f64).powi(power);
+            indentations.push((low + (high - low) * share).min(high));
+        }
+        for jump in leg.jumps(low, high, self.least_jump) {
+            indentations.push(jump.next_down());
+            indentations.push(jump);
+        }
+        indentations.sort_by(f64::total_cmp);
+        indentations
+    }
+
+    /// Returns the ascending indentations in m of further points near folds. At a fold the
+    /// instrument cannot hold the body any more, which may be close before a jump of the contact.
+    /// `points` ascend in indentation.
+    fn indentations_at_folds(self, points: &[CurvePoint], direction: Direction) -> Vec<f64> {
+        let mut in_time = points.to_vec();
+        let sign = match direction {
+            Direction::Loading => 1.0,
+            Direction::Unloading => {
+                in_time.reverse();
+                -1.0
+            }
+        };
+        let mut folds = Vec::new();
+        // Largest displacement before a point, in the direction of the motion.
+        let mut reached = f64::NEG_INFINITY;
+        for neighbours in in_time.windows(3) {
+            let [before, fold, after] = [neighbours[0], neighbours[1], neighbours[2]];
+            let displacement = |point: CurvePoint| sign * point.displacement(self.stiffness);
+            reached = reached.max(displacement(before));
+            let at_fold = displacement(fold);
+            if at_fold > reached && displacement(after) < at_fold {
+                fan_out(fold.indentation, before.indentation, &mut folds);
+                fan_out(fold.indentation, after.indentation, &mut folds);
+            }
+        }
+        folds.sort_by(f64::total_cmp);
+        folds
+    }
+}
+
+/// Adds indentations that approach a fold from a neighbouring point.
+fn fan_out(fold: f64, neighbour: f64, indentations: &mut Vec<f64>) {
+    for power in 1..=FAN {
+        let indentation = fold + (neighbour - fold) * 0.5_f64.powi(power);
+        if indentation != fold && indentation != neighbour {
+            indentations.push(indentation);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{Made, force_curve, on_rubber, random, read, rubber, stiffness, truth};
+    use crate::fit::scene::radius_of;
+    use crate::fit::statistics::scale;
+    use crate::read::options::Drift;
+
+    /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of
+    /// coarse forces.
+    fn rests(made: &Made) -> [Vec<f64>; 2] {
+        let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
+        curve.noise = made.noise;
+        let [work, modulus] = [Parameter::Work, Parameter::Modulus].map(|one| truth(made, one));
+        let radius = radius_of(&made.scene).unwrap();
+        let values = [
+            work,
+            work,
+            modulus,
+            0.0,
+            0.0,
+            stiffness(&made.scene),
+            radius,
+        ];
+        let mut simulation = Simulation::default();
+        let mut model = Model::new(
+            &curve,
+            &made.scene.clone().checked().unwrap(),
+            &mut simulation,
+        );
+        let rests = [1.0, 10.0].map(|noise| {
+            model.noise = noise;
+            let forces = model.forces(&values).unwrap();
+            curve
+                .force
+                .iter()
+                .zip(&forces)
+                .map(|(force, model)| (force - model) / curve.noise)
+                .collect()
+        });
+        assert_eq!(model.evaluations, 2);
+        rests
+    }
+
+    #[test]
+    fn forces_are_those_of_the_radius_that_is_asked_for() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let mut simulations = [(); 2].map(|()| Simulation::default());
+        let [mut one, mut fresh] = simulations
+            .each_mut()
+            .map(|simulation| Model::new(&curve, document.scene(), simulation));
+        let mut forces = |radius| {
+            one.forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, radius])
+                .unwrap()
+        };
+        let [wide, narrow, again] = [7.5e-6, 3e-6, 7.5e-6].map(&mut forces);
+        assert!(wide == again && wide != narrow);
+        assert_eq!(
+            fresh
+                .forces(&[1e-3, 1e-3, 2e6, 2e-6, 0.0, 3.0, 3e-6])
+                .unwrap(),
+            narrow
+        );
+    }
+
+    #[test]
+    fn forces_are_those_of_a_fine_curve_with_all_its_jumps() {
+        for (seed, points, most) in [
+            (4, 512, [0.1, 0.5]),
+            (11, 1024, [0.1, 1.0]),
+            (14, 512, [0.1, 0.5]),
+        ] {
+            let found = rests(&random(seed, points)).map(|rests| {
+                let beyond = rests.iter().filter(|rest| rest.abs() > 5.0).count();
+                (scale(&rests, 5.0), beyond)
+            });
+            let [exact, coarse] = found;
+            assert!(exact.0 < most[0] && exact.1 <= 2, "{seed}: {exact:?}");
+            assert!(
+                coarse.0 < most[1] && coarse.0 > exact.0 && coarse.1 <= 20,
+                "{seed}: {exact:?} {coarse:?}"
+            );
+        }
+    }
+}

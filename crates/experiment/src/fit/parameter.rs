@@ -1,0 +1,431 @@
+//! Parameters of a fit: their names, units and ranges, and the coordinates in which they are
+//! searched.
+
+use crate::error::{ExperimentError, refused};
+use asperity_data::parse_quantity;
+use asperity_scene::text::did_you_mean;
+use serde::{Serialize, Serializer};
+use std::str::FromStr;
+
+/// Parameter of a scene or of a measured curve that a [`Fit`](crate::Fit) can find.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Parameter {
+    /// Work of adhesion γ, J/m².
+    Work,
+    /// Work of adhesion on closing γ₁, J/m²: the energy per area gained where the contact grows.
+    ClosingWork,
+    /// Effective modulus E*, Pa.
+    Modulus,
+    /// Displacement D₀ that the measured curve has at first touch, m.
+    Offset,
+    /// Force F₀ that the measured curve has before contact, N.
+    Zero,
+    /// Stiffness of the instrument, N/m.
+    Stiffness,
+    /// Radius R of the form of the scene, such as a sphere, m.
+    Radius,
+}
+
+impl Serialize for Parameter {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// Values of all parameters in SI units, in the order of [`Parameter::ALL`].
+pub(crate) type Values = [f64; 7];
+
+/// Names, symbol and SI unit of a [`Parameter`].
+#[derive(Clone, Copy, Debug)]
+pub struct ParameterRow {
+    /// Name on the command line and in JSON, such as `closing_work`.
+    pub name: &'static str,
+    /// Name in words, such as `work of adhesion on closing`.
+    pub term: &'static str,
+    /// Symbol, such as `γ`.
+    pub symbol: &'static str,
+    /// SI unit, such as `J/m²`.
+    pub unit: &'static str,
+}
+
+impl Parameter {
+    /// All parameters, in the order in which tables list them.
+    pub const ALL: [Parameter; 7] = {
+        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
+        [Work, ClosingWork, Modulus, Offset, Zero, Stiffness, Radius]
+    };
+
+    /// Returns names, symbol and SI unit of the parameter.
+    ///
+    /// ```
+    /// use asperity_experiment::Parameter;
+    ///
+    /// let row = Parameter::Work.row();
+    /// assert_eq!((row.symbol, row.unit, row.term), ("γ", "J/m²", "work of adhesion"));
+    /// ```
+    pub fn row(self) -> ParameterRow {
+        let row = |name, term, symbol, unit| ParameterRow {
+            name,
+            term,
+            symbol,
+            unit,
+        };
+        match self {
+            Parameter::Work => row("work", "work of adhesion", "γ", "J/m²"),
+            Parameter::ClosingWork => {
+                row("closing_work", "work of adhesion on closing", "γ₁", "J/m²")
+            }
+            Parameter::Modulus => row("modulus", "effective modulus", "E*", "Pa"),
+            Parameter::Offset => row("offset", "displacement at first touch", "D₀", "m"),
+            Parameter::Zero => row("zero", "force before contact", "F₀", "N"),
+            Parameter::Stiffness => row("stiffness", "loading stiffness", "k", "N/m"),
+            Parameter::Radius => row("radius", "radius of the form", "R", "m"),
+        }
+    }
+
+    /// Returns the name of the parameter on the command line and in JSON, such as `closing_work`.
+    pub fn name(self) -> &'static str {
+        self.row().name
+    }
+
+    /// Returns true for a parameter that may have either sign.
+    pub(crate) fn is_signed(self) -> bool {
+        matches!(self, Parameter::Offset | Parameter::Zero)
+    }
+
+    /// Returns true for a work of adhesion, which may be 0.
+    fn is_work(self) -> bool {
+        matches!(self, Parameter::Work | Parameter::ClosingWork)
+    }
+
+    /// Returns true if the parameter can be searched between these values.
+    fn allows(self, low: f64, high: f64) -> bool {
+        let is_allowed = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
+        is_allowed && low < high && low.is_finite() && high.is_finite()
+    }
+
+    /// Returns the ranges in which the parameter can be searched, in words.
+    fn ranges(self) -> String {
+        let least = if self.is_signed() {
+            ""
+        } else if self.is_work() {
+            " of at least 0"
+        } else {
+            " above 0"
+        };
+        format!("two values{least}, the first below the second")
+    }
+
+    /// Returns in words a further measurement that helps if a fit cannot separate these two
+    /// parameters. If both are the same parameter, the measurement determines this parameter.
+    ///
+    /// ```
+    /// use asperity_experiment::Parameter;
+    ///
+    /// let remedy = Parameter::remedy(Parameter::Modulus, Parameter::Radius);
+    /// assert_eq!(remedy, "the radius from an image of the form");
+    /// ```
+    pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
+        use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
+        if one == other {
+            return "less noise, a larger preload, or its value from another measurement";
+        }
+        // The parameter that comes first in tables comes first here.
+        let (first, second) = if (one as usize) < other as usize {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        match (first, second) {
+            (Modulus, Stiffness) => {
+                "the stiffness of the instrument from a curve on a hard specimen"
+            }
+            (Modulus, Radius) => "the radius from an image of the form",
+            (Work, Radius) => {
+                "the radius from an image of the form, since the pull-off force has γR alone"
+            }
+            (Work, ClosingWork) => {
+                "turning points at several preloads, since γ₁ acts where the contact grows"
+            }
+            (Offset, Zero) => "a longer part before contact for the zero of the force",
+            (Modulus, Offset) | (Offset, Stiffness) => {
+                "a larger preload, or more points near first touch"
+            }
+            (Work, Modulus) => "a larger preload, where the elastic force exceeds the adhesion",
+            _ => "a curve with another preload, or one of both from another measurement",
+        }
+    }
+}
+
+/// Parameter that a fit searches, with the range of the search if one is given. It can be parsed
+/// from a text: `work`, or `work=10mJ/m^2..1J/m^2` with a range.
+///
+/// ```
+/// use asperity_experiment::{Free, Parameter};
+///
+/// assert_eq!(
+///     "work=10mJ/m^2..1J/m^2".parse(),
+///     Free::within(Parameter::Work, (0.01, 1.0)).map_err(|error| error.to_string())
+/// );
+/// let error = Free::within(Parameter::Modulus, (2e6, 1e6)).unwrap_err();
+/// assert_eq!(
+///     error.to_string(),
+///     "modulus: 2000000.0..1000000.0 Pa; allowed: two values above 0, the first below the second"
+/// );
+/// assert_eq!(Free::from(Parameter::Offset).range(), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Free {
+    /// Parameter that is searched.
+    pub parameter: Parameter,
+    /// Lower and upper end of the range in SI units; `None` for a range around the start.
+    pub(crate) range: Option<(f64, f64)>,
+}
+
+impl Free {
+    /// Makes a free parameter with the lower and the upper end of its range, in the SI unit of the
+    /// parameter.
+    ///
+    /// # Errors
+    /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if
+    /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative, and of the
+    /// others only a work of adhesion can be 0.
+    pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
+        if parameter.allows(range.0, range.1) {
+            return Ok(Free {
+                parameter,
+                range: Some(range),
+            });
+        }
+        let ParameterRow { name, unit, .. } = parameter.row();
+        refused(
+            format!("{name}: {:?}..{:?} {unit}", range.0, range.1),
+            parameter.ranges(),
+        )
+    }
+
+    /// Returns both ends of the range in the SI unit of the parameter; `None` if the fit chooses
+    /// the range.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        self.range
+    }
+}
+
+impl From<Parameter> for Free {
+    fn from(parameter: Parameter) -> Self {
+        Free {
+            parameter,
+            range: None,
+        }
+    }
+}
+
+impl FromStr for Free {
+    type Err = String;
+
+    /// Parses `work`, or `work=10mJ/m^2..1J/m^2` with a range.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let Some((name, range)) = text.split_once('=') else {
+            return Ok(parameter_of(text)?.into());
+        };
+        let parameter = parameter_of(name)?;
+        Ok(Free {
+            parameter,
+            range: Some(range_of(parameter, range)?),
+        })
+    }
+}
+
+fn parameter_of(name: &str) -> Result<Parameter, String> {
+    for parameter in Parameter::ALL {
+        if parameter.name() == name {
+            return Ok(parameter);
+        }
+    }
+    let names = Parameter::ALL.map(Parameter::name);
+    let near = did_you_mean(name, names);
+    Err(format!(
+        "{name:?} is not a parameter{near}; allowed: {}",
+        names.join(", ")
+    ))
+}
+
+/// Returns the lower and the upper end of a range such as `1..2`.
+fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
+    let name = parameter.name();
+    let allowed = format!("allowed: {}, such as {name}=1..2", parameter.ranges());
+    let Some((low, high)) = text.split_once("..") else {
+        return Err(allowed);
+    };
+    let unit = parameter.row().unit;
+    let low = parse_quantity(low, unit).map_err(|error| format!("{error}; {allowed}"))?;
+    let high = parse_quantity(high, unit).map_err(|error| format!("{error}; {allowed}"))?;
+    if parameter.allows(low, high) {
+        Ok((low, high))
+    } else {
+        Err(allowed)
+    }
+}
+
+/// Coordinate in which a free parameter is searched: the value in a unit, the share of the work of
+/// adhesion (for the work on closing), or a logarithm. The coordinate of the work of adhesion is
+/// linear up to its unit, so that it reaches 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Coordinate {
+    pub parameter: Parameter,
+    pub start: f64,
+    pub range: (f64, f64),
+    /// Unit for a parameter that may have either sign, and for the work of adhesion.
+    pub unit: f64,
+}
+
+impl Coordinate {
+    /// Returns the coordinate of a value of the parameter. `values` contains the other parameters.
+    pub fn of(&self, value: f64, values: &Values) -> f64 {
+        match self.parameter {
+            Parameter::Work => (value / self.unit).asinh(),
+            Parameter::ClosingWork => {
+                let (low, high) = self.range_on_closing(values);
+                if high > low {
+                    ((value - low) / (high - low)).clamp(0.0, 1.0)
+                } else {
+                    1.0
+                }
+            }
+            parameter if parameter.is_signed() => value / self.unit,
+            _ => value.ln(),
+        }
+    }
+
+    /// Returns the value of the parameter at a coordinate. `values` contains the other parameters.
+    pub fn value(&self, coordinate: f64, values: &Values) -> f64 {
+        match self.parameter {
+            Parameter::Work => coordinate.sinh() * self.unit,
+            Parameter::ClosingWork => {
+                let (low, high) = self.range_on_closing(values);
+                low + coordinate.clamp(0.0, 1.0) * (high - low)
+            }
+            parameter if parameter.is_signed() => coordinate * self.unit,
+            _ => coordinate.exp(),
+        }
+    }
+
+    /// Returns the range of the work of adhesion on closing, which is at most the work of adhesion.
+    fn range_on_closing(&self, values: &Values) -> (f64, f64) {
+        let work = values[Parameter::Work as usize];
+        (self.range.0.min(work), self.range.1.min(work))
+    }
+
+    /// Returns the coordinates of both ends of the range.
+    pub fn ends(&self) -> (f64, f64) {
+        if self.parameter == Parameter::ClosingWork {
+            return (0.0, 1.0);
+        }
+        // No other coordinate depends on other parameters.
+        let values = [1.0; 7];
+        (
+            self.of(self.range.0, &values),
+            self.of(self.range.1, &values),
+        )
+    }
+
+    /// Returns true for the work of adhesion in a range that begins at 0.
+    pub fn is_work_from_zero(&self) -> bool {
+        self.parameter == Parameter::Work && self.range.0 == 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn coordinate(parameter: Parameter, range: (f64, f64)) -> Coordinate {
+        Coordinate {
+            parameter,
+            start: range.0,
+            range,
+            unit: 0.5,
+        }
+    }
+
+    #[test]
+    fn values_come_back_from_their_coordinates() {
+        let mut values = [1.0; 7];
+        values[Parameter::Work as usize] = 4.0;
+        for (parameter, range, value, at) in [
+            (Parameter::Work, (0.0, 10.0), 0.0, 0.0),
+            (Parameter::Work, (0.0, 10.0), 3.0, 6.0_f64.asinh()),
+            (Parameter::ClosingWork, (0.0, 10.0), 3.0, 0.75),
+            (Parameter::ClosingWork, (2.0, 3.0), 2.5, 0.5),
+            (Parameter::ClosingWork, (2.0, 10.0), 3.0, 0.5),
+            (Parameter::Offset, (-3.0, 3.0), -2.0, -4.0),
+            (Parameter::Zero, (-3.0, 3.0), 2.0, 4.0),
+            (Parameter::Modulus, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Stiffness, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+            (Parameter::Radius, (1.0, 9.0), 5.0, 5.0_f64.ln()),
+        ] {
+            let one = coordinate(parameter, range);
+            assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
+            assert!((one.value(at, &values) - value).abs() < 1e-12, "{one:?}");
+        }
+        // A work on closing is at most that on opening, also where there is none.
+        let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
+        assert_eq!(
+            (closing.of(9.0, &values), closing.value(1.5, &values)),
+            (1.0, 4.0)
+        );
+        assert_eq!(
+            (closing.of(0.0, &[0.0; 7]), closing.value(0.5, &[0.0; 7])),
+            (1.0, 0.0)
+        );
+        assert_eq!(closing.ends(), (0.0, 1.0));
+        assert_eq!(
+            coordinate(Parameter::Offset, (-3.0, 3.0)).ends(),
+            (-6.0, 6.0)
+        );
+        assert_eq!(
+            coordinate(Parameter::Work, (0.0, 1.0)).ends(),
+            (0.0, 2.0_f64.asinh())
+        );
+    }
+
+    #[test]
+    fn free_parameters_are_parsed_with_their_ranges() {
+        let free = |text: &str| text.parse::<Free>();
+        let range = |text: &str| free(text).unwrap().range;
+        assert_eq!(
+            free("offset"),
+            Ok(Free {
+                parameter: Parameter::Offset,
+                range: None
+            })
+        );
+        assert_eq!(range("work=0..1"), Some((0.0, 1.0)));
+        assert_eq!(range("closing_work=0..20mJ/m^2"), Some((0.0, 0.02)));
+        assert_eq!(range("offset=-1um..0"), Some((-1e-6, 0.0)));
+        for (text, said) in [
+            (
+                "work=-1..1",
+                "allowed: two values of at least 0, the first below the second, such as work=1..2",
+            ),
+            (
+                "modulus=0..1",
+                "allowed: two values above 0, the first below the second, such as modulus=1..2",
+            ),
+            (
+                "zero=2..1",
+                "allowed: two values, the first below the second, such as zero=1..2",
+            ),
+            ("radius=1", "allowed: two values above 0"),
+            ("work=1..x", "\"x\""),
+            ("wrok", "\"wrok\" is not a parameter"),
+        ] {
+            let error = free(text).unwrap_err();
+            assert!(
+                error.starts_with(said) || error.contains(said),
+                "{text}: {error}"
+            );
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The members of a search: values of the parameters, with their residuals and costs.
+
+/// Share of different members below which the extent of a population is meaningless.
+const DISTINCT: f64 = 0.5;
+/// Share of different members above which the copies of a step have moved apart.
+const MOVED: f64 = 0.8;
+/// Residual in units of the noise above which a point counts less, because it is on the wrong side
+/// of a jump.
+pub(crate) const WRONG_SIDE: f64 = 5.0;
+
+/// Place in the space of the coordinates, with the residuals of the curve in units of its noise.
+#[derive(Clone)]
+pub(crate) struct Member {
+    pub place: Vec<f64>,
+    pub residuals: Vec<f64>,
+}
+
+/// Members with their costs at a noise.
+pub(crate) struct Population {
+    pub members: Vec<Member>,
+    pub costs: Vec<f64>,
+    /// Noise in units of the noise of the curve.
+    pub noise: f64,
+    /// Best member so far.
+    pub best: Member,
+    /// Cost of the best member.
+    pub cost: f64,
+}
+
+impl Population {
+    /// Keeps a member as the best one if its cost is smaller.
+    pub fn keep(&mut self, member: &Member, cost: f64) {
+        if cost < self.cost {
+            self.best = member.clone();
+            self.cost = cost;
+        }
+    }
+
+    /// Returns the number of different members.
+    pub fn distinct(&self) -> usize {
+        let mut count = 0;
+        for (index, member) in self.members.iter().enumerate() {
+            let mut earlier = self.members[..index].iter();
+            if !earlier.any(|other| other.place == member.place) {
+                count += 1;
+            }
+        }
+        count
+    }
+
+    /// Returns true if most members differ, so that the next step can be taken.
+    pub fn has_moved(&self) -> bool {
+        self.distinct() as f64 >= MOVED * self.members.len() as f64
+    }
+
+    /// Returns false if most members are copies, so that the extent of the population is
+    /// meaningless.
+    pub fn has_spread(&self) -> bool {
+        self.distinct() as f64 >= DISTINCT * self.members.len() as f64
+    }
+}
+
+/// Returns the cost of a residual in units of the noise. The cost is half the square. A point on
+/// the wrong side of a jump counts by the logarithm, because measured displacements are not exact
+/// to the edge of a jump.
+pub(crate) fn loss(residual: f64) -> f64 {
+    let size = residual.abs();
+    if size > WRONG_SIDE {
+        WRONG_SIDE * WRONG_SIDE * (0.5 + (size / WRONG_SIDE).ln())
+    } else {
+        0.5 * size * size
+    }
+}
+
+/// Draws `count` members in proportion to their weights, at even distances. `share` is the position
+/// of the first one.
+pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
+    let step = weights.iter().sum::<f64>() / count as f64;
+    let mut drawn = Vec::with_capacity(count);
+    let mut sum = 0.0;
+    for (member, weight) in members.iter().zip(weights) {
+        sum += weight;
+        while drawn.len() < count && (drawn.len() as f64 + share) * step < sum {
+            drawn.push(member.clone());
+        }
+    }
+    drawn
+}
+
+/// Returns point `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
+pub(crate) fn share_of(number: usize, base: usize) -> f64 {
+    if number == 0 {
+        return 0.0;
+    }
+    ((number % base) as f64 + share_of(number / base, base)) / base as f64
+}

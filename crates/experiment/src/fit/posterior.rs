@@ -1,0 +1,161 @@
+//! The distribution of the parameters after a search: their errors, their correlations, and the
+//! parameters that the curve does not determine.
+
+use crate::curve::numerics::correlated;
+use crate::fit::parameter::{Coordinate, Parameter, Values};
+use crate::fit::result::FittedParameter;
+use crate::fit::search::SearchResult;
+use crate::fit::space::Space;
+use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
+
+/// Correlation above which parameters are not separated.
+const CORRELATED: f64 = 0.95;
+/// Half-width of the 95 % interval of a logarithm above which a parameter is undetermined.
+const FLAT: f64 = 1.0;
+/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
+const NORMAL: f64 = 1.96;
+
+/// Distribution of the parameters after a search.
+pub(crate) struct Posterior<'a> {
+    space: &'a Space<'a>,
+    result: &'a SearchResult,
+    /// Samples with wider deviations, because residuals that correlate along the curve carry less
+    /// information than independent ones.
+    widened: Vec<Vec<f64>>,
+    /// Best value of each parameter.
+    pub best: Values,
+    /// True if the profile of the specimen differs from the random profile of the scene.
+    has_other_profile: bool,
+    /// True if a model without adhesion describes the curve too.
+    is_without_adhesion: bool,
+}
+
+impl<'a> Posterior<'a> {
+    pub fn new(space: &'a Space<'a>, result: &'a SearchResult, has_other_profile: bool) -> Self {
+        let variance_factor = correlated(&result.residuals);
+        let mut widened = result.samples.clone();
+        widen(&mut widened, variance_factor.sqrt());
+        let most_extra_cost = 0.5 * NORMAL * NORMAL * variance_factor;
+        Posterior {
+            space,
+            result,
+            widened,
+            best: space.values(&result.best.place),
+            has_other_profile,
+            is_without_adhesion: result.without_adhesion < most_extra_cost,
+        }
+    }
+
+    /// Returns all free parameters with their errors.
+    pub fn parameters(&self) -> Vec<FittedParameter> {
+        let coordinates = self.space.coordinates.iter();
+        coordinates
+            .map(|coordinate| self.fitted(coordinate))
+            .collect()
+    }
+
+    fn fitted(&self, coordinate: &Coordinate) -> FittedParameter {
+        let parameter = coordinate.parameter;
+        let value = self.best[parameter as usize];
+        let Spread {
+            standard_deviation,
+            interval: (low, high),
+        } = spread(self.values_of(&self.widened, parameter)).unwrap_or(Spread::at(value));
+        let samples = self.values_of(&self.result.samples, parameter);
+        let blocks_error = block_error(&samples, &self.result.blocks);
+        let noise_error = standard_deviation.max(blocks_error);
+
+        let half_width = NORMAL * noise_error;
+        let mut low = low.min(value - half_width);
+        let high = high.max(value + half_width);
+        if !parameter.is_signed() {
+            low = low.max(0.0);
+        }
+        if parameter == Parameter::Work && self.is_without_adhesion {
+            low = 0.0;
+        }
+        let is_meaningless = self.has_other_profile && !parameter.is_signed();
+        FittedParameter {
+            parameter,
+            value,
+            interval: if is_meaningless {
+                coordinate.range
+            } else {
+                (low, high)
+            },
+            noise_error,
+            start: coordinate.start,
+            range: coordinate.range,
+        }
+    }
+
+    /// Returns the values of one parameter in all samples.
+    fn values_of(&self, samples: &[Vec<f64>], parameter: Parameter) -> Vec<f64> {
+        samples
+            .iter()
+            .map(|place| self.space.values(place)[parameter as usize])
+            .collect()
+    }
+
+    /// Returns the correlation of each pair of parameters.
+    pub fn correlations(&self) -> Vec<(Parameter, Parameter, f64)> {
+        let coordinates = &self.space.coordinates;
+        let mut correlations = Vec::new();
+        for first in 0..coordinates.len() {
+            for second in first + 1..coordinates.len() {
+                let value = correlation(&self.widened, [first, second]);
+                let first = coordinates[first].parameter;
+                let second = coordinates[second].parameter;
+                correlations.push((first, second, value));
+            }
+        }
+        correlations
+    }
+
+    /// Returns the pairs of parameters that the curve does not separate. A parameter that the curve
+    /// does not determine on its own is a pair with itself.
+    pub fn not_distinguished(&self) -> Vec<(Parameter, Parameter)> {
+        let mut pairs = Vec::new();
+        for (first, second, correlation) in self.correlations() {
+            if correlation.abs() > CORRELATED {
+                pairs.push((first, second));
+            }
+        }
+        for (index, coordinate) in self.space.coordinates.iter().enumerate() {
+            let parameter = coordinate.parameter;
+            let is_in_pair = pairs
+                .iter()
+                .any(|(first, second)| *first == parameter || *second == parameter);
+            if !is_in_pair && !self.is_determined(index, coordinate) {
+                pairs.push((parameter, parameter));
+            }
+        }
+        pairs
+    }
+
+    /// Returns false for a coordinate whose samples spread too widely or reach an end of the range.
+    fn is_determined(&self, index: usize, coordinate: &Coordinate) -> bool {
+        if coordinate.parameter == Parameter::Work && self.is_without_adhesion {
+            return false;
+        }
+        let samples = self.widened.iter().map(|place| place[index]).collect();
+        let best = self.result.best.place[index];
+        let (from, to) = spread(samples).unwrap_or(Spread::at(best)).interval;
+        let width = to - from;
+        let (low, high) = coordinate.ends();
+        let is_wide = !coordinate.parameter.is_signed() && 0.5 * width > FLAT;
+        let is_at_end = (from - low).min(high - to) < 0.01 * width;
+        !is_wide && !is_at_end
+    }
+
+    /// Returns the upper bound of the work of adhesion in J/m², if the curve shows no adhesion.
+    pub fn work_at_most(&self, parameters: &[FittedParameter]) -> Option<f64> {
+        if !self.is_without_adhesion {
+            return None;
+        }
+        let work = parameters
+            .iter()
+            .find(|fitted| fitted.parameter == Parameter::Work)?;
+        Some(work.interval.1)
+    }
+}

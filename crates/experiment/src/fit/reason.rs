@@ -1,0 +1,506 @@
+//! The reason why a model does not describe a curve, found from the pattern of the residuals.
+
+use crate::curve::MeasuredCurve;
+use crate::curve::numerics::{Extent, dot, least_squares, right_angled, subtract_all};
+use crate::error::ExperimentError;
+use crate::fit::model::Model;
+use crate::fit::parameter::{Parameter, Values};
+use asperity_data::{Warning, format_quantity, median};
+use asperity_scene::{CheckedScene, Simulation};
+use serde::{Serialize, Serializer};
+use thiserror::Error;
+
+/// Largest jump of the force between two points on a rigid instrument, divided by the pull-off
+/// force. A sphere on a rigid instrument jumps by 5/9.
+const RIGID: f64 = 0.65;
+/// Share of the squared residuals that a pattern must explain.
+const EXPLAINS: f64 = 0.4;
+/// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
+/// allow.
+const STEEPER: f64 = 1.03;
+/// Share of the way from first touch to the turning point in which this slope is measured.
+const PRESSED: f64 = 0.2;
+/// Smallest number of points from which this slope is measured.
+const FEWEST: usize = 5;
+/// Relative step of a numerical derivative.
+const STEP: f64 = 1e-3;
+/// Change of the force in this step, divided by the range of the force, above which it is a jump
+/// without a derivative.
+const LEAPS: f64 = 0.02;
+/// Residual in units of the median above which residuals are cut off. Such points are on the wrong
+/// side of a jump.
+const CUT: f64 = 5.0;
+
+/// Reason why a model does not describe a measured curve. `Display` writes a reason as one
+/// sentence. If an option of `asperity fit` or a field of the scene can remove the cause, the
+/// sentence names it.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Reason {
+    /// The contact reaches the ends of the profile, which should be longer. The value is the length
+    /// of the profile in m.
+    #[error("{}", Warning::ContactAtEnds { length: *.0 })]
+    ShortProfile(f64),
+    /// Too few springs are in contact for an accurate force. The value is the largest number of
+    /// springs in contact.
+    #[error("{}", Warning::FewSpringsInContact { springs: *.0 })]
+    CoarseProfile(u64),
+    /// The measured force jumps by this value in N between two points, but the instrument of the
+    /// scene is rigid.
+    #[error(
+        "The force jumps by {} between two points, but the scene has no loading_stiffness: its instrument is rigid.",
+        format_quantity(*.0, "N")
+    )]
+    Rigid(f64),
+    /// The measured force without contact changes along a straight line over time.
+    #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
+    Drift,
+    /// The measured force without contact changes along a straight line over the displacement.
+    #[error(
+        "The force has a slope over the displacement where nothing touches: --tilt remove takes it off."
+    )]
+    Tilt,
+    /// The measured force without contact changes over time and also over the displacement.
+    #[error(
+        "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
+    )]
+    DriftAndTilt,
+    /// The measured forces before and after contact differ by this value in N.
+    #[error(
+        "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
+         alone.",
+        format_quantity(*.0, "N")
+    )]
+    Step(f64),
+    /// The attraction reaches too far for JKR theory. The value is the Tabor number, which is below
+    /// 5.
+    #[error("{}", Warning::of_tabor_number(*.0).map_or_else(String::new, |warning| warning.to_string()))]
+    TaborNumber(f64),
+    /// The profile of the scene is one of many random profiles, and the specimen has another
+    /// profile.
+    #[error(
+        "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
+         many of them."
+    )]
+    OtherProfile,
+    /// Approach and retraction differ more than in an elastic contact with a single work of
+    /// adhesion.
+    #[error(
+        "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
+         closing. --free {} tries the second, --segments 2 fits the retraction alone.",
+        Parameter::ClosingWork.name()
+    )]
+    Branches,
+    /// The measured force rises over the displacement with this slope in N/m, which is larger than
+    /// the stiffness of the instrument in the scene.
+    #[error(
+        "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
+        format_quantity(*.0, "N/m")
+    )]
+    Stiffness(f64),
+    /// Approach and retraction deviate from the model in the same way. The stiffness of the
+    /// instrument, the form or the profile of the scene is likely to be wrong.
+    #[error(
+        "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
+         another form or profile."
+    )]
+    StiffnessOrForm,
+    /// No other reason was found. The form or the profile of the scene is likely to be wrong.
+    #[error("Another form or profile than that of the scene is likely.")]
+    Form,
+}
+
+impl Serialize for Reason {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+/// Finds the reason why a scene with these values and free parameters does not describe a curve.
+/// `tabor` is its Tabor number.
+///
+/// # Errors
+/// A computation fails.
+pub(crate) fn reason(
+    curve: &MeasuredCurve,
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+    values: &Values,
+    free: &[Parameter],
+    tabor: Option<f64>,
+) -> Result<Reason, ExperimentError> {
+    if let Some(reason) = of_profile(scene, simulation) {
+        return Ok(reason);
+    }
+    let is_stiffness_free = free.contains(&Parameter::Stiffness);
+    if scene.loading_stiffness.is_none()
+        && !is_stiffness_free
+        && let Some(jump) = jump_of_compliance(curve)
+    {
+        return Ok(Reason::Rigid(jump));
+    }
+    let mut misfit = Misfit::new(curve, scene, simulation, values, free)?;
+    if let Some(reason) = misfit.change_without_contact() {
+        return Ok(reason);
+    }
+    let low_tabor = tabor.filter(|number| *number < Warning::JKR_TABOR_NUMBER);
+    if let Some(number) = low_tabor
+        && number < Warning::LEAST_TABOR_NUMBER
+    {
+        return Ok(Reason::TaborNumber(number));
+    }
+    let stiffness = values[Parameter::Stiffness as usize];
+    let is_stiffness_stated = stiffness.is_finite() && !is_stiffness_free;
+    let slope = slope_when_pressed(curve);
+    if is_stiffness_stated && slope > STEEPER * stiffness {
+        return Ok(Reason::Stiffness(slope));
+    }
+    if scene.seed().is_some() {
+        return Ok(Reason::OtherProfile);
+    }
+    if has_two_directions(curve) && misfit.branches_differ()? {
+        return Ok(Reason::Branches);
+    }
+    if let Some(number) = low_tabor {
+        return Ok(Reason::TaborNumber(number));
+    }
+    if is_stiffness_stated {
+        return Ok(Reason::StiffnessOrForm);
+    }
+    Ok(Reason::Form)
+}
+
+fn has_two_directions(curve: &MeasuredCurve) -> bool {
+    curve.segment.first() != curve.segment.last()
+}
+
+/// Returns the reason if the contact reaches the ends of its profile or has few springs.
+pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> Option<Reason> {
+    let outcome = simulation.compute(scene).ok()?;
+    outcome.warnings.iter().find_map(|warning| match warning {
+        Warning::ContactAtEnds { length } => Some(Reason::ShortProfile(*length)),
+        Warning::FewSpringsInContact { springs } => Some(Reason::CoarseProfile(*springs)),
+        _ => None,
+    })
+}
+
+/// Returns a jump of the force in N that a rigid instrument does not allow.
+fn jump_of_compliance(curve: &MeasuredCurve) -> Option<f64> {
+    let jump = largest_jump(curve);
+    let pull_off = curve.pull_off_force()?;
+    (jump > RIGID * pull_off).then_some(jump)
+}
+
+/// Returns the largest rise of the force in N between neighbouring points of a retraction. The
+/// force of a retraction rises only where contact is lost.
+fn largest_jump(curve: &MeasuredCurve) -> f64 {
+    let mut largest = 0.0_f64;
+    for (segments, forces) in curve.segment.windows(2).zip(curve.force.windows(2)) {
+        if segments[0] == segments[1] && segments[0] % 2 == 1 {
+            largest = largest.max(forces[1] - forces[0]);
+        }
+    }
+    largest
+}
+
+/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first
+/// approach or in the first fifth of a retraction, less what the noise may add; 0 for few points.
+fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+    let turn = curve.turns[0];
+    let least = turn - PRESSED * (turn - curve.touch);
+    let mut distances = Vec::new();
+    let mut forces = Vec::new();
+    for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
+        if Some(segment) == curve.segment.first() && displacement > least {
+            distances.push(displacement - turn);
+            forces.push(force);
+        }
+    }
+    if forces.len() < FEWEST {
+        return 0.0;
+    }
+    let columns = [vec![1.0; forces.len()], distances];
+    match least_squares(&columns, &forces) {
+        Some(coefficients) => coefficients[1].value - 3.0 * coefficients[1].error,
+        None => 0.0,
+    }
+}
+
+/// Deviation of a curve from the model.
+struct Misfit<'a> {
+    curve: &'a MeasuredCurve,
+    model: Model<'a>,
+    values: &'a Values,
+    free: &'a [Parameter],
+    /// Forces of the model at the points of the curve, N.
+    forces: Vec<f64>,
+    /// Measured forces minus those of the model after a fit of the lines, N.
+    residuals: Vec<f64>,
+    lines: Vec<Vec<f64>>,
+}
+
+impl<'a> Misfit<'a> {
+    fn new(
+        curve: &'a MeasuredCurve,
+        scene: &CheckedScene,
+        simulation: &'a mut Simulation,
+        values: &'a Values,
+        free: &'a [Parameter],
+    ) -> Result<Self, ExperimentError> {
+        let mut model = Model::new(curve, scene, simulation);
+        let forces = model.forces(values)?;
+        let points = curve.force.iter().zip(&forces);
+        let mut residuals: Vec<f64> = points.map(|(force, model)| force - model).collect();
+        let lines = curve.lines(free.contains(&Parameter::Zero));
+        subtract_all(&mut residuals, &lines);
+        Ok(Misfit {
+            curve,
+            model,
+            values,
+            free,
+            forces,
+            residuals,
+            lines,
+        })
+    }
+
+    /// Returns the reason if a change of the force without contact exceeds the residual.
+    fn change_without_contact(&self) -> Option<Reason> {
+        let squares = dot(&self.residuals, &self.residuals);
+        let residual = (squares / self.residuals.len() as f64).sqrt();
+        let [has_drift, has_tilt, has_step] =
+            self.curve.remaining.map(|change| change.abs() > residual);
+        if has_drift && has_tilt {
+            return Some(Reason::DriftAndTilt);
+        }
+        if has_drift {
+            return Some(Reason::Drift);
+        }
+        if has_tilt {
+            return Some(Reason::Tilt);
+        }
+        let [_, _, step] = self.curve.remaining;
+        (has_step && has_two_directions(self.curve)).then_some(Reason::Step(step))
+    }
+
+    /// Returns true if another modulus or work of adhesion on the retractions explains most of the
+    /// residuals, together with small changes of the free parameters. All effects are taken as
+    /// linear.
+    fn branches_differ(&mut self) -> Result<bool, ExperimentError> {
+        let mut columns = self.lines.clone();
+        for parameter in self.free {
+            columns.push(self.effect_of(*parameter)?);
+        }
+        let mut candidates = vec![self.effect_of(Parameter::Modulus)?];
+        if self.values[Parameter::Work as usize] > 0.0 {
+            candidates.push(self.effect_of(Parameter::Work)?);
+        }
+        let basis = right_angled(&columns);
+        let mut residuals = self.residuals_without_jumps();
+        subtract_all(&mut residuals, &basis);
+        let whole = dot(&residuals, &residuals);
+        for mut effect in candidates {
+            for (change, segment) in effect.iter_mut().zip(&self.curve.segment) {
+                let is_approach = segment % 2 == 0;
+                if is_approach {
+                    *change = 0.0;
+                }
+            }
+            subtract_all(&mut effect, &basis);
+            let component = dot(&residuals, &effect);
+            if component.powi(2) > EXPLAINS * dot(&effect, &effect) * whole {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Returns the residuals, of which a point on the wrong side of a jump counts no more than
+    /// others.
+    fn residuals_without_jumps(&self) -> Vec<f64> {
+        let in_contact = &self.residuals[self.curve.free..];
+        let mut sizes: Vec<f64> = in_contact.iter().map(|residual| residual.abs()).collect();
+        let most = CUT * median(&mut sizes).unwrap_or(0.0);
+        self.residuals
+            .iter()
+            .map(|residual| residual.clamp(-most, most))
+            .collect()
+    }
+
+    /// Returns the change of the force in N at each point for a small change of a parameter; 0 at a
+    /// jump.
+    fn effect_of(&mut self, parameter: Parameter) -> Result<Vec<f64>, ExperimentError> {
+        let range = Extent::of(self.curve.force.iter().copied()).width();
+        let mut moved = *self.values;
+        let unit = match parameter {
+            Parameter::Offset => self.curve.turns[0] - self.values[Parameter::Offset as usize],
+            Parameter::Zero => range,
+            _ => -self.values[parameter as usize],
+        };
+        moved[parameter as usize] += STEP * unit;
+        let most = moved[Parameter::Work as usize];
+        moved[Parameter::ClosingWork as usize] = moved[Parameter::ClosingWork as usize].min(most);
+        let forces = self.model.forces(&moved)?;
+        let mut changes = Vec::with_capacity(forces.len());
+        for (force, before) in forces.iter().zip(&self.forces) {
+            let change = force - before;
+            let is_jump = change.is_nan() || change.abs() > LEAPS * range;
+            changes.push(if is_jump { 0.0 } else { change });
+        }
+        Ok(changes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::from_text;
+    use crate::fit::scene::values_of;
+    use crate::read::options::CurveOptions;
+    use asperity_scene::{Document, open};
+    use std::fmt::Write;
+
+    const HERTZ: [(&str, &str); 6] = [
+        ("form.radius", "7.5e-6"),
+        ("length", "2.4e-5"),
+        ("material", "(effective_modulus: 2e6)"),
+        ("adhesion", "None"),
+        ("loading_stiffness", "3"),
+        ("numerics.points", "256"),
+    ];
+
+    fn scene(changes: &[(&str, &str)]) -> Document {
+        let changes = changes
+            .iter()
+            .map(|(path, value)| ((*path).to_owned(), (*value).to_owned()));
+        open("jkr-sphere")
+            .unwrap()
+            .set_all(&changes.collect::<Vec<_>>())
+            .unwrap()
+    }
+
+    /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3
+    /// N/m, by bisection of d
+    /// + F/k.
+    fn hertz(modulus: f64, at: f64) -> f64 {
+        let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
+        let (mut low, mut high) = (0.0, at.max(0.0));
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *if middle + force(middle) / 3.0 < at {
+                &mut low
+            } else {
+                &mut high
+            } = middle;
+        }
+        force(low)
+    }
+
+    /// The reason found for a curve of these points (displacement in µm from first touch, force in
+    /// µN, noise of 1 nN) and a scene.
+    fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
+        let mut text = "displacement [um],force [uN]\n".to_owned();
+        for (index, (at, force)) in points.enumerate() {
+            writeln!(
+                text,
+                "{at},{}",
+                force + if index % 2 == 0 { 1e-3 } else { -1e-3 }
+            )
+            .unwrap();
+        }
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        let document = curve
+            .load(&scene(&[&HERTZ, changes].concat()), 0.0)
+            .unwrap();
+        let mut simulation = Simulation::default();
+        let (_, governing) = simulation.contact(document.scene()).unwrap();
+        let values = values_of(document.scene(), &governing);
+        let tabor = governing.tabor_number(document.scene());
+        let free = [Parameter::Modulus, Parameter::Offset];
+        reason(
+            &curve,
+            document.scene(),
+            &mut simulation,
+            &values,
+            &free,
+            tabor,
+        )
+        .unwrap()
+    }
+
+    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as
+    /// functions of displacement, m, and time from 0 to 1.
+    fn curve(
+        approach: impl Fn(f64, f64) -> f64,
+        retraction: impl Fn(f64, f64) -> f64,
+    ) -> Vec<(f64, f64)> {
+        let point = |index: i32| {
+            let time = f64::from(index) / 399.0;
+            let at = if index < 200 {
+                f64::from(index) / 99.5 - 1.0
+            } else {
+                1.0 - f64::from(index - 199) / 99.5
+            };
+            (
+                at,
+                1e6 * if index < 200 {
+                    approach(1e-6 * at, time)
+                } else {
+                    retraction(1e-6 * at, time)
+                },
+            )
+        };
+        (0..400).map(point).collect()
+    }
+
+    fn elastic(at: f64, _: f64) -> f64 {
+        hertz(2e6, at)
+    }
+
+    #[test]
+    fn each_pattern_has_its_reason() {
+        let both = || curve(elastic, elastic).into_iter();
+        // A sphere of another modulus is a change by a free parameter.
+        assert_eq!(
+            found(both(), &[("material", "(effective_modulus: 1.9e6)")]),
+            Reason::StiffnessOrForm
+        );
+        assert_eq!(
+            found(both(), &[("loading_stiffness", "None")]),
+            Reason::Form
+        );
+        assert!(
+            matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope) if slope > 0.5)
+        );
+        let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
+        assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
+        let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
+        assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Tilt);
+        let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
+        assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
+        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        assert!(
+            matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9)
+        );
+        assert!(
+            matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
+        );
+        assert!(matches!(
+            found(both(), &[("length", "1e-3")]),
+            Reason::CoarseProfile(..)
+        ));
+        let jumps = curve(elastic, |at, time| {
+            if at < 0.0 {
+                0.0
+            } else {
+                elastic(at, time) - 5e-7
+            }
+        });
+        assert!(matches!(
+            found(jumps.into_iter(), &[("loading_stiffness", "None")]),
+            Reason::Rigid(_)
+        ));
+        let weak = [("adhesion", "(work: 1e-6)")];
+        assert!(matches!(found(both(), &weak), Reason::TaborNumber(number) if number < 1.0));
+    }
+}

@@ -1,0 +1,133 @@
+//! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
+//! scene that was found.
+
+use crate::fit::parameter::Parameter;
+use crate::fit::reason::Reason;
+use crate::fit::search::MISFIT;
+use asperity_data::{Warning, format_within};
+use asperity_scene::Document;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// Fitted parameter with its errors. All values are in the SI unit of the parameter.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct FittedParameter {
+    /// Which parameter of the scene or of the curve was fitted.
+    #[serde(skip)]
+    pub parameter: Parameter,
+    /// Value with which the scene describes the curve best.
+    pub value: f64,
+    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, they
+    /// are the ends of [`Self::range`], unless the parameter is the offset or the zero.
+    #[serde(flatten, serialize_with = "low_and_high")]
+    pub interval: (f64, f64),
+    /// Standard error of the value due to the noise of the force. If the model does not describe
+    /// the curve, it is at least the scatter of the value between parts of the curve (jackknife).
+    pub noise_error: f64,
+    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in
+    /// the scene for the radius. If this value lies outside of [`Self::range`], it is the nearer
+    /// end of the range.
+    pub start: f64,
+    /// Lower and upper end of the range in which the value was searched.
+    pub range: (f64, f64),
+}
+
+fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(2))?;
+    map.serialize_entry("low", low)?;
+    map.serialize_entry("high", high)?;
+    map.end()
+}
+
+impl FittedParameter {
+    /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower
+    /// the [`Self::interval`], the more digits the text has.
+    pub fn text(&self, value: f64) -> String {
+        let unit = self.parameter.row().unit;
+        // An interval that is the whole range says nothing about the digits.
+        if self.interval == self.range {
+            return format_within(value, 0.0, unit);
+        }
+        let (low, high) = self.interval;
+        format_within(value, 0.5 * (high - low), unit)
+    }
+}
+
+/// Result of [`Fit::run`](crate::Fit::run). A residual is the measured force minus the computed
+/// force at a point.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct FitResult {
+    /// Free parameters of the fit with their errors.
+    #[serde(serialize_with = "by_name")]
+    pub parameters: Vec<FittedParameter>,
+    /// Root mean square of the residuals of all points, in N.
+    pub residual: f64,
+    /// [`Self::residual`] divided by the [noise](crate::MeasuredCurve::noise) of the force.
+    pub residual_over_noise: f64,
+    /// Share of the points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
+    pub beyond_five_sigma: f64,
+    /// Robust root mean square of the residuals divided by the noise, without the points before
+    /// contact. Points near a jump of the force and outliers count less. The model describes the
+    /// curve if the value is at most 1.5.
+    pub misfit: f64,
+    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is
+    /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
+    #[serde(skip)]
+    pub work_at_most: Option<f64>,
+    /// Tabor number of the scene with the fitted values; `None` without adhesion or without a
+    /// radius of curvature, as for a cone.
+    pub tabor: Option<f64>,
+    /// Reason why the model does not describe the curve; `None` if [`Self::misfit`] is at most 1.5.
+    pub reason: Option<Reason>,
+    /// Premises of the model that the scene with the found values does not meet.
+    pub warnings: Vec<Warning>,
+    /// Each pair of free parameters with the correlation of their errors, from −1 to 1.
+    pub correlations: Vec<(Parameter, Parameter, f64)>,
+    /// Pairs of free parameters that the curve cannot separate. A pair of one parameter with itself
+    /// means that the curve does not determine this parameter.
+    pub not_distinguished: Vec<(Parameter, Parameter)>,
+    /// Sentences about values that the fit took from the file or the points of the curve and did
+    /// not search, such as the stiffness of the instrument.
+    #[serde(skip)]
+    pub assumptions: Vec<String>,
+    /// Number of force curves that the fit computed.
+    pub evaluations: usize,
+    /// Computed force in N at each point of the measured curve. The force includes the fitted force
+    /// before contact and its fitted linear changes with time (drift) and with displacement (tilt).
+    /// It can be compared with [`MeasuredCurve::force`](crate::MeasuredCurve::force).
+    #[serde(skip)]
+    pub model: Vec<f64>,
+    /// Scene with the fitted values and with the loading of the measurement.
+    #[serde(rename = "scene", serialize_with = "scene_of")]
+    pub document: Document,
+}
+
+fn by_name<S: Serializer>(
+    parameters: &[FittedParameter],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let rows = parameters.iter().map(|fitted| (fitted.parameter, fitted));
+    serializer.collect_map(rows)
+}
+
+fn scene_of<S: Serializer>(document: &Document, serializer: S) -> Result<S::Ok, S::Error> {
+    document.scene().serialize(serializer)
+}
+
+impl FitResult {
+    /// Largest [`Self::misfit`] with which the model describes the curve.
+    pub const MOST_MISFIT: f64 = MISFIT;
+
+    /// Returns true if [`Self::misfit`] is at most 1.5: the model then describes the curve.
+    pub fn describes(&self) -> bool {
+        self.misfit <= MISFIT
+    }
+
+    /// Returns true if the model does not describe the curve and the profile of the scene is
+    /// random. The specimen then has another profile than the scene, and the fitted values are
+    /// meaningless.
+    pub fn has_other_profile(&self) -> bool {
+        !self.describes() && self.document.scene().seed().is_some()
+    }
+}

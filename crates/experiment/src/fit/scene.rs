@@ -1,0 +1,262 @@
+//! The scene of a fit: the values at which a search begins, and the document with the fitted
+//! values.
+
+use crate::curve::MeasuredCurve;
+use crate::error::ExperimentError;
+use crate::fit::parameter::{Parameter, Values};
+use asperity_data::{format_quantity, round_to};
+use asperity_scene::text::ron_float;
+use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};
+
+/// Relative difference of two stiffnesses of one instrument above which the difference is reported.
+const OTHER: f64 = 0.01;
+
+/// A change of a field: its path and its value in RON.
+type Change = (String, String);
+
+fn change(path: &str, value: f64) -> Change {
+    (path.to_owned(), ron_float(value))
+}
+
+/// Returns the parameters of a fit as the scene states them. `governing` contains the works of
+/// adhesion.
+pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
+    let work = governing.work_of_adhesion.unwrap_or(0.0);
+    let mut values = [0.0; 7];
+    values[Parameter::Work as usize] = work;
+    values[Parameter::ClosingWork as usize] = governing.closing_work.unwrap_or(work);
+    values[Parameter::Modulus as usize] = governing.effective_modulus;
+    values[Parameter::Stiffness as usize] = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    values[Parameter::Radius as usize] = radius_of(scene).unwrap_or(0.0);
+    values
+}
+
+/// Returns the radius of the form of a scene in m; `None` for a form without a radius.
+pub(crate) fn radius_of(scene: &Scene) -> Option<f64> {
+    scene.form.clone()?.radius_mut().copied()
+}
+
+/// Returns the largest work of adhesion on closing that a scene allows, in J/m²; infinite if the
+/// scene states none.
+pub(crate) fn most_on_closing(scene: &Scene) -> f64 {
+    scene
+        .adhesion
+        .and_then(|adhesion| adhesion.closing_work())
+        .unwrap_or(f64::INFINITY)
+}
+
+/// Returns the document with works of adhesion in place of κ or e_el/γ. A document without adhesion
+/// gets the work `start` in J/m², if it is given.
+pub(crate) fn written_out(
+    document: &Document,
+    governing: &Governing,
+    start: Option<f64>,
+) -> Result<Document, SceneErrors> {
+    let adhesion = document.scene().adhesion;
+    let known = governing.adhesive_work();
+    let is_by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
+    if known.is_some() && !is_by_parameter {
+        return Ok(document.clone());
+    }
+    let Some(work) = known.or(start) else {
+        return Ok(document.clone());
+    };
+    document.with_adhesion(match adhesion {
+        Some(adhesion) => adhesion.with_work(work),
+        None => Adhesion::by_work(work),
+    })
+}
+
+/// Returns the document with the fitted values, loaded as the body was in the measurement.
+pub(crate) fn with_values(
+    document: &Document,
+    values: &Values,
+    is_free: impl Fn(Parameter) -> bool,
+    curve: &MeasuredCurve,
+) -> Result<Document, ExperimentError> {
+    let scene = document.scene();
+    let value = |parameter: Parameter| values[parameter as usize];
+    let mut changes = Vec::new();
+    if is_free(Parameter::Work) {
+        changes.push(change("adhesion.work", value(Parameter::Work)));
+    }
+    // A work on closing that the scene states follows the work of adhesion.
+    let has_closing_work = scene
+        .adhesion
+        .is_some_and(|adhesion| adhesion.closing_work().is_some());
+    if is_free(Parameter::ClosingWork) || has_closing_work {
+        let closing_work = value(Parameter::ClosingWork);
+        changes.push(change("adhesion.closing_work", closing_work));
+    }
+    if is_free(Parameter::Modulus) {
+        changes.push(modulus_change(scene, value(Parameter::Modulus)));
+    }
+    if is_free(Parameter::Stiffness) {
+        changes.push(change("loading_stiffness", value(Parameter::Stiffness)));
+    }
+    if is_free(Parameter::Radius) {
+        changes.push(change("form.radius", value(Parameter::Radius)));
+    }
+    changes.push(curve.loading(value(Parameter::Offset)));
+    document.set_all(&changes).map_err(wrong)
+}
+
+/// Returns the change of the modulus, in the way in which the scene states the material.
+fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
+    match scene.material.poisson_ratio {
+        Some(ratio) => {
+            let youngs_modulus = effective_modulus * (1.0 - ratio) * (1.0 + ratio);
+            change("material.youngs_modulus", youngs_modulus)
+        }
+        None => change("material.effective_modulus", effective_modulus),
+    }
+}
+
+impl MeasuredCurve {
+    /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the
+    /// scene, or else the stiffness in the file of the curve. For a measured displacement of the
+    /// body the instrument becomes rigid. The second value is a sentence about this choice; `None`
+    /// if scene and file do not differ.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow this stiffness.
+    pub fn with_instrument(
+        &self,
+        document: &Document,
+    ) -> Result<(Document, Option<String>), SceneErrors> {
+        let of_scene = document.scene().loading_stiffness;
+        if let Some(name) = &self.of_body {
+            return as_body_displacement(document, name);
+        }
+        let Some((name, stated)) = &self.stiffness else {
+            return Ok((document.clone(), None));
+        };
+        let newtons_per_metre = format_quantity(*stated, "N/m");
+        let Some(of_scene) = of_scene else {
+            let text = format!("Loading stiffness {newtons_per_metre} by the {name} of the file.");
+            let document = with_stiffness(document, ron_float(*stated))?;
+            return Ok((document, Some(text)));
+        };
+        if (stated / of_scene - 1.0).abs() > OTHER {
+            let of_scene = format_quantity(of_scene, "N/m");
+            let text = format!(
+                "Loading stiffness {of_scene} by the scene; the {name} of the file is {newtons_per_metre}."
+            );
+            return Ok((document.clone(), Some(text)));
+        }
+        Ok((document.clone(), None))
+    }
+
+    /// Returns the scene with two fields taken from the measured curve: the loading, and the
+    /// stiffness of the instrument as in [`Self::with_instrument`]. `offset` is the measured
+    /// displacement in m at which the bodies first touch.
+    ///
+    /// # Errors
+    /// Returns an error if the scene does not allow this loading or this stiffness.
+    pub fn load(&self, document: &Document, offset: f64) -> Result<Document, SceneErrors> {
+        self.with_instrument(document)?
+            .0
+            .set_all(&[self.loading(offset)])
+    }
+
+    fn loading(&self, offset: f64) -> Change {
+        let last = self.turns.len() - 1;
+        let mut stages = String::new();
+        for turn in &self.turns[..last] {
+            let displacement = ron_float(round_to(turn - offset, 10));
+            stages += &format!("ToDisplacement({displacement}), ");
+        }
+        ("loading".to_owned(), format!("[{stages}ToSeparation]"))
+    }
+}
+
+fn with_stiffness(document: &Document, value: String) -> Result<Document, SceneErrors> {
+    document.set_all(&[("loading_stiffness".to_owned(), value)])
+}
+
+/// Returns the document with a rigid instrument, for a column of displacements of the body, and a
+/// sentence about it.
+fn as_body_displacement(
+    document: &Document,
+    name: &str,
+) -> Result<(Document, Option<String>), SceneErrors> {
+    let mut text =
+        format!("{name} is a displacement of the body, without the deflection of the instrument");
+    let Some(stiffness) = document.scene().loading_stiffness else {
+        return Ok((document.clone(), Some(text + ".")));
+    };
+    let stiffness = format_quantity(stiffness, "N/m");
+    text += &format!(": the loading_stiffness of {stiffness} is left out.");
+    let document = with_stiffness(document, "None".to_owned())?;
+    Ok((document, Some(text)))
+}
+
+/// Converts the first error of a scene with other values to an error of the fit.
+pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
+    let error = errors.first();
+    let found = format!("{} = {}", error.field, error.value);
+    ExperimentError::Refused {
+        found,
+        allowed: error.allowed.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{on_rubber, read, rubber};
+    use crate::read::options::Drift;
+
+    #[test]
+    fn values_found_are_written_where_they_belong() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let values = [0.04, 0.03, 3e6, 2e-6, 0.0, 5.0, 6e-6];
+        let all = with_values(&document, &values, |_| true, &curve).unwrap();
+        let scene = all.scene();
+        let adhesion = scene.adhesion.unwrap();
+        assert_eq!(
+            (adhesion.work(), adhesion.closing_work()),
+            (Some(0.04), Some(0.03))
+        );
+        assert_eq!(
+            (scene.material.effective_modulus(), scene.loading_stiffness),
+            (3e6, Some(5.0))
+        );
+        assert_eq!(
+            (radius_of(scene), most_on_closing(scene)),
+            (Some(6e-6), 0.03)
+        );
+        // Those that are not free stay.
+        let none = with_values(&document, &values, |_| false, &curve).unwrap();
+        let scene = none.scene();
+        assert_eq!(
+            scene
+                .adhesion
+                .map(|adhesion| (adhesion.work(), adhesion.closing_work())),
+            Some((Some(1e-3), None))
+        );
+        assert_eq!(
+            (scene.material.effective_modulus(), scene.loading_stiffness),
+            (2e6, Some(3.0))
+        );
+        assert_eq!(
+            (radius_of(scene), most_on_closing(scene)),
+            (Some(7.5e-6), f64::INFINITY)
+        );
+        // The modulus of a material by Young's modulus and Poisson's ratio.
+        let plane = [(
+            "material".to_owned(),
+            "(youngs_modulus: 1e6, poisson_ratio: 0.5)".to_owned(),
+        )];
+        let plane = document.set_all(&plane).unwrap();
+        let found = with_values(&plane, &values, |one| one == Parameter::Modulus, &curve).unwrap();
+        assert!((found.scene().material.effective_modulus() / 3e6 - 1.0).abs() < 1e-12);
+        // A work on closing that the scene has follows the work of adhesion.
+        let closing = document
+            .set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())])
+            .unwrap();
+        let found = with_values(&closing, &values, |one| one == Parameter::Work, &curve).unwrap();
+        assert_eq!(found.scene().adhesion.unwrap().closing_work(), Some(0.03));
+    }
+}

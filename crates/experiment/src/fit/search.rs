@@ -1,0 +1,547 @@
+//! The search for the parameters that describe a curve, with their errors. A population samples the
+//! probability of the parameters (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat.
+//! Soc. B 68, 411, 2006).
+//!
+//! The forces jump with the parameters. Neither derivatives nor a linearised fit can therefore show
+//! how well a curve determines the parameters, but a population can. Its members are drawn from the
+//! ranges and weighted as if the noise were large, so that jumps count little. The noise is then
+//! lowered step by step to the noise of the curve. At each step likely members are copied and
+//! unlikely members are dropped. Each member then moves by the difference of two others, which has
+//! the extent and direction of the population. Some moves are random steps of any size, so that
+//! copies separate again. In the end the members are distributed as the noise allows. The start is
+//! no member, because a start close to the result would be copied to the whole population.
+
+use crate::curve::numerics::{Extent, dot};
+use crate::error::{ExperimentError, refused};
+use crate::fit::model::Model;
+use crate::fit::parameter::{Coordinate, Parameter};
+use crate::fit::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
+use crate::fit::space::Space;
+use asperity_contact::ContactError;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+
+const SEED: u64 = 29;
+/// Number of members drawn at first for each free parameter.
+const SCAN: usize = 60;
+/// Number of members of a population, without those for each free parameter.
+const MEMBERS: usize = 24;
+/// Number of further members for each free parameter.
+const FOR_EACH: usize = 8;
+/// Share of the members that still count after a step of the noise.
+const EFFECTIVE: f64 = 0.3;
+/// Largest number of moves of the population at each step.
+const MOVES: usize = 5;
+/// Number of moves at the end, each of which adds all members to the samples.
+const LAST_MOVES: usize = 16;
+/// Share of the moves that are random steps.
+const RANDOM: f64 = 0.02;
+/// Number of decades below the whole range over which the lengths of random steps extend.
+const DECADES: f64 = 6.0;
+/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
+const COARSE: f64 = 10.0;
+/// Factor of the number of members while forces are coarse.
+const MORE: usize = 2;
+/// Divisor of the residual of the best member. The noise is lowered to this part of the residual,
+/// if the residual exceeds the noise of the curve.
+const DEEPER: f64 = 3.0;
+/// Residual in contact, in units of the noise, above which a population belongs to a model that
+/// does not describe the curve.
+const SYSTEMATIC: f64 = 5.0;
+/// Share of this residual below which another population is better.
+const BETTER: f64 = 0.9;
+/// Mean square residual, in units of the noise, beyond which another population is made.
+const EXPECTED: f64 = 1.2;
+/// Largest number of populations.
+const ATTEMPTS: usize = 3;
+/// Difference of costs by which a start must be better than a population to count as missed.
+const MISSED: f64 = 3.0;
+/// Largest noise divided by the noise of the curve.
+const LARGE: f64 = 1e6;
+/// Number of halvings to determine a step of the logarithm of the noise.
+const HALVINGS: usize = 12;
+/// Factor of the noise in a step where no smaller factor leaves enough members.
+const SLOWEST: f64 = 0.99;
+/// Residual in contact, in units of the noise, above which a model does not describe the curve.
+pub(crate) const MISFIT: f64 = 1.5;
+/// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few
+/// times the work that the noise hides.
+const CLOSE: f64 = 2.5;
+/// Residual, in units of the noise, that replaces a force that is not finite.
+const FAR: f64 = 1e12;
+/// Bases of the sequences of evenly scattered points, one for each coordinate.
+const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
+
+/// Result of a search.
+pub(crate) struct SearchResult {
+    /// The member with the smallest residuals.
+    pub best: Member,
+    /// Residuals of the best member after a fit of the lines, in units of the noise.
+    pub residuals: Vec<f64>,
+    /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1
+    /// where the residual is.
+    pub noise: f64,
+    /// Coordinates, distributed as the noise allows.
+    pub samples: Vec<Vec<f64>>,
+    /// Costs of each sample for each block of the curve; empty if the model describes the curve.
+    pub blocks: Vec<Vec<f64>>,
+    /// Smallest cost of a scene without adhesion minus the cost of the best member; infinite if no
+    /// sample is close to zero adhesion.
+    pub without_adhesion: f64,
+}
+
+/// Lower noise of a population, and the weights of its members at this noise.
+struct Cooling {
+    noise: f64,
+    weights: Vec<f64>,
+}
+
+/// Search on one random profile.
+pub(crate) struct Search<'a> {
+    pub space: &'a Space<'a>,
+    pub model: Model<'a>,
+    pub lines: Vec<Vec<f64>>,
+    /// Receives the number of curves computed so far.
+    pub report: &'a mut dyn FnMut(usize),
+}
+
+impl Search<'_> {
+    fn member(&mut self, place: Vec<f64>) -> Result<Member, ExperimentError> {
+        if (self.space.stop)() {
+            return Err(ContactError::Interrupted.into());
+        }
+        (self.report)(self.model.evaluations);
+        let curve = self.space.curve;
+        let forces = self.model.forces(&self.space.values(&place))?;
+        let mut residuals = Vec::with_capacity(forces.len());
+        for (measured, model) in curve.force.iter().zip(&forces) {
+            let residual = (measured - model) / curve.noise;
+            residuals.push(if residual.is_finite() { residual } else { FAR });
+        }
+        Ok(Member { place, residuals })
+    }
+
+    /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals
+    /// above `limit` count as `limit`.
+    fn refined(&self, residuals: &[f64], limit: f64) -> Vec<f64> {
+        let clamped: Vec<f64> = residuals
+            .iter()
+            .map(|residual| residual.clamp(-limit, limit))
+            .collect();
+        let mut refined = residuals.to_vec();
+        for line in &self.lines {
+            let component = dot(&clamped, line);
+            for (residual, direction) in refined.iter_mut().zip(line) {
+                *residual -= component * direction;
+            }
+        }
+        refined
+    }
+
+    /// Computes the residuals at a place after a fit of the lines, in units of the noise.
+    pub fn residuals(&mut self, place: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
+        self.model.noise = 1.0;
+        let member = self.member(place.to_vec())?;
+        Ok(self.refined(&member.residuals, limit))
+    }
+
+    /// Returns residuals in which points inside a jump count as described. A residual above
+    /// [`WRONG_SIDE`] becomes the distance from the forces of a jump of the model, if the jump is
+    /// within one point.
+    pub fn beyond_jumps(
+        &mut self,
+        place: &[f64],
+        residuals: &[f64],
+    ) -> Result<Vec<f64>, ExperimentError> {
+        let noise = self.space.curve.noise;
+        self.model.noise = 1.0;
+        let values = self.space.values(place);
+        let jumps = self.model.jumps(&values, WRONG_SIDE * noise)?;
+        let mut beyond = residuals.to_vec();
+        for (residual, jump) in beyond.iter_mut().zip(jumps) {
+            if let Some(jump) = jump
+                && residual.abs() > WRONG_SIDE
+            {
+                *residual -= residual.clamp(jump.low / noise, jump.high / noise);
+            }
+        }
+        Ok(beyond)
+    }
+
+    /// Returns the residual in contact, in units of the noise of the curve, after a fit of the
+    /// lines at this noise; see [`Space::misfit`].
+    fn misfit(&self, member: &Member, noise: f64) -> f64 {
+        self.space
+            .misfit(&self.refined(&member.residuals, WRONG_SIDE * noise))
+    }
+
+    /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
+    /// the [`loss`] of all points.
+    fn cost(&self, member: &Member, noise: f64) -> f64 {
+        self.refined(&member.residuals, WRONG_SIDE * noise)
+            .iter()
+            .map(|residual| loss(residual / noise))
+            .sum()
+    }
+
+    /// Returns the costs of a member at this noise, for each block of the curve.
+    fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
+        let residuals = self.refined(&member.residuals, WRONG_SIDE * noise);
+        let mut costs = Vec::new();
+        for block in self.space.blocks() {
+            let losses = residuals[block]
+                .iter()
+                .map(|residual| loss(residual / noise));
+            costs.push(losses.sum());
+        }
+        costs
+    }
+
+    /// Returns points evenly scattered over the ranges, different ones in each attempt.
+    fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
+        let coordinates = &self.space.coordinates;
+        let start = self.space.start();
+        let count = SCAN * start.len();
+        let mut members = Vec::with_capacity(count + 1);
+        for number in attempt * count + 1..=(attempt + 1) * count {
+            let mut place = Vec::with_capacity(start.len());
+            for (index, coordinate) in coordinates.iter().enumerate() {
+                let share = share_of(number, PRIMES[index]);
+                place.push(scattered_coordinate(coordinate, start[index], share));
+            }
+            members.push(self.member(place)?);
+        }
+        Ok(members)
+    }
+
+    /// Finds the member with the smallest residuals, and samples of the coordinates. Another
+    /// population is drawn in three cases. The residuals exceed the noise, as one population in
+    /// thirty ends in another minimum and one in 200 twice. The population has missed a better
+    /// start, which then becomes a member of the next one. The population has not spread.
+    pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
+        let (population, generator) = self.first()?;
+        self.find_from(population, generator)
+    }
+
+    /// Returns the first population, and the generator that made it.
+    pub fn first(&mut self) -> Result<(Population, ChaCha8Rng), ExperimentError> {
+        let mut generator = ChaCha8Rng::seed_from_u64(SEED);
+        let population = self.anneal(0, None, 0.0, &mut generator)?;
+        Ok((population, generator))
+    }
+
+    /// Returns true for a population whose residuals are no noise.
+    pub fn is_systematic(&self, population: &Population) -> bool {
+        self.misfit(&population.best, population.noise) > SYSTEMATIC
+    }
+
+    /// Does the same as [`Search::find`] from the first population.
+    pub fn find_from(
+        &mut self,
+        mut population: Population,
+        mut generator: ChaCha8Rng,
+    ) -> Result<SearchResult, ExperimentError> {
+        self.model.noise = 1.0;
+        let start = self.member(self.space.start())?;
+        for attempt in 1..ATTEMPTS {
+            let is_poor = self.is_poor(&population.best)?;
+            let has_missed = self.cost(&start, population.noise) < population.cost - MISSED;
+            let has_spread = population.has_spread();
+            if has_spread && !has_missed && !is_poor {
+                break;
+            }
+            // If the residuals are no noise, another population that comes to the same residuals
+            // ends there.
+            let misfit = self.misfit(&population.best, population.noise);
+            let is_rival = has_spread && !has_missed && misfit > SYSTEMATIC;
+            let rival = if is_rival { BETTER * misfit } else { 0.0 };
+            let missed = has_missed.then_some(&start);
+            let other = self.anneal(attempt, missed, rival, &mut generator)?;
+            if rival > 0.0 && self.misfit(&other.best, other.noise) > rival {
+                break;
+            }
+            let noise = population.noise.min(other.noise);
+            if !has_spread || self.cost(&other.best, noise) < self.cost(&population.best, noise) {
+                population = other;
+            }
+        }
+        population.keep(&start, self.cost(&start, population.noise));
+        self.sample(population, &mut generator)
+    }
+
+    /// Returns true if the residuals of a member, apart from points inside jumps, exceed the noise.
+    fn is_poor(&mut self, member: &Member) -> Result<bool, ExperimentError> {
+        let residuals = self.refined(&member.residuals, WRONG_SIDE);
+        let residuals = self.beyond_jumps(&member.place, &residuals)?;
+        let cost: f64 = residuals.iter().map(|residual| loss(*residual)).sum();
+        Ok(cost > EXPECTED * 0.5 * residuals.len() as f64)
+    }
+
+    /// Samples the coordinates at the noise of the curve, or at the residual if it is larger.
+    fn sample(
+        &mut self,
+        mut population: Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<SearchResult, ExperimentError> {
+        let noise = self.misfit(&population.best, population.noise).max(1.0);
+        self.set_noise(&mut population, noise);
+        for _ in 0..MOVES {
+            self.move_all(&mut population, generator)?;
+        }
+        let mut samples = Vec::new();
+        let mut blocks = Vec::new();
+        for _ in 0..LAST_MOVES {
+            self.move_all(&mut population, generator)?;
+            for member in &population.members {
+                samples.push(member.place.clone());
+                if noise > MISFIT {
+                    blocks.push(self.block_costs(member, noise));
+                }
+            }
+        }
+        if !population.has_spread() {
+            let found = format!(
+                "the search ends at {} values of the parameters",
+                population.distinct()
+            );
+            let allowed =
+                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise";
+            return refused(found, allowed);
+        }
+        let without_adhesion = self.without_adhesion(&population, &samples)?;
+        let residuals = self.refined(&population.best.residuals, WRONG_SIDE * noise);
+        Ok(SearchResult {
+            best: population.best,
+            residuals,
+            noise,
+            samples,
+            blocks,
+            without_adhesion,
+        })
+    }
+
+    /// Returns the smallest cost of a scene without adhesion minus the cost of the best member;
+    /// infinite if no sample is close to zero adhesion.
+    fn without_adhesion(
+        &mut self,
+        population: &Population,
+        samples: &[Vec<f64>],
+    ) -> Result<f64, ExperimentError> {
+        let mut least = f64::INFINITY;
+        let coordinates = &self.space.coordinates;
+        let Some(work) = coordinates.iter().position(Coordinate::is_work_from_zero) else {
+            return Ok(least);
+        };
+        if !samples.iter().any(|place| place[work] < CLOSE) {
+            return Ok(least);
+        }
+        for member in &population.members {
+            let mut place = member.place.clone();
+            place[work] = 0.0;
+            let member = self.member(place)?;
+            least = least.min(self.cost(&member, population.noise) - population.cost);
+        }
+        Ok(least)
+    }
+
+    /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the
+    /// residual. While the noise is large the population has more members and coarse forces. It
+    /// ends early if its residual is above the residual `rival` at the noise of the rival. `start`
+    /// becomes one of the first members.
+    fn anneal(
+        &mut self,
+        attempt: usize,
+        start: Option<&Member>,
+        rival: f64,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<Population, ExperimentError> {
+        self.model.noise = COARSE;
+        let mut population = self.first_members(attempt, start)?;
+        let count = MEMBERS + FOR_EACH * self.space.coordinates.len();
+        loop {
+            let misfit = self.misfit(&population.best, population.noise);
+            let least = (misfit / DEEPER).max(1.0);
+            let is_cool = population.noise <= least;
+            let has_lost = population.noise <= rival && misfit > rival;
+            if is_cool || has_lost {
+                self.refine(&mut population)?;
+                return Ok(population);
+            }
+            let Cooling { noise, weights } = self.cooler(&population, least);
+            let count = if noise > COARSE { MORE * count } else { count };
+            let share = generator.random();
+            population.members = drawn(&population.members, &weights, count, share);
+            if noise < COARSE {
+                self.refine(&mut population)?;
+            }
+            self.set_noise(&mut population, noise);
+            for _ in 0..MOVES {
+                self.move_all(&mut population, generator)?;
+                if population.has_moved() {
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Returns a population of scattered members and a start, at an infinite noise.
+    fn first_members(
+        &mut self,
+        attempt: usize,
+        start: Option<&Member>,
+    ) -> Result<Population, ExperimentError> {
+        let mut members = self.scattered(attempt)?;
+        members.extend(start.cloned());
+        let misfit = |member: &Member| self.misfit(member, f64::INFINITY);
+        let best = members
+            .iter()
+            .min_by(|member, next| misfit(member).total_cmp(&misfit(next)))
+            .cloned()
+            .ok_or(ContactError::Internal("no values have been drawn"))?;
+        Ok(Population {
+            costs: vec![0.0; members.len()],
+            members,
+            noise: f64::INFINITY,
+            best,
+            cost: f64::INFINITY,
+        })
+    }
+
+    /// Recomputes a population exactly if its forces are coarse.
+    fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
+        if self.model.noise > 1.0 {
+            self.model.noise = 1.0;
+            for member in population.members.iter_mut().chain([&mut population.best]) {
+                *member = self.member(std::mem::take(&mut member.place))?;
+            }
+            self.set_noise(population, population.noise);
+        }
+        Ok(())
+    }
+
+    /// Sets the noise of a population and computes its costs.
+    fn set_noise(&self, population: &mut Population, noise: f64) {
+        population.costs = population
+            .members
+            .iter()
+            .map(|member| self.cost(member, noise))
+            .collect();
+        population.noise = noise;
+        population.cost = self.cost(&population.best, noise);
+        let costs = population.costs.iter().enumerate();
+        let best = costs.min_by(|(_, cost), (_, next)| cost.total_cmp(next));
+        if let Some((best, &cost)) = best {
+            population.keep(&population.members[best].clone(), cost);
+        }
+    }
+
+    /// Returns the next lower noise, at least `least`, and the weights of the members at this
+    /// noise.
+    fn cooler(&self, population: &Population, least: f64) -> Cooling {
+        let enough = EFFECTIVE * population.members.len() as f64;
+        let is_enough =
+            |weights: &[f64]| weights.iter().sum::<f64>().powi(2) >= enough * dot(weights, weights);
+        let weights = self.weights(population, least);
+        if is_enough(&weights) {
+            return Cooling {
+                noise: least,
+                weights,
+            };
+        }
+        let mut low = least;
+        let mut high = population.noise.min(LARGE);
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            if is_enough(&self.weights(population, middle)) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        // The noise falls in each step, so that the search ends.
+        let noise = if high < population.noise {
+            high
+        } else {
+            SLOWEST * high
+        };
+        Cooling {
+            noise,
+            weights: self.weights(population, noise),
+        }
+    }
+
+    /// Returns the weights of the members if the noise of a population falls to this noise; the
+    /// largest is 1.
+    fn weights(&self, population: &Population, noise: f64) -> Vec<f64> {
+        let members = population.members.iter().zip(&population.costs);
+        let changes: Vec<f64> = members
+            .map(|(member, cost)| cost - self.cost(member, noise))
+            .collect();
+        let largest = Extent::of(changes.iter().copied()).high;
+        changes
+            .iter()
+            .map(|change| (change - largest).exp())
+            .collect()
+    }
+
+    /// Proposes a move for each member; rejected moves leave it where it is.
+    fn move_all(
+        &mut self,
+        population: &mut Population,
+        generator: &mut ChaCha8Rng,
+    ) -> Result<(), ExperimentError> {
+        for index in 0..population.members.len() {
+            let place = self.proposal(population, index, generator);
+            let chance: f64 = generator.random();
+            if place == population.members[index].place || !self.space.contains(&place) {
+                continue;
+            }
+            let member = self.member(place)?;
+            let cost = self.cost(&member, population.noise);
+            if chance < (population.costs[index] - cost).exp() {
+                population.keep(&member, cost);
+                population.members[index] = member;
+                population.costs[index] = cost;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns a new place for a member: moved by the difference of two others (ter Braak, Stat.
+    /// Comput. 16, 239, 2006) or by a random step along one coordinate.
+    fn proposal(
+        &self,
+        population: &Population,
+        index: usize,
+        generator: &mut ChaCha8Rng,
+    ) -> Vec<f64> {
+        let mut place = population.members[index].place.clone();
+        let length: f64 = generator.random();
+        if generator.random::<f64>() < RANDOM {
+            let moved = generator.random_range(0..place.len());
+            let (low, high) = self.space.coordinates[moved].ends();
+            let scale = 10_f64.powf(-DECADES * generator.random::<f64>());
+            place[moved] += (high - low) * (2.0 * length - 1.0) * scale;
+            return place;
+        }
+        let usual = 2.38 / (2.0 * self.space.coordinates.len() as f64).sqrt();
+        let count = population.members.len();
+        let from = &population.members[generator.random_range(0..count)].place;
+        let to = &population.members[generator.random_range(0..count)].place;
+        for (coordinate, (start, end)) in place.iter_mut().zip(from.iter().zip(to)) {
+            *coordinate += usual * (0.5 + length) * (start - end);
+        }
+        place
+    }
+}
+
+/// Returns a coordinate of an evenly scattered point, for a share of its range from 0 to 1.
+fn scattered_coordinate(coordinate: &Coordinate, start: f64, share: f64) -> f64 {
+    let (low, high) = coordinate.ends();
+    match coordinate.parameter {
+        // Rough bodies touch before the force exceeds the noise.
+        Parameter::Offset => (start + 8.0 * share - 6.5).clamp(low, high),
+        Parameter::Zero => start + 0.1 * (share - 0.5),
+        _ => low + share * (high - low),
+    }
+}

@@ -1,0 +1,354 @@
+//! The coordinates in which a scene is fitted, and their ranges and starts from the curve.
+
+use crate::curve::MeasuredCurve;
+use crate::curve::numerics::Extent;
+use crate::error::{ExperimentError, refused};
+use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
+use crate::fit::population::WRONG_SIDE;
+use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
+use crate::fit::start::{Known, Starts};
+use crate::fit::statistics::{PARTS, scale};
+use asperity_data::format_quantity;
+use asperity_scene::{Document, Governing, Scene, Simulation, Solver};
+use std::ops::Range;
+
+/// Ratio between the start and the ends of a range that is not given.
+const FACTOR: f64 = 30.0;
+/// Share of a range within which a value counts as lying at the end of the range.
+const AT_END: f64 = 0.01;
+
+/// The coordinates in which a scene is fitted, with the values of all other parameters.
+#[derive(Clone)]
+pub(crate) struct Space<'a> {
+    pub base: Values,
+    pub coordinates: Vec<Coordinate>,
+    /// Largest allowed work of adhesion on closing, J/m².
+    pub most_on_closing: f64,
+    pub curve: &'a MeasuredCurve,
+    pub stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Returns an error unless there is a free parameter, and none is given twice.
+fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
+    if free.is_empty() {
+        let names = Parameter::ALL.map(Parameter::name).join(", ");
+        return refused("no free parameter", format!("one or more of {names}"));
+    }
+    for (index, Free { parameter, .. }) in free.iter().enumerate() {
+        if is_free(&free[..index], *parameter) {
+            let found = format!("{} is free twice", parameter.name());
+            return refused(found, "each parameter once");
+        }
+    }
+    Ok(())
+}
+
+fn is_free(free: &[Free], parameter: Parameter) -> bool {
+    free.iter().any(|free| free.parameter == parameter)
+}
+
+/// Returns an error for a scene that cannot be fitted with these free parameters.
+fn check_scene(scene: &Scene, free: &[Free]) -> Result<(), ExperimentError> {
+    if scene.numerics.solver != Solver::Exact {
+        let found = "numerics.solver = Stepwise: a fit needs the exact solver";
+        return refused(found, "numerics.solver = Exact");
+    }
+    if is_free(free, Parameter::Radius) && radius_of(scene).is_none() {
+        let found = "radius: the form of the scene has none";
+        return refused(found, "form = Paraboloid, WavySphere or Punch");
+    }
+    Ok(())
+}
+
+/// Returns an error for a curve that turns before contact.
+fn check_turn(curve: &MeasuredCurve) -> Result<(), ExperimentError> {
+    if curve.turns[0] <= curve.touch {
+        let contact_point = format_quantity(curve.touch, "m");
+        let turn = format_quantity(curve.turns[0], "m");
+        let found =
+            format!("the contact begins at {contact_point}, and the displacement turns at {turn}");
+        return refused(found, "a contact before the first turning point");
+    }
+    Ok(())
+}
+
+/// Returns what is known of a scene apart from its free parameters.
+fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
+    let unless_free = |parameter, value| (!is_free(free, parameter)).then_some(value);
+    let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
+    Known {
+        radius: radius_of(scene),
+        length: scene.length,
+        modulus: unless_free(Parameter::Modulus, governing.effective_modulus),
+        stiffness: unless_free(Parameter::Stiffness, stiffness),
+    }
+}
+
+/// Data from which the coordinates of the free parameters follow.
+struct Ranges<'a> {
+    curve: &'a MeasuredCurve,
+    free: &'a [Free],
+    starts: Starts,
+    /// Range of the force, N, at least its noise.
+    extent_of_force: f64,
+}
+
+impl Ranges<'_> {
+    /// Returns the values before the fit of all parameters, for those of the scene.
+    fn start_values(&self, mut values: Values) -> Values {
+        for (parameter, start) in [
+            (Parameter::Work, self.starts.work),
+            (Parameter::Modulus, self.starts.modulus),
+            (Parameter::Stiffness, self.starts.stiffness),
+        ] {
+            if is_free(self.free, parameter) {
+                values[parameter as usize] = start;
+            }
+        }
+        values[Parameter::Offset as usize] = self.curve.touch;
+        if is_free(self.free, Parameter::ClosingWork) {
+            values[Parameter::ClosingWork as usize] = values[Parameter::Work as usize];
+        }
+        values
+    }
+
+    /// Returns the coordinates of the free parameters. Moves values into their ranges.
+    fn coordinates(&self, values: &mut Values) -> Result<Vec<Coordinate>, ExperimentError> {
+        let mut coordinates = Vec::new();
+        let mut most_work = values[Parameter::Work as usize];
+        for parameter in Parameter::ALL {
+            let Some(free) = self.free.iter().find(|free| free.parameter == parameter) else {
+                continue;
+            };
+            let range = match free.range {
+                Some(range) => range,
+                None => self.range_of(parameter, values),
+            };
+            if parameter == Parameter::ClosingWork && range.0 > most_work {
+                let least = format_quantity(range.0, "J/m²");
+                let most = format_quantity(most_work, "J/m²");
+                let found = format!("{} of at least {least}", parameter.name());
+                let allowed = format!("from 0 to {most}, the work of adhesion");
+                return refused(found, allowed);
+            }
+            let start = values[parameter as usize].clamp(range.0, range.1);
+            values[parameter as usize] = start;
+            // The work on opening comes first, so that it limits the work on closing.
+            if parameter == Parameter::Work {
+                most_work = range.1;
+            }
+            coordinates.push(Coordinate {
+                parameter,
+                start,
+                range,
+                unit: self.unit_of(parameter),
+            });
+        }
+        Ok(coordinates)
+    }
+
+    /// Returns the range in which a parameter is searched if none is given. `values` contains its
+    /// start.
+    fn range_of(&self, parameter: Parameter, values: &Values) -> (f64, f64) {
+        let start = values[parameter as usize];
+        let work = values[Parameter::Work as usize];
+        match parameter {
+            Parameter::Offset => {
+                let displacements = self.curve.displacement.iter().copied();
+                (Extent::of(displacements).low, self.curve.turns[0])
+            }
+            Parameter::Zero => (-self.extent_of_force, self.extent_of_force),
+            Parameter::Work => (0.0, start * FACTOR),
+            Parameter::ClosingWork if is_free(self.free, Parameter::Work) => (0.0, work * FACTOR),
+            Parameter::ClosingWork => (0.0, work),
+            _ => (start / FACTOR, start * FACTOR),
+        }
+    }
+
+    /// Returns the unit of a coordinate: a tenth of the largest change that the parameter makes.
+    fn unit_of(&self, parameter: Parameter) -> f64 {
+        match parameter {
+            Parameter::Work => self.starts.least_work,
+            Parameter::Zero => 0.1 * self.extent_of_force,
+            _ => 0.1 * (self.curve.turns[0] - self.curve.touch),
+        }
+    }
+}
+
+impl<'a> Space<'a> {
+    /// Checks parameters and scene. Returns the document with works of adhesion in place of κ, and
+    /// the coordinates of the fit.
+    pub fn of(
+        curve: &'a MeasuredCurve,
+        document: &Document,
+        simulation: &mut Simulation,
+        free: &[Free],
+        stop: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<(Document, Self), ExperimentError> {
+        check_free(free)?;
+        let (document, _) = curve.with_instrument(document).map_err(wrong)?;
+        let scene = document.scene();
+        check_scene(scene, free)?;
+        check_turn(curve)?;
+        let (contact, governing) = simulation.contact(scene)?;
+        let starts = Starts::of(curve, &contact, known(scene, &governing, free))?;
+        let work = is_free(free, Parameter::Work).then_some(starts.work);
+        let document = written_out(&document, &governing, work).map_err(wrong)?;
+        let (_, governing) = simulation.contact(document.scene())?;
+        if is_free(free, Parameter::ClosingWork) && governing.adhesive_work().is_none() {
+            let name = Parameter::ClosingWork.name();
+            let found = format!("{name}: the scene has no adhesion");
+            return refused(
+                found,
+                "adhesion.work above 0, or a free work of adhesion too",
+            );
+        }
+
+        let force = Extent::of(curve.force.iter().copied());
+        let ranges = Ranges {
+            curve,
+            free,
+            starts,
+            extent_of_force: force.width().max(curve.noise),
+        };
+        let mut base = ranges.start_values(values_of(document.scene(), &governing));
+        let coordinates = ranges.coordinates(&mut base)?;
+        let space = Space {
+            base,
+            coordinates,
+            most_on_closing: most_on_closing(document.scene()),
+            curve,
+            stop,
+        };
+        Ok((document, space))
+    }
+
+    /// Returns the free parameters in the order of the coordinates.
+    pub fn parameters(&self) -> Vec<Parameter> {
+        self.coordinates
+            .iter()
+            .map(|coordinate| coordinate.parameter)
+            .collect()
+    }
+
+    /// Returns the values of all parameters at a place.
+    pub fn values(&self, place: &[f64]) -> Values {
+        let mut values = self.base;
+        for (coordinate, &position) in self.coordinates.iter().zip(place) {
+            values[coordinate.parameter as usize] = coordinate.value(position, &values);
+            if coordinate.parameter == Parameter::Work {
+                let work = values[Parameter::Work as usize];
+                values[Parameter::ClosingWork as usize] = work.min(self.most_on_closing);
+            }
+        }
+        values
+    }
+
+    /// Returns true if a place lies within all ranges.
+    pub fn contains(&self, place: &[f64]) -> bool {
+        self.coordinates
+            .iter()
+            .zip(place)
+            .all(|(coordinate, position)| {
+                let (low, high) = coordinate.ends();
+                (low..=high).contains(position)
+            })
+    }
+
+    /// Returns the free parameters with a larger range of the work of adhesion, if its range was
+    /// not given and a place lies at its end. Rough bodies may be pulled off by a small part of the
+    /// force of smooth bodies.
+    pub fn extended(&self, place: &[f64], free: &[Free]) -> Option<Vec<Free>> {
+        let is_work = |coordinate: &Coordinate| coordinate.parameter == Parameter::Work;
+        let index = self.coordinates.iter().position(is_work)?;
+        let coordinate = self.coordinates[index];
+        let (low, high) = coordinate.ends();
+        let is_at_end = place[index] > high - AT_END * (high - low);
+        if !is_at_end {
+            return None;
+        }
+        let mut free = free.to_vec();
+        let work = free
+            .iter_mut()
+            .find(|free| free.parameter == Parameter::Work && free.range.is_none())?;
+        work.range = Some((coordinate.range.0, FACTOR * coordinate.range.1));
+        Some(free)
+    }
+
+    /// Returns the place at which the search begins.
+    pub fn start(&self) -> Vec<f64> {
+        self.coordinates
+            .iter()
+            .map(|coordinate| coordinate.of(coordinate.start, &self.base))
+            .collect()
+    }
+
+    /// Returns consecutive parts of each segment in contact. Parts depend on each other less than
+    /// points do.
+    pub fn blocks(&self) -> Vec<Range<usize>> {
+        let mut blocks = Vec::new();
+        let mut start = self.curve.free;
+        for segment in self.curve.segment[start..].chunk_by(|number, next| number == next) {
+            for part in 0..PARTS {
+                let from = start + segment.len() * part / PARTS;
+                let to = start + segment.len() * (part + 1) / PARTS;
+                blocks.push(from..to);
+            }
+            start += segment.len();
+        }
+        blocks
+    }
+
+    /// Returns the straight lines of the curve that each model refines; see
+    /// [`MeasuredCurve::lines`].
+    pub fn lines(&self) -> Vec<Vec<f64>> {
+        let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
+        self.curve.lines(self.coordinates.iter().any(is_zero))
+    }
+
+    /// Returns the root mean square residual in contact, in units of the noise of the curve; see
+    /// [`scale`].
+    pub fn misfit(&self, residuals: &[f64]) -> f64 {
+        scale(&residuals[self.curve.free..], WRONG_SIDE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{on_rubber, read, rubber};
+    use crate::read::options::Drift;
+    use std::f64::consts::PI;
+
+    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR)
+    /// and F²/(π E* L³) for a punch as long as the profile (Kendall).
+    #[test]
+    fn a_fit_begins_with_the_work_of_a_smooth_body() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let pull_off = curve
+            .noise
+            .max(-Extent::of(curve.force.iter().copied()).low);
+        let (sphere, punch) = (
+            pull_off / (1.5 * PI * 7.5e-6),
+            pull_off.powi(2) / (PI * 2e6 * 2.4e-5_f64.powi(3)),
+        );
+        for (form, expected) in [("Paraboloid(radius: 7.5e-6)", sphere), ("None", punch)] {
+            let changes = [("form", form), ("adhesion", "None")];
+            let changes = changes.map(|(path, value)| (path.to_owned(), value.to_owned()));
+            let document = on_rubber(1e-3, 2e6).set_all(&changes).unwrap();
+            let free = ["work".parse().unwrap()];
+            let mut simulation = Simulation::default();
+            let (_, space) =
+                Space::of(&curve, &document, &mut simulation, &free, &|| false).unwrap();
+            let Coordinate { start, range, .. } = space.coordinates[0];
+            assert!(
+                (start / expected - 1.0).abs() < 1e-12,
+                "{form}: {start:e} {expected:e}"
+            );
+            assert!(
+                (range.1 / (FACTOR * expected) - 1.0).abs() < 1e-12 && range.0 == 0.0,
+                "{form}: {range:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! Statistics of samples and residuals.
+
+use crate::curve::numerics::dot;
+use asperity_data::{mean, quantile, standard_deviation};
+
+/// Number of parts into which each segment is divided as blocks of the curve.
+pub(crate) const PARTS: usize = 4;
+
+/// Returns a robust root mean square of residuals. Residuals above `cut` times this scale count as
+/// `cut` times the scale (Huber, Robust Statistics, proposal 2), so that single points on the wrong
+/// side of a jump count little.
+pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
+    let mut squares: Vec<f64> = residuals
+        .iter()
+        .map(|residual| residual * residual)
+        .collect();
+    squares.sort_by(f64::total_cmp);
+    let mut sum: f64 = squares.iter().sum();
+    let mut count = squares.len() as f64;
+    while let Some(largest) = squares.pop() {
+        let is_beyond = count > cut * cut && largest * count > cut * cut * sum;
+        if !is_beyond {
+            break;
+        }
+        // With one residual less it is (sum + beyond · cut² · scale²)/count = scale².
+        sum = squares.iter().sum();
+        count -= cut * cut;
+    }
+    (sum / count).sqrt()
+}
+
+/// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal
+/// jackknife; Giordano and Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for
+/// each block. Where a model does not describe a curve, its residuals are no independent noise, and
+/// each block would give another value. Blocks are joined, up to whole segments, and the largest
+/// error counts.
+pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
+    let count = values.len() as f64;
+    let average = mean(values);
+    let block_count = blocks.first().map_or(0, Vec::len);
+    let mut influences = Vec::with_capacity(block_count);
+    for block in 0..block_count {
+        let sum: f64 = values
+            .iter()
+            .zip(blocks)
+            .map(|(value, costs)| (value - average) * costs[block])
+            .sum();
+        influences.push(sum / count);
+    }
+    let mut largest = 0.0_f64;
+    for joined in [1, 2, PARTS] {
+        largest = largest.max(error_of_joined(&influences, joined));
+    }
+    largest
+}
+
+/// Returns the error from the influences of blocks, of which `joined` neighbours count as one.
+fn error_of_joined(influences: &[f64], joined: usize) -> f64 {
+    let sums: Vec<f64> = influences
+        .chunks(joined)
+        .map(|part| part.iter().sum())
+        .collect();
+    let average = mean(&sums);
+    let squares: f64 = sums.iter().map(|sum| (sum - average).powi(2)).sum();
+    squares.sqrt()
+}
+
+fn column(samples: &[Vec<f64>], index: usize) -> Vec<f64> {
+    samples.iter().map(|sample| sample[index]).collect()
+}
+
+/// Multiplies the deviations of samples from their mean by a factor.
+pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
+    for index in 0..samples.first().map_or(0, Vec::len) {
+        let mean = mean(&column(samples, index));
+        for sample in samples.iter_mut() {
+            sample[index] = mean + factor * (sample[index] - mean);
+        }
+    }
+}
+
+/// Spread of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Spread {
+    pub standard_deviation: f64,
+    /// Quantiles of 2.5 and 97.5 %.
+    pub interval: (f64, f64),
+}
+
+impl Spread {
+    /// The spread of a single value.
+    pub(crate) fn at(value: f64) -> Self {
+        Spread {
+            standard_deviation: 0.0,
+            interval: (value, value),
+        }
+    }
+}
+
+/// Returns the spread of values; `None` for fewer than two values.
+pub(crate) fn spread(mut values: Vec<f64>) -> Option<Spread> {
+    if values.len() < 2 {
+        return None;
+    }
+    values.sort_by(f64::total_cmp);
+    let low = quantile(&values, 0.025)?;
+    let high = quantile(&values, 0.975)?;
+    Some(Spread {
+        standard_deviation: standard_deviation(&values, mean(&values)),
+        interval: (low, high),
+    })
+}
+
+/// Returns the correlation of two coordinates over samples; 0 if one of them does not vary.
+pub(crate) fn correlation(samples: &[Vec<f64>], pair: [usize; 2]) -> f64 {
+    let [first, second] = pair.map(|index| deviations(column(samples, index)));
+    let squares = dot(&first, &first) * dot(&second, &second);
+    if squares > 0.0 {
+        dot(&first, &second) / squares.sqrt()
+    } else {
+        0.0
+    }
+}
+
+/// Returns the deviations of values from their mean.
+fn deviations(mut values: Vec<f64>) -> Vec<f64> {
+    let mean = mean(&values);
+    for value in &mut values {
+        *value -= mean;
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_close(one: f64, other: f64) -> bool {
+        (one - other).abs() < 1e-12 * other.abs()
+    }
+
+    #[test]
+    fn single_residuals_beyond_the_scale_count_little() {
+        // 98 of 1, and two that count as 5 times the scale: scale² = (98 + 2 · 25 scale²)/100.
+        let mut residuals = vec![1.0; 98];
+        residuals.extend([-1000.0, 1e12]);
+        assert!(is_close(scale(&residuals, 5.0), (98.0_f64 / 50.0).sqrt()));
+        // Where all are large they are what the scale is, and the lesser ones count as they are.
+        assert!(is_close(scale(&[350.0, -350.0, 350.0], 5.0), 350.0));
+        assert!(is_close(scale(&[3.0, 4.0, 0.0, 0.0], 5.0), 2.5));
+        assert_eq!(scale(&[0.0; 30], 5.0), 0.0);
+    }
+
+    #[test]
+    fn the_error_by_blocks_is_that_of_their_influence() {
+        // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8
+        // blocks.
+        let values: Vec<f64> = (0..64).map(|index| [-1.0, 1.0][index % 2]).collect();
+        let costs = |slope: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
+            values
+                .iter()
+                .map(|value| (0..8).map(|block| 7.0 + value * slope(block)).collect())
+                .collect()
+        };
+        let alternating = block_error(&values, &costs(&|block| [2.0, -2.0][block % 2]));
+        assert!(is_close(alternating, 32.0_f64.sqrt()), "{alternating}");
+        // Approach against retraction: joined to two segments, of influences of 8 and -8.
+        let branches = block_error(&values, &costs(&|block| if block < 4 { 2.0 } else { -2.0 }));
+        assert!(is_close(branches, 128.0_f64.sqrt()), "{branches}");
+        // One block has no scatter, and a mean influence, which a population aside of the minimum
+        // has, is no scatter.
+        let error = block_error(&values, &costs(&|_| 2.0));
+        assert!(error.abs() < 1e-9, "{error}");
+        assert_eq!(
+            (
+                block_error(&values, &[]),
+                block_error(&[1.0, 2.0], &[vec![1.0], vec![3.0]])
+            ),
+            (0.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn samples_have_deviation_quantiles_and_correlation() {
+        let values: Vec<f64> = (0..=200).rev().map(f64::from).collect();
+        let found = spread(values.clone()).unwrap();
+        assert!(
+            is_close(found.standard_deviation, (201.0_f64 * 202.0 / 12.0).sqrt()),
+            "{found:?}"
+        );
+        assert_eq!(found.interval, (5.0, 195.0));
+        assert_eq!((spread(Vec::new()), spread(vec![1.0])), (None, None));
+        let mut samples: Vec<Vec<f64>> = values
+            .iter()
+            .map(|value| vec![*value, 3.0 - 2.0 * value, 5.0])
+            .collect();
+        assert!(is_close(correlation(&samples, [0, 1]), -1.0));
+        assert_eq!(correlation(&samples, [0, 2]), 0.0);
+        widen(&mut samples, 2.0);
+        assert_eq!(
+            (samples[0][0], samples[200][0], samples[9][2]),
+            (300.0, -100.0, 5.0)
+        );
+    }
+}

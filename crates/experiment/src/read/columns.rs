@@ -1,0 +1,505 @@
+//! The columns of a measured curve: which columns hold displacement, force and segment, and in
+//! which units.
+
+use crate::read::metadata::Metadata;
+use crate::read::names::{
+    APPROACH, DISPLACEMENT, FORCE, OF_BODY, QUANTITIES, Quantity, RETRACTION, SEGMENT, direction,
+    letters, names_unit, unit,
+};
+use crate::read::options::CurveOptions;
+use asperity_data::text_table::{TextColumn, is_one_of};
+use asperity_data::{format_quantity, parse_quantity, shown};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
+
+/// Displacement per row in m, used before the rows have displacements.
+const OF_ROW: f64 = 1e-9;
+/// Option that helps if the columns are not recognised.
+const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
+    beside its approach, such as --columns 1,2,1,3";
+/// Options that a file without names and units needs in addition to `--columns`.
+const UNITS: &str = "; with it --units, such as --units nm,nN, since the file states no units";
+
+/// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    pub places: [usize; 2],
+    pub units: [f64; 2],
+}
+
+/// The columns of a file that are used.
+#[derive(Debug)]
+pub(crate) struct Choice {
+    /// One pair, or two pairs: one for an approach, one for the retraction beside it.
+    pub pairs: Vec<Pair>,
+    pub segment: Option<usize>,
+    /// Travel of the piezo in m, over which forces without a column of displacements are evenly
+    /// spaced.
+    pub ramp: Option<f64>,
+    /// Name of the column of the displacement, if the column excludes the deflection of the
+    /// instrument.
+    pub of_body: Option<String>,
+    /// The columns with their units, in words.
+    pub assumed: String,
+    /// Sentences on names and units of the file that the options replace.
+    pub statements: Vec<String>,
+}
+
+/// Metadata that the file states in its header.
+#[derive(Clone, Copy)]
+pub(crate) struct Stated<'a> {
+    pub metadata: &'a Metadata,
+    /// True for a file in SI units, whose columns need no unit.
+    pub is_si: bool,
+}
+
+impl Choice {
+    /// Chooses among columns with these names and units.
+    pub fn new(
+        columns: &[TextColumn],
+        stated: Stated<'_>,
+        options: &CurveOptions,
+    ) -> Result<Self, SurfaceError> {
+        let table = Table::new(columns, stated, options);
+        let ramp = table.ramp()?;
+        let Roles { places, segment } = table.roles(ramp)?;
+
+        let mut statements = Vec::new();
+        statements.extend(table.overruled_names(&places));
+        let mut pairs = Vec::with_capacity(places.len());
+        let mut descriptions = Vec::new();
+        for &places in &places {
+            let mut units = [1.0; 2];
+            for (quantity, place) in places.into_iter().enumerate() {
+                if quantity == DISPLACEMENT
+                    && let Some(ramp) = ramp
+                {
+                    units[quantity] = OF_ROW;
+                    let length = format_quantity(ramp, "m");
+                    descriptions.push(format!(
+                        "none of the displacement ({length} there and back)"
+                    ));
+                    continue;
+                }
+                let unit = table.unit(quantity, place)?;
+                units[quantity] = unit.value;
+                descriptions.push(format!("{} ({})", table.name(place), unit.description));
+                statements.extend(unit.statement);
+            }
+            pairs.push(Pair { places, units });
+        }
+        statements.dedup();
+
+        let mut assumed = format!("Columns: {}", descriptions[..2].join(", "));
+        if descriptions.len() > 2 {
+            let retraction = descriptions[2..].join(", ");
+            assumed += &format!(", the retraction in {retraction}");
+        }
+        Ok(Choice {
+            of_body: table.displacement_of_body(places[0][DISPLACEMENT]),
+            pairs,
+            segment,
+            ramp,
+            assumed,
+            statements,
+        })
+    }
+}
+
+/// Columns of displacement and force, once or for approach and retraction apart, and the column of
+/// the segments.
+struct Roles {
+    places: Vec<[usize; 2]>,
+    segment: Option<usize>,
+}
+
+/// Unit of a column.
+struct Unit {
+    /// SI value of 1 in the column.
+    value: f64,
+    description: String,
+    /// Sentence on the unit of the file, if an option replaces it.
+    statement: Option<String>,
+}
+
+/// The columns of a file, with everything that decides on their roles.
+struct Table<'a> {
+    columns: &'a [TextColumn],
+    named: Vec<Named>,
+    stated: Stated<'a>,
+    options: &'a CurveOptions,
+}
+
+impl<'a> Table<'a> {
+    fn new(columns: &'a [TextColumn], stated: Stated<'a>, options: &'a CurveOptions) -> Self {
+        Table {
+            columns,
+            named: columns.iter().map(Named::of).collect(),
+            stated,
+            options,
+        }
+    }
+
+    /// Returns the travel of the piezo for a file with forces only.
+    fn ramp(&self) -> Result<Option<f64>, SurfaceError> {
+        if self.columns.len() != 1 {
+            return Ok(None);
+        }
+        let ramp = self.options.ramp.or(self.stated.metadata.ramp);
+        if ramp.is_none() {
+            let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
+            return Err(refused(Place::File, "one column of numbers", allowed));
+        }
+        Ok(ramp)
+    }
+
+    /// Returns the roles of the columns: as `--columns` states them, or by their names.
+    fn roles(&self, ramp: Option<f64>) -> Result<Roles, SurfaceError> {
+        if ramp.is_some() {
+            return Ok(self.with_named_segment(vec![[0, 0]]));
+        }
+        match &self.options.columns[..] {
+            [] if self.is_pair_in_order() => Ok(self.with_named_segment(vec![[0, 1]])),
+            [] => {
+                let places = known(&self.named).map_err(|term| {
+                    self.wrong(format!("{}: none is known as the {term}", self.listed()))
+                })?;
+                Ok(self.with_named_segment(places))
+            }
+            [displacement, force] => {
+                let places = [self.place(displacement)?, self.place(force)?];
+                Ok(self.with_named_segment(vec![places]))
+            }
+            [displacement, force, segment] => Ok(Roles {
+                places: vec![[self.place(displacement)?, self.place(force)?]],
+                segment: Some(self.place(segment)?),
+            }),
+            [displacement, force, retracted, retracting_force] => {
+                let approach = [self.place(displacement)?, self.place(force)?];
+                let retraction = [self.place(retracted)?, self.place(retracting_force)?];
+                Ok(Roles {
+                    places: vec![approach, retraction],
+                    segment: None,
+                })
+            }
+            other => Err(self.wrong(format!("--columns with {}", other.len()))),
+        }
+    }
+
+    /// Returns roles with the column whose name means the segment. Approach and retraction in
+    /// columns of their own need no such column.
+    fn with_named_segment(&self, places: Vec<[usize; 2]>) -> Roles {
+        let mut segment = None;
+        if places.len() == 1 {
+            segment = self
+                .named
+                .iter()
+                .position(|column| column.direction.is_none() && is_one_of(&column.rest, SEGMENT));
+        }
+        Roles { places, segment }
+    }
+
+    /// Returns true for two columns that are displacement and force in this order, because their
+    /// names say nothing else.
+    fn is_pair_in_order(&self) -> bool {
+        if self.columns.len() != 2 {
+            return false;
+        }
+        self.is_unnamed() || self.is_unknown() && self.options.units.len() == 2
+    }
+
+    fn is_unnamed(&self) -> bool {
+        self.columns.iter().all(|column| column.name.is_empty())
+    }
+
+    /// Returns true if no name is known as a displacement or a force.
+    fn is_unknown(&self) -> bool {
+        for column in &self.named {
+            for quantity in &QUANTITIES {
+                if is_one_of(&column.rest, quantity.names) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Returns the index of the column with a name or a number from 1.
+    fn place(&self, wanted: &str) -> Result<usize, SurfaceError> {
+        let wanted_letters = letters(wanted);
+        if !wanted_letters.is_empty() {
+            for (place, column) in self.columns.iter().enumerate() {
+                if letters(&column.name) == wanted_letters {
+                    return Ok(place);
+                }
+            }
+        }
+        match wanted.parse::<usize>() {
+            Ok(number) if (1..=self.columns.len()).contains(&number) => Ok(number - 1),
+            _ => Err(self.wrong(format!("{}: none is {:?}", self.listed(), shown(wanted)))),
+        }
+    }
+
+    /// Returns the name of a column, or its number if it has no name.
+    fn name(&self, place: usize) -> String {
+        match &*self.columns[place].name {
+            "" => (place + 1).to_string(),
+            name => shown(name),
+        }
+    }
+
+    /// Returns a list of the columns for a message.
+    fn listed(&self) -> String {
+        let count = self.columns.len();
+        if self.is_unnamed() {
+            return format!("{count} columns without names");
+        }
+        let mut names = Vec::with_capacity(count);
+        for column in self.columns {
+            if !column.name.is_empty() {
+                names.push(shown(&column.name));
+            }
+        }
+        format!("{count} columns {}", names.join(", "))
+    }
+
+    /// Returns the sentence on columns that `--columns` chooses against their names.
+    fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
+        if self.options.columns.is_empty() {
+            return None;
+        }
+        let by_name = known(&self.named).ok()?;
+        if by_name == places {
+            return None;
+        }
+        let [displacement, force] = by_name[0].map(|place| self.name(place));
+        Some(format!(
+            "Columns by --columns; by the names of the file they are {displacement} and {force}."
+        ))
+    }
+
+    /// Returns the name of the column of the displacement if it excludes the deflection of the
+    /// instrument. A number in place of the name overrules what the name says.
+    fn displacement_of_body(&self, place: usize) -> Option<String> {
+        if let Some(typed) = self.options.columns.first()
+            && typed.parse::<usize>().is_ok()
+        {
+            return None;
+        }
+        is_one_of(&self.named[place].rest, OF_BODY).then(|| self.name(place))
+    }
+
+    /// Returns the error of columns that are not recognised.
+    fn wrong(&self, found: String) -> SurfaceError {
+        let has_units = !self.options.units.is_empty()
+            || self.columns.iter().any(|column| column.unit.is_some());
+        let mut allowed = COLUMNS.to_owned();
+        if self.is_unnamed() && !has_units {
+            allowed += UNITS;
+        }
+        refused(Place::File, found, allowed)
+    }
+
+    /// Returns the unit of a column of a quantity. The options have precedence over the file. A
+    /// deflection becomes a force by the stiffness that the file states.
+    fn unit(&self, quantity: usize, place: usize) -> Result<Unit, SurfaceError> {
+        let Quantity {
+            term,
+            si_unit,
+            unit_example,
+            ..
+        } = QUANTITIES[quantity];
+        let option = self.options.units.get(quantity).map(String::as_str);
+        let of_column = self.columns[place].unit.as_deref();
+        let of_name = self.named[place].unit.as_deref();
+        let of_file = self.stated.is_si.then_some(si_unit);
+        let stated = of_column.or(of_name).or(of_file);
+
+        let Some(text) = option.or(stated) else {
+            let found = format!("no unit of the {term} is stated");
+            let allowed = "--units nm,nN for displacement and force";
+            return Err(refused(Place::File, found, allowed));
+        };
+        if quantity == FORCE
+            && option.is_none()
+            && let Some(deflection) = of_deflection(text, self.stated.metadata)
+        {
+            return deflection;
+        }
+
+        let Some(value) = unit_value(text, si_unit, option.is_some()) else {
+            let found = format!("{:?} is not a unit of the {term}", shown(text));
+            let allowed = format!(
+                "{unit_example} and the like, or the value of 1, such as --units nm,3.01nN"
+            );
+            return Err(refused(Place::File, found, allowed));
+        };
+        let mut statement = None;
+        if let (Some(option), Some(stated)) = (option, stated)
+            && unit(stated, si_unit) != Some(value)
+        {
+            statement = Some(format!(
+                "Unit of the {term} by --units: {}; the file states {}.",
+                shown(option),
+                shown(stated)
+            ));
+        }
+        Ok(Unit {
+            value,
+            description: shown(text),
+            statement,
+        })
+    }
+}
+
+/// Returns the SI value of 1 in a column. An option may state a multiple of a unit, such as 3.01nN.
+fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
+    if is_option && text.starts_with(|first: char| first.is_ascii_digit()) {
+        let value = parse_quantity(text, si_unit).ok()?;
+        return (value > 0.0).then_some(value);
+    }
+    unit(text, si_unit)
+}
+
+/// Returns the unit of a column of a deflection, which is a length or a voltage. It is the force in
+/// N of a deflection of 1. Returns `None` for another unit.
+fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, SurfaceError>> {
+    let mut factors = String::new();
+    let deflection = match unit(text, "m") {
+        Some(length) => length,
+        None => {
+            let voltage = unit(text, "V")?;
+            let Some(sensitivity) = metadata.sensitivity else {
+                return Some(Err(no_force(text, "sensitivity")));
+            };
+            factors = format!("{} and ", format_quantity(sensitivity, "m/V"));
+            voltage * sensitivity
+        }
+    };
+    let Some((_, stiffness)) = &metadata.stiffness else {
+        return Some(Err(no_force(text, "stiffness of the instrument")));
+    };
+    factors += &format_quantity(*stiffness, "N/m");
+    Some(Ok(Unit {
+        value: deflection * *stiffness,
+        description: format!("{} by {factors}", shown(text)),
+        statement: None,
+    }))
+}
+
+/// Returns the error of a deflection from which no force follows.
+fn no_force(unit: &str, missing: &str) -> SurfaceError {
+    let unit = shown(unit);
+    let found = format!("the force is a deflection in {unit}, and the file states no {missing}");
+    let allowed = "the force of 1 in the column, such as --units nm,3.01nN";
+    refused(Place::File, found, allowed)
+}
+
+/// Quantity and unit that follow from the name of a column.
+#[derive(Clone, Debug)]
+struct Named {
+    /// [`APPROACH`], [`RETRACTION`] or neither.
+    direction: Option<usize>,
+    /// Letters of the words that state neither direction nor unit.
+    rest: String,
+    /// Unit among the words, as in `Defl_pN_Ex`.
+    unit: Option<String>,
+}
+
+impl Named {
+    fn of(column: &TextColumn) -> Named {
+        let words = column.name.split(|c: char| !c.is_alphanumeric());
+        let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+        // The first word is the quantity, even if it looks like a unit.
+        let unit_of_name = words.iter().skip(1).copied().find(|word| names_unit(word));
+
+        let mut direction_of_column = None;
+        let mut rest = String::new();
+        for word in words {
+            match direction(word) {
+                Some(found) => direction_of_column = direction_of_column.or(Some(found)),
+                None if unit_of_name == Some(word) => {}
+                None => rest += &letters(word),
+            }
+        }
+        Named {
+            direction: direction_of_column,
+            rest,
+            unit: column.unit.clone().or(unit_of_name.map(str::to_owned)),
+        }
+    }
+
+    /// Rank of the unit: 0 for a force, 1 for a deflection, 2 for any other unit.
+    fn rank(&self) -> usize {
+        match self.unit.as_deref() {
+            None => 0,
+            Some(text) if unit(text, "N").is_some() => 0,
+            Some(text) if unit(text, "m").is_some() => 1,
+            Some(_) => 2,
+        }
+    }
+}
+
+/// Returns the indices of the columns of displacement and force that names identify, twice if
+/// approach and retraction are side by side. The error is the name of the quantity that no column
+/// names.
+fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
+    if let Some(approach) = pair_of_direction(named, APPROACH)
+        && let Some(retraction) = pair_of_direction(named, RETRACTION)
+    {
+        return Ok(vec![approach, retraction]);
+    }
+    let displacement = find_column(named, DISPLACEMENT, None);
+    let force = find_column(named, FORCE, None);
+    match (displacement, force) {
+        (Some(displacement), Some(force)) => Ok(vec![[displacement, force]]),
+        // Of two columns the other one.
+        (Some(displacement), None) if named.len() == 2 => {
+            Ok(vec![[displacement, 1 - displacement]])
+        }
+        (None, Some(force)) if named.len() == 2 => Ok(vec![[1 - force, force]]),
+        (None, _) => Err(QUANTITIES[DISPLACEMENT].term),
+        (_, None) => Err(QUANTITIES[FORCE].term),
+    }
+}
+
+/// Returns the columns of displacement and force of a direction. Both directions may share the
+/// column of displacements, and the name of a column of forces may be its direction alone.
+fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
+    let direction = Some(direction);
+    let displacement = find_column(named, DISPLACEMENT, direction)
+        .or_else(|| find_column(named, DISPLACEMENT, None))?;
+    let force = find_column(named, FORCE, direction)
+        .or_else(|| best_column(named, FORCE, direction, ""))?;
+    Some([displacement, force])
+}
+
+/// Returns the column that is named as a quantity, by the most preferred name.
+fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Option<usize> {
+    for name in QUANTITIES[quantity].names.split(' ') {
+        if let Some(place) = best_column(named, quantity, direction, name) {
+            return Some(place);
+        }
+    }
+    None
+}
+
+/// Returns the first column with a name and a direction. Among forces the best unit comes first.
+fn best_column(
+    named: &[Named],
+    quantity: usize,
+    direction: Option<usize>,
+    name: &str,
+) -> Option<usize> {
+    let mut best: Option<(usize, usize)> = None;
+    for (place, column) in named.iter().enumerate() {
+        if column.direction != direction || column.rest != name {
+            continue;
+        }
+        let rank = if quantity == FORCE { column.rank() } else { 0 };
+        if best.is_none_or(|(_, best_rank)| rank < best_rank) {
+            best = Some((place, rank));
+        }
+    }
+    best.map(|(place, _)| place)
+}

@@ -1,0 +1,7 @@
+//! Tests: the intervals of fits hold the known values of their curves.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod ensembles;
+mod ensembles_of_other_bodies;
+mod single_curves;
