@@ -3,7 +3,7 @@
 
 use super::ghost::Ghost;
 use super::measured::Measured;
-use super::recognition::Content;
+use super::recognition::MeasuredFile;
 use asperity_experiment::CurveOptions;
 use asperity_scene::library::open_argument;
 use asperity_scene::{Document, SceneErrors, open};
@@ -106,13 +106,13 @@ impl Opened {
             Ok(opening) => return Ok(Opened::Scene(Box::new(opening))),
             Err(error) => error,
         };
-        match Content::of(Path::new(name)) {
-            Some(Content::Curve) => {
+        match MeasuredFile::of(Path::new(name)) {
+            Some(MeasuredFile::Curve) => {
                 let measured = Measured::read(Path::new(name), CurveOptions::default());
                 let opened = measured.map(|measured| Opened::Curve(Box::new(measured)));
                 opened.map_err(|error| error.to_string())
             }
-            Some(Content::Surface) => Err(
+            Some(MeasuredFile::Surface) => Err(
                 "a surface; its name, typed on the row of the roughness, makes it the roughness of the scene"
                     .to_owned(),
             ),

@@ -11,17 +11,17 @@ use std::path::Path;
 
 /// What a measured file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
+pub enum MeasuredFile {
     Curve,
     Surface,
 }
 
-impl Content {
+impl MeasuredFile {
     /// Reads a file as a force curve and as a surface; `None` if it is neither.
-    pub fn of(path: &Path) -> Option<Content> {
+    pub fn of(path: &Path) -> Option<MeasuredFile> {
         match path.is_file() {
-            true if MeasuredCurve::is_in(path) => Some(Content::Curve),
-            true if is_surface(path) => Some(Content::Surface),
+            true if MeasuredCurve::is_in(path) => Some(MeasuredFile::Curve),
+            true if is_surface(path) => Some(MeasuredFile::Surface),
             _ => None,
         }
     }
@@ -31,11 +31,11 @@ impl Content {
         // Control characters of a name would act on the terminal.
         let file = printable(&quoted(path)).into_owned();
         match self {
-            Content::Curve => format!(
+            MeasuredFile::Curve => format!(
                 "a force curve: asperity SCENE --measured {file} shows it beside a scene, asperity fit {file} SCENE fits a scene \
                  to it"
             ),
-            Content::Surface => format!(
+            MeasuredFile::Surface => format!(
                 "a surface: asperity surface {file} analyses it, asperity SCENE --set roughness={file} makes it the roughness of \
                  a scene"
             ),
@@ -58,25 +58,25 @@ fn is_surface(path: &Path) -> bool {
 
 /// What a measured file is that was given as a scene, in one line; `None` if it is no such file.
 pub fn no_scene(path: &Path) -> Option<String> {
-    Content::of(path).map(|content| format!("{}: {}", path_name(path), content.way(path)))
+    MeasuredFile::of(path).map(|content| format!("{}: {}", path_name(path), content.way(path)))
 }
 
 /// The reason why a file is not read as a force curve, with the way to read it if it is a surface.
 pub fn no_curve(path: &Path, why: &ExperimentError) -> String {
-    match (why, Content::of(path)) {
-        (ExperimentError::File(_), Some(content @ Content::Surface)) => said(why, content, path),
+    match (why, MeasuredFile::of(path)) {
+        (ExperimentError::File(_), Some(content @ MeasuredFile::Surface)) => said(why, content, path),
         _ => why.to_string(),
     }
 }
 
 /// The reason why a file is not read as a surface, with the way to read it if it is a force curve.
 pub fn no_surface(path: &Path, why: &impl Display) -> String {
-    match Content::of(path) {
-        Some(content @ Content::Curve) => said(why, content, path),
+    match MeasuredFile::of(path) {
+        Some(content @ MeasuredFile::Curve) => said(why, content, path),
         _ => why.to_string(),
     }
 }
 
-fn said(why: &impl Display, content: Content, path: &Path) -> String {
+fn said(why: &impl Display, content: MeasuredFile, path: &Path) -> String {
     format!("{why}; it can be read as {}", content.way(path))
 }

@@ -141,12 +141,12 @@ impl Runtime {
                 let opened = Opened::of(&name);
                 Action::Opened(name, opened)
             }
-            Task::Read(reading) => {
+            Task::ReadCurve(wanted) => {
                 let Some(measured) = &app.edit.measured else {
                     return Vec::new();
                 };
-                let read = measured.read_again(reading.options.clone()).map(Box::new);
-                Action::Read(reading, read.map_err(|error| error.to_string()))
+                let read = measured.read_again(wanted.options.clone()).map(Box::new);
+                Action::CurveRead(wanted, read.map_err(|error| error.to_string()))
             }
             Task::Copy(_) | Task::Redraw | Task::Suspend => return Vec::new(),
         };

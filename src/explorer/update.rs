@@ -5,7 +5,7 @@ use super::action::Action;
 use super::action::Task;
 use super::app::{App, Awaited};
 use super::commands::{accuracy, dialogue, edit, files, measured, movement, opening, table};
-use super::keys::bindings::Command;
+use super::keys::bindings::KeyCommand;
 use super::layout::Layout;
 use super::mouse;
 use super::prompt::Purpose;
@@ -46,7 +46,7 @@ fn apply(app: &mut App, action: Action) {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Task::List);
         }
-        Action::Read(reading, read) => measured::read(app, &reading, read),
+        Action::CurveRead(wanted, read) => measured::show_read(app, &wanted, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
     // A search goes through the rows of the present scene.
@@ -73,7 +73,7 @@ fn pressed(app: &mut App, key: &KeyEvent) {
     }
 }
 
-fn run(app: &mut App, command: Command) {
+fn run(app: &mut App, command: KeyCommand) {
     if app.prompt.is_none() {
         let moving = app.map.moving && command.row.merges;
         app.begin();

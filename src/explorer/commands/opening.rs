@@ -4,7 +4,7 @@ use super::edit;
 use crate::explorer::app::App;
 use crate::explorer::config::Config;
 use crate::explorer::editor::Edited;
-use crate::explorer::map::OpenStudy;
+use crate::explorer::map_state::OpenStudy;
 use crate::explorer::measured::Measured;
 use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::pane::Pane;

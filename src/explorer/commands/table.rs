@@ -7,7 +7,7 @@ use super::{
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
-use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
+use crate::explorer::keys::bindings::{ANY, Bindings, Context, EXPLORE, KeyCommand, MANUAL, Row};
 use crate::explorer::keys::key;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::Parameter;
@@ -31,7 +31,7 @@ enum Run {
 }
 
 /// Runs a command, which changes the state.
-pub fn run(command: Command, app: &mut App) {
+pub fn run(command: KeyCommand, app: &mut App) {
     let Some(entry) = TABLE
         .iter()
         .find(|entry| std::ptr::eq(&entry.row, command.row))

@@ -28,7 +28,7 @@ pub struct Sought {
 fn sought(parameter: &Parameter) -> Option<&str> {
     match parameter.setting {
         _ if parameter.group == "loading" => Some("preload"),
-        Setting::Heading | Setting::Reading(_) => None,
+        Setting::Heading | Setting::CurveOption(_) => None,
         _ => Some(parameter.path.as_str()).filter(|_| parameter.takes_number()),
     }
 }

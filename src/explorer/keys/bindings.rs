@@ -48,7 +48,7 @@ pub struct Row {
 
 /// A row of the table as a command, with the pressed key.
 #[derive(Clone, Copy, Debug)]
-pub struct Command {
+pub struct KeyCommand {
     pub row: &'static Row,
     pub key: Option<KeyEvent>,
 }
@@ -144,11 +144,11 @@ impl Bindings {
             .filter(move |binding| binding.row.contexts.contains(&context))
     }
 
-    pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
+    pub fn command(&self, event: &KeyEvent, context: Context) -> Option<KeyCommand> {
         let found = self
             .valid_in(context)
             .find(|one| one.keys.iter().any(|key| key.matches(event)))?;
-        Some(Command {
+        Some(KeyCommand {
             row: found.row,
             key: Some(*event),
         })
@@ -159,14 +159,14 @@ impl Bindings {
     }
 
     /// The command with a name in a context, with a key if the row takes one: `start-value 3`.
-    pub fn named(&self, name: &str, context: Context) -> Option<Command> {
+    pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
         let (name, key) = name
             .split_once(' ')
             .map_or((name, None), |(name, key)| (name, Key::named(key)));
         let found = self
             .valid_in(context)
             .find(|binding| binding.row.name == name)?;
-        Some(Command {
+        Some(KeyCommand {
             row: found.row,
             key: key.map(|key| key.event()),
         })
@@ -331,7 +331,7 @@ mod tests {
     #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
         let bindings = bindings();
-        let name = |command: Option<Command>| {
+        let name = |command: Option<KeyCommand>| {
             command.map(|command| (command.row.name, command.key.map(|key| key.code)))
         };
         assert_eq!(
