@@ -13,6 +13,7 @@ mod close_up;
 pub mod commands;
 mod completion;
 pub mod config;
+pub mod curve_options;
 #[cfg(unix)]
 mod decoder;
 pub mod demo;
@@ -32,7 +33,6 @@ pub mod panes;
 pub mod parameters;
 pub mod player;
 pub mod prompt;
-pub mod curve_options;
 pub mod recognition;
 pub mod request;
 pub mod runtime;

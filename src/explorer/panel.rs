@@ -202,9 +202,8 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
 
 /// Calls `draw` with the styles of charts for this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
-    let ink = |ink| look.theme.style(meaning(ink));
     draw(&CellStyle {
-        ink: &ink,
+        ink: &|ink| look.theme.style(meaning(ink)),
         colours: Colours::None,
     })
 }

@@ -48,7 +48,9 @@ pub fn unit_of_force(app: &App) -> String {
 /// Adds the unit of the row to a typed value without one. A number for a stage without one is a
 /// force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
-    if let (Setting::CurveOption(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
+    if let Setting::CurveOption(index) = parameter.setting
+        && let Some(measured) = &app.edit.measured
+    {
         return OPTIONS[index].with_unit(measured, typed);
     }
     match parameter.leg {

@@ -375,7 +375,7 @@ fn with_roughness_parameter(
 }
 
 /// Reason to refuse a change whose result depends on the outcome of the present scene.
-const STILL_COMPUTED: &str = "the scene is still being computed";
+pub(super) const STILL_COMPUTED: &str = "the scene is still being computed";
 
 fn undefined(parameter: RoughnessParameter) -> String {
     format!("{} is not defined without roughness", parameter.symbol())

@@ -71,7 +71,7 @@ pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
         .map(|name| name.trim().parse())
         .collect::<Result<Vec<Free>, String>>()?;
     if !app.is_current() {
-        return Err("the scene is still being computed".to_owned());
+        return Err(edit::STILL_COMPUTED.to_owned());
     }
     let fitting = Fitting {
         free,
