@@ -1,4 +1,5 @@
-//! Number of random cases in a test: few by default, eight times as many in `.ci/run`.
+//! Number of random cases in a test: few by default, four times as many in the slow tests of
+//! `.ci/run`.
 
 /// Cases of a test: `quick`, times `TEST_EFFORT` from the environment.
 pub fn cases(quick: u32) -> u32 {

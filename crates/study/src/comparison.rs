@@ -1,6 +1,6 @@
 //! The computation of a comparison: profiles first, then squares, both pressed alike.
 
-use super::answer_warnings::warnings_on_profiles;
+use super::premises::warnings_on_profiles;
 use super::compared::{Compared, Values};
 use super::error::StudyError;
 use super::profiles::{Stop, on_threads_received};

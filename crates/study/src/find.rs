@@ -5,14 +5,17 @@
 //! preloads bracket its only crossing. Any other quantity is first computed at several numbers over
 //! the searched range.
 
-use super::answer_warnings::warnings_on_profiles;
+use super::premises::warnings_on_profiles;
+use super::axis::Axis;
 use super::error::StudyError;
+use super::plan::Plan;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::question::{Answer, Question};
 use super::results::CountedWarning;
+use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, format_range, quantile};
-use asperity_scene::{Document, Simulation};
+use asperity_scene::{CheckedScene, Document, Simulation};
 
 /// Largest relative change of a quantity over the searched range with which the number counts as
 /// without influence. The error by the number of springs changes with the scene.
@@ -122,6 +125,32 @@ impl Found {
             found.warnings = warnings_on_profiles(&scene, profiles, workers, stop)?;
         }
         Ok(found)
+    }
+
+    /// Returns the scene of the question with its median answer. Without a median answer, and if
+    /// the scene does not allow this answer, it is the scene of the question itself; `None` if this
+    /// scene is not allowed either.
+    fn answered_scene(&self) -> Option<CheckedScene> {
+        let plan = &self.question.plan;
+        let asked = plan.scene.clone().checked().ok()?;
+        let Some(value) = self.quantile(0.5) else {
+            return Some(asked);
+        };
+        let answered = if self.question.is_of_preload() {
+            let loading = vec![Move::ToForce(value), Move::ToSeparation];
+            asked.with(|scene| scene.loading = loading)
+        } else {
+            let axis = Axis {
+                values: vec![value],
+                ..self.question.axis.clone()
+            };
+            let plan_of_answer = Plan {
+                axes: vec![axis],
+                ..plan.clone()
+            };
+            plan_of_answer.scene_of(0)
+        };
+        Some(answered.unwrap_or(asked))
     }
 
     /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the
@@ -243,8 +272,7 @@ impl Found {
 mod tests {
     use super::*;
     use crate::bracket::WITHIN;
-    use asperity_contact::Move;
-    use asperity_scene::{Adhesion, CheckedScene, open};
+    use asperity_scene::{Adhesion, open};
     use std::f64::consts::PI;
 
     fn scene(name: &str, points: u64) -> CheckedScene {

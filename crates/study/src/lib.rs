@@ -21,7 +21,7 @@
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
 //! [`checks`], [`half_space`] and [`trust`].
 
-mod answer_warnings;
+mod premises;
 mod axis;
 mod boundary;
 mod bracket;
@@ -136,7 +136,7 @@ pub mod half_space {
 /// Errors of an adhesion force, one for each source, and criteria by which other theories decide
 /// whether bodies adhere.
 pub mod trust {
-    pub use crate::answer_warnings::{warnings_of_reversals, warnings_on_profiles};
+    pub use crate::premises::{warnings_of_reversals, warnings_on_profiles};
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
     pub use crate::criterion::Criterion;

@@ -1,7 +1,7 @@
 //! The sensitivity of the results of a scene: how the medians over random profiles change when each
 //! number of the scene changes by a tenth.
 
-use super::answer_warnings::warnings_on_profiles;
+use super::premises::warnings_on_profiles;
 use super::axis::{Axis, Shapes, Spacing};
 use super::cells::Streak;
 use super::coordinates::Allowed;

@@ -293,10 +293,12 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
 /// Error and time of the scene, springs and time of the fastest setting for each target, and the
 /// setting that is tried now.
 fn sentence(app: &App) -> Vec<Part> {
-    let mut parts = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     if app.is_current() {
-        let sign = Text::styled("◆ ", app.style(Meaning::Cursor));
-        parts.push(vec![sign, Text::raw(present_in_words(app))]);
+        for text in present_in_words(app) {
+            parts.push(vec![Text::raw(text)]);
+        }
+        parts[0].insert(0, Text::styled("◆ ", app.style(Meaning::Cursor)));
     }
     if let Some(table) = cost_table(app) {
         let is_finished = app.studies.is_done::<Costs>();
@@ -319,8 +321,9 @@ fn sentence(app: &App) -> Vec<Part> {
     parts
 }
 
-/// Error and computing time of the scene, and its largest error at other loads.
-fn present_in_words(app: &App) -> String {
+/// Error and computing time of the scene, and its largest error at other loads. The texts are
+/// short, since a text that is wider than the pane is left out.
+fn present_in_words(app: &App) -> Vec<String> {
     let error = match app.studies.value::<Estimate>() {
         None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
         None => "error …".to_owned(),
@@ -331,17 +334,19 @@ fn present_in_words(app: &App) -> String {
     };
     let scene = app.edit.document.scene();
     let Some(table) = cost_table(app) else {
-        return error;
+        return vec![error];
     };
     let Some((seconds, largest)) = table.between_rows(&scene.numerics) else {
-        return error;
+        return vec![error];
     };
     let time = time_of(seconds);
     if !table.is_over_loads(scene) {
-        return format!("{error} in {time}");
+        return vec![format!("{error} in {time}")];
     }
-    let largest = per_cent(largest);
-    format!("{error} at this load, up to {largest} at half to twice the load, in {time}")
+    vec![
+        format!("{error} at this load in {time}"),
+        format!("up to {} at half to twice the load", per_cent(largest)),
+    ]
 }
 
 fn time_of(seconds: f64) -> String {

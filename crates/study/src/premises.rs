@@ -1,14 +1,9 @@
-//! Premises of the model that a scene, the answer of a search, or the unloading from several
-//! turning points does not meet.
+//! Premises of the model that a scene, or the unloading from several turning points, does not meet.
 
-use super::axis::Axis;
 use super::error::StudyError;
-use super::find::Found;
-use super::plan::Plan;
 use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::results::{CountedWarning, Results};
-use asperity_contact::Move;
 use asperity_data::Warning;
 use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
@@ -68,32 +63,4 @@ pub fn warnings_of_reversals(
     }
     warnings.extend(simulation.warnings(scene)?);
     Ok(warnings)
-}
-
-impl Found {
-    /// Returns the scene of the question with its median answer. Without a median answer, and if
-    /// the scene does not allow this answer, it is the scene of the question itself; `None` if this
-    /// scene is not allowed either.
-    pub(super) fn answered_scene(&self) -> Option<CheckedScene> {
-        let plan = &self.question.plan;
-        let asked = plan.scene.clone().checked().ok()?;
-        let Some(value) = self.quantile(0.5) else {
-            return Some(asked);
-        };
-        let answered = if self.question.is_of_preload() {
-            let loading = vec![Move::ToForce(value), Move::ToSeparation];
-            asked.with(|scene| scene.loading = loading)
-        } else {
-            let axis = Axis {
-                values: vec![value],
-                ..self.question.axis.clone()
-            };
-            let plan_of_answer = Plan {
-                axes: vec![axis],
-                ..plan.clone()
-            };
-            plan_of_answer.scene_of(0)
-        };
-        Some(answered.unwrap_or(asked))
-    }
 }
