@@ -23,6 +23,8 @@ pub struct Engine {
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
     /// Performs these studies in place of all others.
     perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
+    /// True while the solver has not answered the last request.
+    is_waiting: bool,
 }
 
 impl Engine {
@@ -36,6 +38,7 @@ impl Engine {
                 studies.ask(wanted);
                 Vec::new()
             }),
+            is_waiting: false,
         }
     }
 
@@ -46,6 +49,7 @@ impl Engine {
         Engine {
             solve: Box::new(move |request| replies(&mut solver, request)),
             perform: Box::new(move |wanted| findings(wanted, performs)),
+            is_waiting: false,
         }
     }
 }
@@ -83,8 +87,18 @@ impl Runtime {
     /// Applies an action and performs the tasks that follow; returns the tasks that need the
     /// terminal.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
+        if let Action::Reply(reply) = &action
+            && reply.is_answer()
+        {
+            self.engine.is_waiting = false;
+        }
         let tasks = update(&mut self.app, action);
         self.perform(tasks)
+    }
+
+    /// Returns true while the solver has not answered the last request.
+    pub fn awaits_answer(&self) -> bool {
+        self.engine.is_waiting
     }
 
     /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane;
@@ -152,7 +166,9 @@ impl Runtime {
             }
             self.asked = request.generation;
         }
-        (self.engine.solve)(request)
+        let replies = (self.engine.solve)(request);
+        self.engine.is_waiting = replies.is_empty();
+        replies
     }
 
     /// The scenes that can be opened; in a folder of tests and demos without those of the user.

@@ -32,6 +32,9 @@ use std::time::{Duration, Instant};
 /// Limit of the frame rate over SSH, 1/s, where each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
+/// Longest time for which a frame over SSH waits for the answer of the solver.
+const ANSWER_TIME: Duration = Duration::from_millis(30);
+
 /// Number of input events that may wait for the loop; the terminal keeps further ones.
 const MOST_WAITING: usize = 64;
 
@@ -140,6 +143,7 @@ pub fn open(
         frame_time: Duration::from_secs(1) / frame_rate,
         changed: true,
         due: now,
+        asked: None,
         moved: now,
         inbox,
         waiting,
@@ -236,6 +240,8 @@ struct Session<'a> {
     /// Time before which nothing is drawn. Over SSH a held key or a dragged mouse would otherwise
     /// fill the line with frames that nobody sees in time.
     due: Instant,
+    /// Time since which an answer of the solver is awaited, if one is.
+    asked: Option<Instant>,
     /// Time of the last step of the animation.
     moved: Instant,
     inbox: Receiver<Incoming>,
@@ -262,7 +268,7 @@ impl Session<'_> {
         while !self.runtime.app.finished {
             // Unsaved changes are kept before they are drawn.
             self.keep_unsaved();
-            if self.changed && Instant::now() >= self.due {
+            if self.changed && Instant::now() >= self.next_frame() {
                 self.show()?;
                 self.changed = false;
                 if self.remote {
@@ -307,6 +313,16 @@ impl Session<'_> {
         }
     }
 
+    /// Time before which nothing is drawn. Over SSH the frame after a key waits a little for the
+    /// answer of the solver: a frame without the answer would hold it back until the next frame is
+    /// due, and would cost as many bytes.
+    fn next_frame(&self) -> Instant {
+        match self.asked {
+            Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
+            _ => self.due,
+        }
+    }
+
     fn is_playing(&self) -> bool {
         let app = &self.runtime.app;
         app.play.playing && app.is_current() && app.manual.is_none()
@@ -320,7 +336,7 @@ impl Session<'_> {
             deadlines.push(self.moved + self.frame_time);
         }
         if self.changed {
-            deadlines.push(self.due);
+            deadlines.push(self.next_frame());
         }
         match deadlines.into_iter().min() {
             Some(deadline) => {
@@ -409,6 +425,11 @@ impl Session<'_> {
                 }
                 _ => {}
             }
+        }
+        if !self.runtime.awaits_answer() {
+            self.asked = None;
+        } else if self.asked.is_none() {
+            self.asked = Some(Instant::now());
         }
         Ok(())
     }

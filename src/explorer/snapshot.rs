@@ -176,6 +176,11 @@ impl Reply {
             Reply::Progress { generation, .. } | Reply::Failed { generation, .. } => *generation,
         }
     }
+
+    /// Returns true for the last reply to a request, after which none follows.
+    pub fn is_answer(&self) -> bool {
+        !matches!(self, Reply::Progress { .. })
+    }
 }
 
 #[derive(Clone, Debug)]
