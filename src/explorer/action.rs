@@ -1,6 +1,6 @@
 //! Everything that can happen to the explorer, and the tasks outside of its state that follow.
 
-use super::keys::bindings::Command;
+use super::keys::bindings::KeyCommand;
 use super::measured::Measured;
 use super::opening::Opened;
 use super::snapshot::Reply;
@@ -16,7 +16,7 @@ use std::time::Duration;
 #[derive(Clone, Debug)]
 pub enum Action {
     Key(KeyEvent),
-    Command(Command),
+    Command(KeyCommand),
     /// Text pasted into the line being typed.
     Paste(String),
     Resize(u16, u16),
@@ -32,7 +32,7 @@ pub enum Action {
     /// A scene, study or force curve, by its path, was opened; or the reason why it was not.
     Opened(String, Result<Opened, String>),
     /// The measured curve was read with other options; or the reason why it was not.
-    Read(Reading, Result<Box<Measured>, String>),
+    CurveRead(CurveRequest, Result<Box<Measured>, String>),
     Mouse(Mouse),
 }
 
@@ -48,7 +48,7 @@ pub enum Task {
     Complete(String),
     Open(String),
     /// Read the measured curve with other options.
-    Read(Reading),
+    ReadCurve(CurveRequest),
     Copy(String),
     Redraw,
     Suspend,
@@ -56,7 +56,7 @@ pub enum Task {
 
 /// A request for the measured curve as read with other options.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reading {
+pub struct CurveRequest {
     pub options: CurveOptions,
     /// The typed value that is asked for; `None` for a choice of the arrows.
     pub typed: Option<String>,

@@ -4,9 +4,9 @@ use super::action::Task;
 use super::config::Config;
 use super::editor::Editor;
 use super::ghost::Ghost;
-use super::keys::bindings::{Command, Context};
-use super::map::Live;
-use super::map::MapState;
+use super::keys::bindings::{Context, KeyCommand};
+use super::map_state::Live;
+use super::map_state::MapState;
 use super::pane::Pane;
 use super::parameters::{Parameter, Setting};
 use super::player::Player;
@@ -16,7 +16,7 @@ use super::request::{CloseUpTarget, Drive, LineView, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, ManualState, Preview, SolvedScene};
 use super::studies::Findings;
 use super::text_line::TextLine;
-use super::theme::Appearance;
+use super::theme::{Appearance, Meaning};
 use asperity_contact::{LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
 use asperity_report::{LoopQuantities, Section, counted_texts, percent, warning_texts};
@@ -24,6 +24,7 @@ use asperity_scene::text::ron_float;
 use asperity_scene::{Document, Governing, Outcome};
 use asperity_study::maps::{Grid, GridPlace};
 use asperity_study::{Axis, Ensemble, Quantity};
+use ratatui::style::Style;
 use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,7 +92,7 @@ pub struct App {
     pub message: Option<Message>,
     pub config: Config,
     /// The command chosen in the list of commands, to be run next.
-    pub chosen: Option<Command>,
+    pub chosen: Option<KeyCommand>,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
     /// What was last asked of the solver.
@@ -153,26 +154,36 @@ impl App {
     /// States what is known at the start beside the notice of the opened scene: warnings and errors
     /// come first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
-        let (error, done) = match self.message.take() {
-            Some(Message::Done(text)) => (None, Some(text)),
-            Some(Message::Error(text) | Message::Refused(text)) => (Some(text), None),
-            None => (None, None),
-        };
+        let mut error = None;
+        let mut done = None;
+        match self.message.take() {
+            Some(Message::Done(text)) => done = Some(text),
+            Some(Message::Error(text) | Message::Refused(text)) => error = Some(text),
+            None => {}
+        }
         let is_error = warning.is_some() || error.is_some();
         let notices: Vec<String> = [warning, error, done, offer]
             .into_iter()
             .flatten()
             .collect();
         let text = notices.join(" · ");
-        match (is_error, text.is_empty()) {
-            (_, true) => {}
-            (true, _) => self.set_error(text),
-            (false, _) => self.set_done(text),
+        if text.is_empty() {
+            return;
+        }
+        if is_error {
+            self.set_error(text);
+        } else {
+            self.set_done(text);
         }
     }
 
     pub fn is_refused(&self) -> bool {
         matches!(self.message, Some(Message::Refused(_)))
+    }
+
+    /// Style of a meaning in the theme of the user.
+    pub fn style(&self, meaning: Meaning) -> Style {
+        self.view.appearance.theme.style(meaning)
     }
 
     pub fn is_typing_value(&self) -> bool {
@@ -184,10 +195,8 @@ impl App {
     /// Opens a prompt again with a text that could not be used; `why` is the reason, which may
     /// begin with the text.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
-        let reason = why
-            .strip_prefix(text)
-            .and_then(|rest| rest.strip_prefix(": "))
-            .unwrap_or(why);
+        let rest = why.strip_prefix(text);
+        let reason = rest.and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
         self.ask(purpose, text);
         if let Some(prompt) = &mut self.prompt {
             // A refused text is corrected, not replaced.
@@ -217,16 +226,20 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Governing parameters of the present scene, if the newest computation has the same line. The
-    /// adhesion of this computation may differ.
+    /// Governing parameters of the present scene, if the newest computation has the same profile
+    /// and material. The adhesion of this computation may differ.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
-        let (before, now) = (&computed.scene, &self.edit.scene);
-        let same_line = before.roughness == now.roughness
-            && before.length == now.length
-            && before.form == now.form
-            && before.material == now.material;
-        same_line.then(|| computed.outcome.governing.with_adhesion(now.adhesion))
+        let before = &computed.scene;
+        let present = &self.edit.scene;
+        let is_same_profile = before.roughness == present.roughness
+            && before.length == present.length
+            && before.form == present.form
+            && before.material == present.material;
+        if !is_same_profile {
+            return None;
+        }
+        Some(computed.outcome.governing.with_adhesion(present.adhesion))
     }
 
     /// Returns true if the present scene has been computed.
@@ -248,13 +261,11 @@ impl App {
         let Some(computed) = self.current() else {
             return Vec::new();
         };
-        match self
-            .studies
-            .value::<Ensemble>()
-            .filter(|ensemble| ensemble.computed() > 0)
-        {
-            Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.computed()),
-            None => warning_texts(&computed.outcome.warnings),
+        match self.studies.value::<Ensemble>() {
+            Some(ensemble) if ensemble.computed() > 0 => {
+                counted_texts(&ensemble.warnings(), ensemble.computed())
+            }
+            _ => warning_texts(&computed.outcome.warnings),
         }
     }
 
@@ -271,8 +282,12 @@ impl App {
             Some(_) => self.is_typing_value() && self.tried.is_some(),
             None => self.is_computing() && preview.text == self.edit.document.text(),
         };
-        let is_valid = self.studies.failure::<Preview>().is_none();
-        Some(&preview.outcome).filter(|_| is_shown && is_valid)
+        let has_failed = self.studies.failure::<Preview>().is_some();
+        if is_shown && !has_failed {
+            Some(&preview.outcome)
+        } else {
+            None
+        }
     }
 
     /// Returns true if the outcome for the typed value itself is known.
@@ -286,12 +301,15 @@ impl App {
     /// Position of the scene on the map: its values on the axes. `None` if the scene has no such
     /// quantity, or its value is not known yet.
     pub fn place(&self) -> Option<GridPlace> {
-        let scene = self.edit.document.scene();
         let (across, up) = self.map_axes()?;
+        let scene = self.edit.document.scene();
         let governing = self.governing();
-        let value = |axis: &Axis| axis.value_in(scene, governing.as_ref());
-        let place = value(&across)?;
-        up.map_or(Some((place, None)), |up| Some((place, Some(value(&up)?))))
+        let place_across = across.value_in(scene, governing.as_ref())?;
+        let Some(up) = up else {
+            return Some((place_across, None));
+        };
+        let place_up = up.value_in(scene, governing.as_ref())?;
+        Some((place_across, Some(place_up)))
     }
 
     pub fn grid(&self) -> Option<&Grid> {
@@ -318,20 +336,27 @@ impl App {
     /// Quantity that the map shows: the chosen one, or the first one of a map that does not have
     /// it.
     pub fn mapped(&self) -> Quantity {
-        let all = self.grid().map(Grid::quantities).unwrap_or_default();
-        let chosen = all.iter().find(|one| **one == self.map.quantity);
-        *chosen.or(all.first()).unwrap_or(&self.map.quantity)
+        let chosen = self.map.quantity;
+        let quantities = self.mappable();
+        if quantities.contains(&chosen) {
+            return chosen;
+        }
+        quantities.first().copied().unwrap_or(chosen)
     }
 
-    /// The quantity that follows the quantity shown on the map.
+    /// Quantities of the shown map; empty before a map is computed.
+    fn mappable(&self) -> Vec<Quantity> {
+        self.grid().map(Grid::quantities).unwrap_or_default()
+    }
+
+    /// The quantity that follows the quantity shown on the map; the first one follows the last.
     pub fn next_mapped(&self) -> Quantity {
-        let all = self.grid().map(Grid::quantities).unwrap_or_default();
-        let now = self.mapped();
-        let place = all
-            .iter()
-            .position(|one| *one == now)
-            .map_or(0, |place| place + 1);
-        all.get(place).or(all.first()).copied().unwrap_or(now)
+        let present = self.mapped();
+        let quantities = self.mappable();
+        let place = quantities.iter().position(|quantity| *quantity == present);
+        let next = place.map_or(0, |place| place + 1);
+        let next = quantities.get(next).or(quantities.first());
+        next.copied().unwrap_or(present)
     }
 
     /// The selectable panes, the most important first.
@@ -386,10 +411,12 @@ impl App {
     /// Context of the keys: in the map arrows move its mark, with a crosshair they move the
     /// crosshair; in the list of parameters digits begin a value.
     pub fn keys(&self) -> Context {
-        match (&self.prompt, self.view.pane.keys()) {
-            (Some(prompt), _) => prompt.context(),
-            (None, Context::Crosshair) if self.view.crosshair.is_none() => Context::Explore,
-            (None, of_pane) => of_pane,
+        if let Some(prompt) = &self.prompt {
+            return prompt.context();
+        }
+        match self.view.pane.keys() {
+            Context::Crosshair if self.view.crosshair.is_none() => Context::Explore,
+            context => context,
         }
     }
 
@@ -414,30 +441,34 @@ impl App {
     /// The newest snapshot, if it belongs to the present scene and kind of loading.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
-        (snapshot.generation == self.edit.generation && snapshot.drive == self.drive())
-            .then_some(snapshot)
+        let is_present =
+            snapshot.generation == self.edit.generation && snapshot.drive == self.drive();
+        if is_present { Some(snapshot) } else { None }
+    }
+
+    /// Outcome of the shown scene, which the present scene may differ from; `None` before a scene
+    /// is computed.
+    pub fn outcome(&self) -> Option<&Outcome> {
+        self.solved.as_ref().map(|computed| &computed.outcome)
     }
 
     pub fn legs(&self) -> &[LegRecord] {
-        self.solved
-            .as_ref()
-            .map_or(&[], |computed| &computed.outcome.history.legs)
+        self.outcome().map_or(&[], |outcome| &outcome.history.legs)
     }
 
     /// Returns true if the shown scene has a compliant instrument.
     pub fn deflects(&self) -> bool {
-        self.solved
-            .as_ref()
-            .is_some_and(|computed| computed.outcome.instrument.is_some())
+        self.outcome()
+            .is_some_and(|outcome| outcome.instrument.is_some())
     }
 
-    /// Returns a force of the shown scene, N; zero if it is a rounding error of the largest marked
-    /// force, as after a stage to zero force.
+    /// Returns a force of the shown scene, N. A force that is only a rounding error of the largest
+    /// marked force, as after a stage to zero force, is returned as zero.
     pub fn without_rounding(&self, force: f64) -> f64 {
-        let largest = Mark::all(self.legs())
-            .iter()
-            .map(|(_, point)| point.force.abs())
-            .fold(0.0, f64::max);
+        let mut largest: f64 = 0.0;
+        for (_, point) in Mark::all(self.legs()) {
+            largest = largest.max(point.force.abs());
+        }
         if force.abs() < 1e-12 * largest {
             0.0
         } else {
@@ -452,34 +483,31 @@ impl App {
 
     /// F_a,max of the shown scene, N; `None` if that is not above zero.
     pub fn ideal_adhesion_force(&self) -> Option<f64> {
-        self.solved
-            .as_ref()?
-            .outcome
-            .ideal_adhesion_force
-            .filter(|force| *force > 0.0)
+        let force = self.outcome()?.ideal_adhesion_force?;
+        if force > 0.0 { Some(force) } else { None }
     }
 
     /// A force of the shown scene in words: in N, or in units of F_a,max.
     pub fn force_in_words(&self, force: f64) -> String {
-        match self.ideal_adhesion_force().filter(|_| self.is_normalised()) {
-            Some(ideal) => format!("{} F_a,max", format_rounded(force / ideal, 3, "1")),
-            None => format_rounded(force, 3, "N"),
+        match self.ideal_adhesion_force() {
+            Some(ideal) if self.is_normalised() => {
+                format!("{} F_a,max", format_rounded(force / ideal, 3, "1"))
+            }
+            _ => format_rounded(force, 3, "N"),
         }
     }
 
     /// F_a/F_a,max of the shown profile in words.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
-        let force = self.solved.as_ref()?.outcome.figures.adhesion_force?;
+        let force = self.outcome()?.figures.adhesion_force?;
         Some(share_in_words(force / self.ideal_adhesion_force()?))
     }
 
     /// The median of F_a/F_a,max over random profiles in words.
     pub fn median_share_in_words(&self) -> Option<String> {
-        let all = self
-            .studies
-            .value::<Ensemble>()?
-            .statistics(Quantity::AdhesionShare)?;
-        Some(format!("median {}", share_in_words(all.quartiles[1])))
+        let ensemble = self.studies.value::<Ensemble>()?;
+        let shares = ensemble.statistics(Quantity::AdhesionShare)?;
+        Some(format!("median {}", share_in_words(shares.quartiles[1])))
     }
 
     /// Value of a parameter in the notation of the scene; for a value that follows from others the
@@ -489,19 +517,17 @@ impl App {
             return Some(parameter.written.clone());
         }
         let governing = self.governing()?;
-        match parameter.setting {
-            Setting::RoughnessParameter(parameter) => governing.parameter(parameter).map(ron_float),
-            Setting::WorkOfAdhesion => governing.work_of_adhesion.map(ron_float),
-            Setting::Field => {
-                let amplitude = governing.amplitude?;
-                match parameter.path.as_str() {
-                    "roughness.rms_height" => Some(ron_float(amplitude.rms_height)),
-                    "roughness.rms_gradient" => Some(ron_float(amplitude.rms_gradient)),
-                    _ => None,
-                }
-            }
-            Setting::Heading | Setting::Reading(_) => None,
-        }
+        let value = match parameter.setting {
+            Setting::RoughnessParameter(parameter) => governing.parameter(parameter)?,
+            Setting::WorkOfAdhesion => governing.work_of_adhesion?,
+            Setting::Field => match parameter.path.as_str() {
+                "roughness.rms_height" => governing.amplitude?.rms_height,
+                "roughness.rms_gradient" => governing.amplitude?.rms_gradient,
+                _ => return None,
+            },
+            Setting::Heading | Setting::CurveOption(_) => return None,
+        };
+        Some(ron_float(value))
     }
 
     /// Lowest and highest indentation of the shown curves, m; `None` without a curve.

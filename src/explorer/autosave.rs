@@ -25,6 +25,21 @@ struct Copy {
     overrides: Vec<(String, String)>,
 }
 
+impl Copy {
+    fn of(document: &Document) -> Self {
+        let name = match absolute(document.name()) {
+            Ok(path) if path.is_file() => path.display().to_string(),
+            _ => document.name().to_owned(),
+        };
+        Copy {
+            name,
+            opened: document.opened().to_owned(),
+            text: document.text().to_owned(),
+            overrides: document.overrides().to_vec(),
+        }
+    }
+}
+
 /// The file of a session.
 pub struct Autosave {
     path: PathBuf,
@@ -60,14 +75,13 @@ pub struct Newest {
 /// Returns the newest unsaved changes of an ended session that can be read, and the newer files
 /// that cannot.
 pub fn newest(folder: &Path) -> Newest {
-    let files = fs::read_dir(folder)
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path());
-    let mut files: Vec<PathBuf> = files
-        .filter(|path| path.extension().is_some_and(|end| end == "ron"))
-        .collect();
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.extension().is_some_and(|extension| extension == "ron") {
+            files.push(path);
+        }
+    }
     files.sort_by_key(|path| fs::metadata(path).and_then(|found| found.modified()).ok());
     let mut newest = Newest::default();
     while let Some(path) = files.pop() {
@@ -77,9 +91,10 @@ pub fn newest(folder: &Path) -> Newest {
                 break;
             }
             Ok(None) => {}
-            Err(why) => newest
-                .unreadable
-                .push(format!("{}: {why}", path_name(&path))),
+            Err(why) => {
+                let name = path_name(&path);
+                newest.unreadable.push(format!("{name}: {why}"));
+            }
         }
     }
     newest
@@ -105,16 +120,12 @@ fn open(path: PathBuf) -> Result<Option<Kept>, String> {
 
 /// Returns the message that offers the newest unsaved changes of an ended session.
 pub fn offer(folder: &Path) -> Option<String> {
-    let Kept { documents, .. } = newest(folder).kept?;
-    let name = |document: &Document| {
-        Some(
-            Path::new(document.name())
-                .file_name()?
-                .display()
-                .to_string(),
-        )
-    };
-    let names: Vec<String> = documents.iter().filter_map(name).collect();
+    let mut names = Vec::new();
+    for document in newest(folder).kept?.documents {
+        if let Some(name) = Path::new(document.name()).file_name() {
+            names.push(name.display().to_string());
+        }
+    }
     Some(format!(
         "unsaved changes of {} are kept: asperity --restore opens them",
         names.join(", ")
@@ -127,12 +138,13 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
         .and_then(into_text)
         .map_err(|error| error.to_string())?;
     let copies: Vec<Copy> = ron::from_str(&text).map_err(|error| error.to_string())?;
-    let document = |copy: Copy| {
-        let document =
-            Document::parse(&copy.text, &copy.name).map_err(|errors| errors.to_string())?;
-        Ok(document.resumed(copy.opened, copy.overrides))
-    };
-    copies.into_iter().map(document).collect()
+    let mut documents = Vec::new();
+    for copy in copies {
+        let document = Document::parse(&copy.text, &copy.name);
+        let document = document.map_err(|errors| errors.to_string())?;
+        documents.push(document.resumed(copy.opened, copy.overrides));
+    }
+    Ok(documents)
 }
 
 impl Autosave {
@@ -158,24 +170,15 @@ impl Autosave {
     /// file is complete at every moment.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
-            return self
-                .own
-                .take()
-                .map_or(Ok(()), |_| fs::remove_file(&self.path));
+            return match self.own.take() {
+                Some(_) => fs::remove_file(&self.path),
+                None => Ok(()),
+            };
         }
-        let copy = |document: &&Document| {
-            let file = absolute(document.name()).ok().filter(|path| path.is_file());
-            Copy {
-                name: file.map_or_else(
-                    || document.name().to_owned(),
-                    |path| path.display().to_string(),
-                ),
-                opened: document.opened().to_owned(),
-                text: document.text().to_owned(),
-                overrides: document.overrides().to_vec(),
-            }
-        };
-        let copies: Vec<Copy> = documents.iter().map(copy).collect();
+        let copies: Vec<Copy> = documents
+            .iter()
+            .map(|document| Copy::of(document))
+            .collect();
         let text = ron::to_string(&copies).map_err(io::Error::other)?;
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
@@ -184,7 +187,7 @@ impl Autosave {
         // nobody.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
-        // The new name never comes before the content.
+        // The content must be on the disk before the name is.
         file.sync_all()?;
         self.own = Some(file);
         fs::rename(&unfinished, &self.path)

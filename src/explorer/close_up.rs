@@ -5,128 +5,132 @@ use super::snapshot::{CloseUp, PatchFacts};
 use asperity_contact::Patch;
 use asperity_contact::motion::Leg;
 use asperity_report::{LineColumns, Part, SectionContact};
+use std::ops::Range;
 
-/// Makes the close-up of the requested part of the line, with the patch nearest to its middle.
+/// Makes the close-up of the requested part of the profile, with the patch nearest to its middle.
 pub fn close_up(
     contact: &SectionContact<'_>,
     leg: &Leg,
     request: &SnapshotRequest,
     line: &mut LineColumns,
 ) -> CloseUp {
-    let count = contact.gaps.len();
     let centre = centre(contact, request.focus);
     let number = nearest(contact.patches, centre);
-    let (first, springs) = shown(
-        count,
-        centre,
-        number.map(|one| contact.patches[one]),
-        request.close_up_springs,
-    );
+    let patch = number.map(|number| contact.patches[number]);
+    let shown = shown(contact.gaps.len(), centre, patch, request.close_up_springs);
     let part = Part {
-        first,
-        springs,
+        first: shown.start,
+        springs: shown.len(),
         columns: request.close_up_columns,
     };
-    let section = contact.section(part, line);
-    let shown = first..first + springs;
-    let begins = contact
-        .patches
-        .partition_point(|patch| patch.last < shown.start);
-    let boundaries = contact.patches[begins..]
-        .iter()
-        .take_while(|patch| patch.first < shown.end)
-        .flat_map(|patch| {
-            [
-                Some(patch.first),
-                Some(patch.last).filter(|last| *last > patch.first),
-            ]
-        })
-        .flatten()
-        .filter(|spring| shown.contains(spring))
-        .map(|spring| (spring, contact.height(spring)))
-        .collect();
-    let patch = number.and_then(|number| {
-        let springs = contact.patches[number];
-        Some(PatchFacts {
-            number,
-            patch: springs,
-            state: leg.patch_state(contact.indentation, number)?,
-        })
-    });
     CloseUp {
-        section,
-        boundaries,
-        patch,
+        section: contact.section(part, line),
+        boundaries: boundaries(contact, shown),
+        patch: number.and_then(|number| facts(contact, leg, number)),
     }
 }
 
-/// Smallest number of springs around a patch, and the part of the profile that is shown without a
-/// contact patch.
-const FEWEST: usize = 32;
-const PART: usize = 32;
+/// First and last spring of each patch, as far as they are among the shown springs, with their
+/// heights in m.
+fn boundaries(contact: &SectionContact<'_>, shown: Range<usize>) -> Vec<(usize, f64)> {
+    let mut boundaries = Vec::new();
+    let first_patch = contact
+        .patches
+        .partition_point(|patch| patch.last < shown.start);
+    for patch in &contact.patches[first_patch..] {
+        if patch.first >= shown.end {
+            break;
+        }
+        if shown.contains(&patch.first) {
+            boundaries.push((patch.first, contact.height(patch.first)));
+        }
+        if patch.last > patch.first && shown.contains(&patch.last) {
+            boundaries.push((patch.last, contact.height(patch.last)));
+        }
+    }
+    boundaries
+}
 
-/// First spring and number of springs of a close-up: this many around its centre, or the whole
-/// patch in a part whose size is a power of two, so that it stays the same while the patch grows a
-/// little.
+fn facts(contact: &SectionContact<'_>, leg: &Leg, number: usize) -> Option<PatchFacts> {
+    Some(PatchFacts {
+        number,
+        patch: contact.patches[number],
+        state: leg.patch_state(contact.indentation, number)?,
+    })
+}
+
+/// Smallest number of springs around a patch.
+const FEWEST: usize = 32;
+/// Number of parts of the profile, of which one is shown if nothing is in contact.
+const PARTS: usize = 32;
+
+/// The springs of a close-up: this number of springs around its centre, or the whole patch in a
+/// part whose size is a power of two, so that it stays the same while the patch grows a little.
 fn shown(
     count: usize,
     centre: usize,
     patch: Option<Patch>,
     springs: Option<usize>,
-) -> (usize, usize) {
-    let (middle, springs) = match (springs, patch) {
-        (Some(springs), _) => (centre, springs),
-        (None, Some(patch)) => {
-            let springs = (patch.springs().len() * 5 / 4)
-                .max(FEWEST)
-                .next_power_of_two();
-            let step = springs / 16;
-            (patch.middle() / step * step, springs)
-        }
-        (None, None) => (centre, count / PART),
+) -> Range<usize> {
+    let mut middle = centre;
+    let springs = if let Some(springs) = springs {
+        springs
+    } else if let Some(patch) = patch {
+        let needed = patch.springs().len() * 5 / 4;
+        let springs = needed.max(FEWEST).next_power_of_two();
+        let step = springs / 16;
+        middle = patch.middle() / step * step;
+        springs
+    } else {
+        count / PARTS
     };
     let springs = springs.clamp(1, count.max(1));
-    (
-        middle
-            .saturating_sub(springs / 2)
-            .min(count.saturating_sub(springs)),
-        springs,
-    )
+    let first = middle.saturating_sub(springs / 2);
+    let first = first.min(count.saturating_sub(springs));
+    first..first + springs
 }
 
+/// The spring that a close-up is asked for.
 fn centre(contact: &SectionContact<'_>, focus: Focus) -> usize {
-    let (count, patches) = (contact.gaps.len(), contact.patches);
-    let summit = || {
-        (0..count)
-            .find(|&spring| contact.gaps[spring] == 0.0)
-            .unwrap_or(count / 2)
-    };
     match focus {
-        Focus::Summit => summit(),
-        Focus::Spring(spring) => spring.min(count.saturating_sub(1)),
-        Focus::After(spring) | Focus::Before(spring) => {
-            let from = spring.unwrap_or_else(summit);
-            let forward = matches!(focus, Focus::After(_));
-            nearest(patches, from).map_or(from, |number| {
-                let next = if forward {
-                    number + 1
-                } else {
-                    number + patches.len() - 1
-                };
-                patches[next % patches.len()].middle()
-            })
+        Focus::Summit => summit(contact),
+        Focus::Spring(spring) => spring.min(contact.gaps.len().saturating_sub(1)),
+        Focus::After(spring) => {
+            let from = spring.unwrap_or_else(|| summit(contact));
+            middle_of_neighbour(contact, from, 1)
+        }
+        Focus::Before(spring) => {
+            let from = spring.unwrap_or_else(|| summit(contact));
+            middle_of_neighbour(contact, from, contact.patches.len().saturating_sub(1))
         }
     }
 }
 
+/// The first spring at the highest point of the profile.
+fn summit(contact: &SectionContact<'_>) -> usize {
+    let highest = contact.gaps.iter().position(|gap| *gap == 0.0);
+    highest.unwrap_or(contact.gaps.len() / 2)
+}
+
+/// The middle of the patch that is `steps` after the patch nearest to a spring; the first patch
+/// follows the last. Without patches this is the spring.
+fn middle_of_neighbour(contact: &SectionContact<'_>, spring: usize, steps: usize) -> usize {
+    match nearest(contact.patches, spring) {
+        Some(number) => contact.patches[(number + steps) % contact.patches.len()].middle(),
+        None => spring,
+    }
+}
+
+/// Number of the patch nearest to a spring; the first one of two that are equally near.
 fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {
     let after = patches.partition_point(|patch| patch.last < spring);
-    let distance = |number: usize| {
-        let Patch { first, last } = patches[number];
-        first
-            .saturating_sub(spring)
-            .max(spring.saturating_sub(last))
-    };
     let near = after.saturating_sub(1)..(after + 1).min(patches.len());
-    near.min_by_key(|&number| distance(number))
+    near.min_by_key(|number| distance(patches[*number], spring))
+}
+
+/// Number of springs between a spring and a patch; zero for a spring of the patch.
+fn distance(patch: Patch, spring: usize) -> usize {
+    let before = patch.first.saturating_sub(spring);
+    let after = spring.saturating_sub(patch.last);
+    before.max(after)
 }

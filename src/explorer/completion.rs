@@ -11,46 +11,51 @@ const MOST_ENTRIES: usize = 10_000;
 /// need a typed dot.
 pub fn complete(typed: &str) -> Vec<String> {
     let typed = typed.trim_start();
-    let (folder, name) = typed.split_at(typed.rfind(is_separator).map_or(0, |at| at + 1));
+    let end_of_folder = match typed.rfind(is_separator) {
+        Some(place) => place + 1,
+        None => 0,
+    };
+    let (folder, name) = typed.split_at(end_of_folder);
     let directory = if folder.is_empty() {
         Path::new(".").to_path_buf()
     } else {
         typed_path(folder)
     };
-    let path = |entry: std::io::Result<std::fs::DirEntry>| {
-        let entry = entry.ok()?;
-        let found = entry
-            .file_name()
-            .into_string()
-            .ok()
-            .filter(|found| !found.chars().any(is_control))?;
-        let fits = found.starts_with(name) && (name.starts_with('.') || !found.starts_with('.'));
-        let end = if entry.path().is_dir() {
-            String::from(MAIN_SEPARATOR)
-        } else {
-            String::new()
+    let entries = read_dir(directory).into_iter().flatten();
+    let mut paths = Vec::new();
+    // An entry that cannot be read counts as well, so that the number of attempts is limited.
+    for entry in entries.take(MOST_ENTRIES).flatten() {
+        let Ok(found) = entry.file_name().into_string() else {
+            continue;
         };
-        fits.then(|| format!("{folder}{found}{end}"))
-    };
-    let entries = read_dir(directory).into_iter().flatten().take(MOST_ENTRIES);
-    let mut paths: Vec<String> = entries.filter_map(path).collect();
+        let is_hidden = found.starts_with('.') && !name.starts_with('.');
+        if is_hidden || !found.starts_with(name) || found.chars().any(is_control) {
+            continue;
+        }
+        let mut path = format!("{folder}{found}");
+        if entry.path().is_dir() {
+            path.push(MAIN_SEPARATOR);
+        }
+        paths.push(path);
+    }
     paths.sort_unstable();
     paths
 }
 
 /// Returns the longest text with which all paths begin.
 pub fn common_start(paths: &[String]) -> String {
-    let shared = |start: String, path: &String| {
+    let Some((first, others)) = paths.split_first() else {
+        return String::new();
+    };
+    let mut start = first.clone();
+    for path in others {
         let same = start
             .chars()
             .zip(path.chars())
-            .take_while(|(one, other)| one == other);
-        same.map(|(one, _)| one).collect()
-    };
-    paths
-        .iter()
-        .skip(1)
-        .fold(paths.first().cloned().unwrap_or_default(), shared)
+            .take_while(|(character, other)| character == other);
+        start = same.map(|(character, _)| character).collect();
+    }
+    start
 }
 
 #[cfg(test)]

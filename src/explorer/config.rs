@@ -62,13 +62,8 @@ impl Default for Config {
 /// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not
 /// exist.
 pub fn default_path() -> Option<PathBuf> {
-    Some(
-        choose_base_strategy()
-            .ok()?
-            .config_dir()
-            .join("asperity")
-            .join("config.ron"),
-    )
+    let folder = choose_base_strategy().ok()?.config_dir();
+    Some(folder.join("asperity").join("config.ron"))
 }
 
 impl Config {
@@ -82,68 +77,90 @@ impl Config {
     /// Reads a configuration file that may change these keys. A missing file is an error if the
     /// user has named it (`is_named`), and otherwise means the defaults.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
-        // A broken link is a file that cannot be read.
-        let is_missing = || {
-            path.symlink_metadata()
-                .is_err_and(|error| error.kind() == NotFound)
-        };
-        if !is_named && is_missing() {
+        if !is_named && is_missing(path) {
             return Ok(Config::new(bindings));
         }
-        let text = read_regular_text(path, LONGEST);
-        Config::parse(
-            &text.map_err(|error| format!("{}: {error}", path.display()))?,
-            path,
-            bindings,
-        )
+        match read_regular_text(path, LONGEST) {
+            Ok(text) => Config::parse(&text, path, bindings),
+            Err(error) => Err(format!("{}: {error}", path.display())),
+        }
     }
 
     /// Reads the text of a configuration file that may change these keys.
     pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
-        let wrong_at = |offset: usize, message: String| {
-            let (line, column) = line_column(text, offset);
-            format!("{}:{line}:{column}: {message}", path.display())
-        };
+        let source = Source { text, path };
         let mut config: Config = read_ron(text).map_err(|error| {
             let (offset, error) = explain(text, &error);
-            wrong_at(offset, error.what())
+            source.wrong_at(offset, error.what())
         })?;
         config.bindings = bindings;
-        let wrong = |field: &str, message: String| {
-            let text = Text::new(text).ok();
-            let start = text.and_then(|text| Some(text.span(field)?.value.start));
-            wrong_at(start.unwrap_or(0), message)
-        };
-        let check = |field: &str, value: f64, range: RangeInclusive<f64>, allowed: &str| {
-            let message = || format!("{field} = {value}: allowed: {allowed}");
-            if range.contains(&value) {
-                Ok(())
-            } else {
-                Err(wrong(field, message()))
-            }
-        };
-        check("version", config.version.into(), 1.0..=1.0, "1")?;
-        check(
+        source.check("version", config.version.into(), 1.0..=1.0, "1")?;
+        source.check(
             "frame_rate",
             config.frame_rate.into(),
             1.0..=60.0,
             "from 1 to 60 frames per second",
         )?;
-        check("speed", config.speed, 0.1..=10.0, "from 0.1 to 10")?;
+        source.check("speed", config.speed, 0.1..=10.0, "from 0.1 to 10")?;
         for (number, KeySetting { action, keys }) in config.keys.iter().enumerate() {
-            let rebound = config.bindings.rebind(action, keys);
-            rebound
-                .map_err(|(field, message)| wrong(&format!("keys.{number}.{field}"), message))?;
+            if let Err((member, message)) = config.bindings.rebind(action, keys) {
+                return Err(source.wrong(&format!("keys.{number}.{member}"), message));
+            }
         }
-        if let Some((key, one, other)) = config.bindings.conflict() {
-            // The setting with the key, or the last one.
-            let has = |setting: &KeySetting| setting.action == one || setting.action == other;
-            let number = config.keys.iter().rposition(has).unwrap_or_default();
-            let message =
-                format!("{key}: bound to {one} and to {other}; allowed: one action for each key");
-            return Err(wrong(&format!("keys.{number}.keys"), message));
+        if let Some((key, action, other)) = config.bindings.conflict() {
+            // The last setting of one of the two functions; the key itself may be in either.
+            let mut settings = config.keys.iter();
+            let number = settings
+                .rposition(|setting| setting.action == action || setting.action == other)
+                .unwrap_or_default();
+            let message = format!(
+                "{key}: bound to {action} and to {other}; allowed: one action for each key"
+            );
+            return Err(source.wrong(&format!("keys.{number}.keys"), message));
         }
         Ok(config)
+    }
+}
+
+/// Returns true if there is no such file. A broken link is a file that cannot be read.
+fn is_missing(path: &Path) -> bool {
+    match path.symlink_metadata() {
+        Ok(_) => false,
+        Err(error) => error.kind() == NotFound,
+    }
+}
+
+/// A configuration file, for messages with the places of what is wrong in it.
+struct Source<'a> {
+    text: &'a str,
+    path: &'a Path,
+}
+
+impl Source<'_> {
+    fn wrong_at(&self, offset: usize, message: String) -> String {
+        let (line, column) = line_column(self.text, offset);
+        format!("{}:{line}:{column}: {message}", self.path.display())
+    }
+
+    /// Message about the value of a field, at its place in the file.
+    fn wrong(&self, field: &str, message: String) -> String {
+        let start = Text::new(self.text)
+            .ok()
+            .and_then(|text| Some(text.span(field)?.value.start));
+        self.wrong_at(start.unwrap_or(0), message)
+    }
+
+    fn check(
+        &self,
+        field: &str,
+        value: f64,
+        range: RangeInclusive<f64>,
+        allowed: &str,
+    ) -> Result<(), String> {
+        if range.contains(&value) {
+            return Ok(());
+        }
+        Err(self.wrong(field, format!("{field} = {value}: allowed: {allowed}")))
     }
 }
 

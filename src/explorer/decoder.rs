@@ -390,11 +390,10 @@ fn mouse_event(button: u8, column: u16, row: u16, is_release: bool) -> Option<Ev
         (65, false) => MouseEventKind::ScrollDown,
         _ => return None,
     };
-    let (column, row) = (column.checked_sub(1)?, row.checked_sub(1)?);
     Some(Event::Mouse(MouseEvent {
         kind,
-        column,
-        row,
+        column: column.checked_sub(1)?,
+        row: row.checked_sub(1)?,
         modifiers: KeyModifiers::NONE,
     }))
 }

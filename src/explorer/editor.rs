@@ -1,11 +1,12 @@
 //! The scene as edited: its list of parameters, its history, and whether it is saved.
 
+use super::curve_options;
 use super::measured::Measured;
 use super::parameters::{Parameter, parameters};
-use super::reading;
+use asperity_experiment::CurveOptions;
 use asperity_scene::{CheckedScene, Document};
 use std::collections::BTreeMap;
-use std::iter::successors;
+
 use std::mem::replace;
 use std::path::Path;
 use std::sync::Arc;
@@ -19,17 +20,24 @@ pub struct Edited {
     pub measured: Option<Measured>,
 }
 
+/// Returns true if a row has this path. A loading stage with a number has its row at the path of
+/// the number.
+fn is_at(parameter: &Parameter, path: &str) -> bool {
+    parameter.path == path || parameter.path.strip_suffix(".0") == Some(path)
+}
+
 impl Edited {
     /// Returns true if an edit from one to the other changes something that an undo restores.
     fn differs(&self, other: &Edited) -> bool {
-        let options = |one: &Edited| {
-            one.measured
-                .as_ref()
-                .map(|measured| (measured.path.clone(), measured.options.clone()))
-        };
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
-            || options(self) != options(other)
+            || self.curve_source() != other.curve_source()
+    }
+
+    /// File of the measured curve, and the options of reading it.
+    fn curve_source(&self) -> Option<(&Path, &CurveOptions)> {
+        let measured = self.measured.as_ref()?;
+        Some((&measured.path, &measured.options))
     }
 }
 
@@ -83,27 +91,34 @@ impl Editor {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }
 
+    /// Selects the row of a loading stage, if there is one.
+    pub fn select_stage(&mut self, stage: usize) {
+        let mut rows = self.parameters.iter();
+        if let Some(row) = rows.position(|parameter| parameter.leg == Some(stage)) {
+            self.select(row);
+        }
+    }
+
     /// Moves the selection by a number of rows, up to the first or last row.
     pub fn move_selection(&mut self, rows: i32) {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
-    /// Row of the field at a path, or of the group around it. So the selection stays in place when
-    /// rows come and go, and the row that switched an effect off can switch it on again.
+    /// Row of the field at a path, or of the group around it; the selected row if there is neither.
+    /// So the selection stays in place when rows come and go, and the row that switched an effect
+    /// off can switch it on again.
     fn row_of(&self, path: &str) -> usize {
-        // A loading stage with a number has its row at the path of the number.
-        let is_at = |one: &Parameter, path: &str| {
-            one.path == path || one.path.strip_suffix(".0") == Some(path)
-        };
-        let row = |path: &str| {
-            self.parameters
-                .iter()
-                .position(|parameter| is_at(parameter, path))
-        };
-        let around = successors(Some(path), |path| {
-            path.rsplit_once('.').map(|(group, _)| group)
-        });
-        around.filter_map(row).next().unwrap_or(self.selected)
+        let mut path = path;
+        loop {
+            let mut rows = self.parameters.iter();
+            if let Some(row) = rows.position(|parameter| is_at(parameter, path)) {
+                return row;
+            }
+            let Some((group, _)) = path.rsplit_once('.') else {
+                return self.selected;
+            };
+            path = group;
+        }
     }
 
     /// Makes a document the explored one; an undo returns to the former document, unless both are
@@ -159,29 +174,26 @@ impl Editor {
             self.future.pop()?
         };
         let before = self.exchange(next);
-        let to = if back {
-            &mut self.future
+        if back {
+            self.future.push(before.clone());
         } else {
-            &mut self.past
-        };
-        to.push(before.clone());
-        let changes = before.document.changes_to(&self.document);
-        let mut changes: Vec<String> = changes.iter().map(ToString::to_string).collect();
-        if before.document.name() != self.document.name() {
-            changes = vec![self.document.name().to_owned()];
+            self.past.push(before.clone());
+        }
+        let mut changes = Vec::new();
+        if before.document.name() == self.document.name() {
+            for change in before.document.changes_to(&self.document) {
+                changes.push(change.to_string());
+            }
+        } else {
+            changes.push(self.document.name().to_owned());
             self.leave(before.document);
         }
-        changes.extend(match (&before.measured, &self.measured) {
-            (Some(before), Some(now)) if before.path == now.path => {
-                reading::changes(&before.options, &now.options)
-            }
-            (None, None) => Vec::new(),
-            (_, Some(now)) => vec![format!("measured curve {}", now.name)],
-            (Some(before), None) => vec![format!("without the measured curve {}", before.name)],
-        });
-        let what = changes.join(", ");
+        changes.extend(changes_of_curve(
+            before.measured.as_ref(),
+            self.measured.as_ref(),
+        ));
         self.renew();
-        Some(what)
+        Some(changes.join(", "))
     }
 
     /// Keeps a document if it has unsaved changes, since another scene replaces it.
@@ -191,6 +203,7 @@ impl Editor {
         }
     }
 
+    /// Renews what follows from document and measured curve after an edit.
     fn renew(&mut self) {
         let selected = self
             .parameter()
@@ -213,29 +226,32 @@ impl Editor {
     /// Returns true if a document differs from the saved one by a value or a comment; another
     /// notation of a number is no change.
     fn is_changed(&self, document: &Document) -> bool {
-        let is_same = |saved: &Document| {
-            saved.text() == document.text()
-                || saved.scene() == document.scene() && saved.comments() == document.comments()
+        let Some(saved) = self.saved.get(document.name()) else {
+            return true;
         };
-        !self.saved.get(document.name()).is_some_and(is_same)
+        let has_same_content =
+            saved.scene() == document.scene() && saved.comments() == document.comments();
+        saved.text() != document.text() && !has_same_content
     }
 
     /// All scenes with unsaved changes, the explored one first if it has any.
     pub fn unsaved(&self) -> Vec<&Document> {
-        let all = [&self.document].into_iter().chain(self.left.values());
-        all.filter(|document| self.is_changed(document)).collect()
+        let mut unsaved = vec![&self.document];
+        unsaved.extend(self.left.values());
+        unsaved.retain(|document| self.is_changed(document));
+        unsaved
     }
 
     /// Takes scenes as the unsaved changes of another session; the first is the explored scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
+            let name = document.name().to_owned();
             match Document::parse(document.opened(), document.name()) {
-                Ok(opened) => drop(self.saved.insert(document.name().to_owned(), opened)),
-                Err(_) => drop(self.saved.remove(document.name())),
-            }
+                Ok(opened) => self.saved.insert(name.clone(), opened),
+                Err(_) => self.saved.remove(&name),
+            };
             if number > 0 {
-                self.left
-                    .insert(document.name().to_owned(), document.clone());
+                self.left.insert(name, document.clone());
             }
         }
     }
@@ -248,14 +264,13 @@ impl Editor {
 
     /// Selects the row of the measured curve, if there is one.
     pub fn select_measured(&mut self) {
-        self.select(self.row_of(reading::GROUP));
+        self.select(self.row_of(curve_options::GROUP));
     }
 
     /// Marks the scene as saved to a file, which becomes its own file.
     pub fn set_saved_as(&mut self, path: &Path) {
-        if let Ok(document) =
-            Document::parse(&self.document.text_for_own_file(), &path.to_string_lossy())
-        {
+        let text = self.document.text_for_own_file();
+        if let Ok(document) = Document::parse(&text, &path.to_string_lossy()) {
             self.scene = scene_of(&document);
             self.document = document;
         }
@@ -269,8 +284,23 @@ impl Editor {
     }
 }
 
+/// Changes from one measured curve to another, in words.
+fn changes_of_curve(before: Option<&Measured>, present: Option<&Measured>) -> Vec<String> {
+    match (before, present) {
+        (None, None) => Vec::new(),
+        (Some(before), Some(present)) if before.path == present.path => {
+            curve_options::changes(&before.options, &present.options)
+        }
+        (_, Some(present)) => vec![format!("measured curve {}", present.name)],
+        (Some(before), None) => vec![format!("without the measured curve {}", before.name)],
+    }
+}
+
 /// The checked scene of a document, with its files named from the working folder.
 pub fn scene_of(document: &Document) -> Arc<CheckedScene> {
-    let named = |file: &str| document.resolve(file).to_string_lossy().into_owned();
-    Arc::new(document.scene().with_files_named(named))
+    let scene = document.scene().with_files_named(|file: &str| {
+        let path = document.resolve(file);
+        path.to_string_lossy().into_owned()
+    });
+    Arc::new(scene)
 }

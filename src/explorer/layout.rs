@@ -20,26 +20,41 @@ impl Layout {
         Layout::within(app, app.view.size)
     }
 
-    /// The layout in a window of this width and height, in cells.
-    pub fn within(app: &App, (width, height): (u16, u16)) -> Self {
-        let row = |y: u16| Rect::new(0, y, width, 1).intersection(Rect::new(0, 0, width, height));
+    /// The layout in a window of this size, in cells.
+    pub fn within(app: &App, size: (u16, u16)) -> Self {
+        let (width, height) = size;
         // The lines around the panes give way before the panes.
-        let footer = height >= 6;
+        let has_footer = height >= 6;
         let top = if height >= 32 {
             2
         } else {
             u16::from(height >= 8)
         };
-        let bottom = 1 + u16::from(footer);
+        let bottom = 1 + u16::from(has_footer);
+        let window = Rect::new(0, 0, width, height);
+        let line = Rect::new(0, 0, width, 1);
+        let title = Rect {
+            height: top,
+            ..line.intersection(window)
+        };
+        let status = Rect {
+            y: height.saturating_sub(bottom),
+            ..line
+        };
+        let footer = Rect {
+            y: height.saturating_sub(1),
+            ..line
+        };
         let body = Rect::new(0, top, width, height.saturating_sub(top + bottom));
         Layout {
-            title: (top > 0).then(|| Rect {
-                height: top,
-                ..row(0)
-            }),
+            title: if top > 0 { Some(title) } else { None },
             panes: panes(app, body),
-            status: row(height.saturating_sub(bottom)),
-            footer: footer.then(|| row(height - 1)),
+            status: status.intersection(window),
+            footer: if has_footer {
+                Some(footer.intersection(window))
+            } else {
+                None
+            },
         }
     }
 
@@ -53,16 +68,18 @@ impl Layout {
 
     /// The area of a pane with its title; `None` for a pane that is not shown.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
-        self.panes
-            .iter()
-            .find(|(pane, _)| *pane == wanted)
-            .map(|(_, area)| *area)
+        let mut panes = self.panes.iter();
+        let (_, area) = panes.find(|(pane, _)| *pane == wanted)?;
+        Some(*area)
     }
 
     /// Width of the profile in cells, without its histogram.
     pub fn profile_cells(&self) -> usize {
-        self.pane(Pane::Profile)
-            .map_or(0, |area| usize::from(split(inside(area)).0.width))
+        let Some(area) = self.pane(Pane::Profile) else {
+            return 0;
+        };
+        let (profile, _) = split(inside(area));
+        profile.width.into()
     }
 
     pub fn close_up_cells(&self) -> usize {
@@ -90,12 +107,15 @@ pub fn has_title(area: Rect) -> bool {
     area.height >= 5 && area.width >= 16
 }
 
-/// Smallest window, columns, with the list of parameters at the side, and the least and the largest
-/// width of the list.
+/// Smallest window, columns, with the list of parameters at the side.
 const WITH_LIST: u16 = 60;
-const LIST: (u16, u16) = (32, 48);
-/// Smallest number of rows with panes below the main pane, and of columns with two panes there.
+/// Smallest width of the list at the side, columns.
+const NARROWEST_LIST: u16 = 32;
+/// Largest width of the list at the side, columns.
+const WIDEST_LIST: u16 = 48;
+/// Smallest number of rows of a window with panes below the main pane.
 const WITH_LOWER: u16 = 20;
+/// Smallest number of columns with two panes below the main pane.
 const WITH_CLOSE_UP: u16 = 60;
 /// Smallest number of rows of a narrow window with several rows of the list.
 const WITH_ROWS: u16 = 16;
@@ -111,44 +131,73 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if app.view.zoomed {
         return vec![(selected, body)];
     }
-    let main = app.view.large.unwrap_or(Pane::Force);
-    let is_list = selected == Pane::Parameters;
-    let only = if is_list { main } else { selected };
     if body.width < WITH_LIST {
-        let rows = match body.height {
-            0..3 => return vec![(selected, body)],
-            _ if is_list => return vec![(selected, body)],
-            WITH_ROWS.. => 2 * body.height / 5,
-            _ => 1,
-        };
-        let height = body.height - rows;
-        let list = Rect {
-            y: body.y + height,
-            height: rows,
-            ..body
-        };
-        return vec![(only, Rect { height, ..body }), (Pane::Parameters, list)];
+        return panes_of_narrow(app, body);
     }
-    let list = (u32::from(body.width) * 35 / 100).clamp(LIST.0.into(), LIST.1.into()) as u16;
+    let share = (u32::from(body.width) * 35 / 100) as u16;
+    let list_width = share.clamp(NARROWEST_LIST, WIDEST_LIST);
     let left = Rect {
-        width: body.width - list,
+        width: body.width - list_width,
         ..body
     };
-    let list = (
-        Pane::Parameters,
-        Rect {
-            x: left.right(),
-            width: list,
-            ..body
-        },
-    );
-    // All that it states needs the height of the window.
-    let is_alone = main == Pane::Trust && selected != Pane::Force;
-    if body.height < WITH_LOWER || is_alone {
-        return vec![(only, left), list];
+    let right = Rect {
+        x: left.right(),
+        width: list_width,
+        ..body
+    };
+    let mut panes = panes_beside_list(app, left);
+    panes.push((Pane::Parameters, right));
+    panes
+}
+
+/// The pane that has the most room.
+fn main_pane(app: &App) -> Pane {
+    app.view.large.unwrap_or(Pane::Force)
+}
+
+/// The pane beside the list of parameters if there is room for one only.
+fn only_pane(app: &App) -> Pane {
+    if app.view.pane == Pane::Parameters {
+        main_pane(app)
+    } else {
+        app.view.pane
+    }
+}
+
+/// The panes of a window that is too narrow for the list at the side: one pane, and some rows of
+/// the list below it.
+fn panes_of_narrow(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
+    let selected = app.view.pane;
+    if body.height < 3 || selected == Pane::Parameters {
+        return vec![(selected, body)];
+    }
+    let rows = if body.height >= WITH_ROWS {
+        2 * body.height / 5
+    } else {
+        1
+    };
+    let upper = Rect {
+        height: body.height - rows,
+        ..body
+    };
+    let lower = Rect {
+        y: upper.bottom(),
+        height: rows,
+        ..body
+    };
+    vec![(only_pane(app), upper), (Pane::Parameters, lower)]
+}
+
+/// The panes on the left of the list of parameters: the main pane, and below it the others.
+fn panes_beside_list(app: &App, left: Rect) -> Vec<(Pane, Rect)> {
+    let main = main_pane(app);
+    // All that this pane states needs the height of the window.
+    let is_alone = main == Pane::Trust && app.view.pane != Pane::Force;
+    if left.height < WITH_LOWER || is_alone {
+        return vec![(only_pane(app), left)];
     }
     let upper = Rect {
-        height: (u32::from(body.height) * 62 / 100) as u16,
+        height: (u32::from(left.height) * 62 / 100) as u16,
         ..left
     };
     let lower = Rect {
@@ -156,26 +205,25 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
         height: left.height - upper.height,
         ..left
     };
-    let below = match app.view.large {
-        Some(_) => vec![(Pane::Force, lower)],
-        None if left.width >= WITH_CLOSE_UP => {
-            let profile = Rect {
-                width: lower.width * 3 / 5,
-                ..lower
-            };
-            let close_up = Rect {
-                x: profile.right(),
-                width: lower.width - profile.width,
-                ..lower
-            };
-            vec![(Pane::Profile, profile), (Pane::CloseUp, close_up)]
-        }
-        None if selected == Pane::CloseUp => vec![(Pane::CloseUp, lower)],
-        None => vec![(Pane::Profile, lower)],
-    };
-    [(main, upper)]
-        .into_iter()
-        .chain(below)
-        .chain([list])
-        .collect()
+    let mut panes = vec![(main, upper)];
+    if app.view.large.is_some() {
+        panes.push((Pane::Force, lower));
+    } else if left.width >= WITH_CLOSE_UP {
+        let profile = Rect {
+            width: lower.width * 3 / 5,
+            ..lower
+        };
+        let close_up = Rect {
+            x: profile.right(),
+            width: lower.width - profile.width,
+            ..lower
+        };
+        panes.push((Pane::Profile, profile));
+        panes.push((Pane::CloseUp, close_up));
+    } else if app.view.pane == Pane::CloseUp {
+        panes.push((Pane::CloseUp, lower));
+    } else {
+        panes.push((Pane::Profile, lower));
+    }
+    panes
 }

@@ -26,47 +26,44 @@ impl Measured {
     /// The reason why the file is not read with these options.
     pub fn read(path: &Path, options: CurveOptions) -> Result<Self, ExperimentError> {
         let curve = MeasuredCurve::read(path, &options)?;
-        let (name, offset) = (path_name(path), curve.touch);
         Ok(Measured {
-            name,
+            name: path_name(path),
             path: path.to_owned(),
+            offset: curve.touch,
             curve: curve.into(),
             options,
-            offset,
         })
     }
 
     /// The curve as read with other options. First touch stays where it was found if the
     /// displacements are the same.
     pub fn read_again(&self, options: CurveOptions) -> Result<Self, ExperimentError> {
-        let other = Measured::read(&self.path, options)?;
-        let is_same = other.curve.displacement == self.curve.displacement;
-        let offset = if is_same { self.offset } else { other.offset };
-        Ok(Measured { offset, ..other })
+        let mut measured = Measured::read(&self.path, options)?;
+        if measured.curve.displacement == self.curve.displacement {
+            measured.offset = self.offset;
+        }
+        Ok(measured)
     }
 
     /// The measured points as points of a force curve, for an instrument of this stiffness, N/m.
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
-        let point = |(at, force): (&f64, &f64)| {
-            let indentation = at - self.offset - force / stiffness;
-            CurvePoint {
-                indentation,
+        let mut points = Vec::new();
+        for (displacement, force) in self.curve.displacement.iter().zip(&self.curve.force) {
+            points.push(CurvePoint {
+                indentation: displacement - self.offset - force / stiffness,
                 force: *force,
                 ..CurvePoint::default()
-            }
-        };
-        self.curve
-            .displacement
-            .iter()
-            .zip(&self.curve.force)
-            .map(point)
-            .collect()
+            });
+        }
+        points
     }
 
     /// Differences of the measured forces from the forces of a model, N, in units of the noise.
     pub fn residuals(&self, model: &[f64]) -> Vec<f64> {
-        let residual = |(force, model): (&f64, &f64)| (force - model) / self.curve.noise;
-        self.curve.force.iter().zip(model).map(residual).collect()
+        let forces = self.curve.force.iter().zip(model);
+        forces
+            .map(|(measured, computed)| (measured - computed) / self.curve.noise)
+            .collect()
     }
 }
 

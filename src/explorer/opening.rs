@@ -3,7 +3,7 @@
 
 use super::ghost::Ghost;
 use super::measured::Measured;
-use super::recognition::Content;
+use super::recognition::MeasuredFile;
 use asperity_experiment::CurveOptions;
 use asperity_scene::library::open_argument;
 use asperity_scene::{Document, SceneErrors, open};
@@ -66,25 +66,28 @@ impl Opening {
         open: impl Fn(&str) -> Result<Document, SceneErrors>,
     ) -> Result<Self, OpeningError> {
         let folder = Path::new(name);
-        if !folder.is_dir() {
-            return open(name)
-                .map(Opening::from)
-                .map_err(|errors| OpeningError::Scene(Box::new(errors)));
+        if folder.is_dir() && Folder::is_at(folder) {
+            return Self::of_study(folder);
         }
-        if Folder::is_at(folder) {
-            let study_map =
-                StudyMap::open(folder).map_err(|error| OpeningError::Study(Box::new(error)))?;
-            let document = study_map
-                .document()
-                .map_err(|errors| OpeningError::Scene(Box::new(errors)))?;
-            return Ok(Opening {
+        match open(name) {
+            Ok(document) => Ok(Opening::from(document)),
+            Err(_) if folder.is_dir() => Err(OpeningError::Folder(name.to_owned())),
+            Err(errors) => Err(OpeningError::Scene(Box::new(errors))),
+        }
+    }
+
+    fn of_study(folder: &Path) -> Result<Self, OpeningError> {
+        let study_map = match StudyMap::open(folder) {
+            Ok(study_map) => study_map,
+            Err(error) => return Err(OpeningError::Study(Box::new(error))),
+        };
+        match study_map.document() {
+            Ok(document) => Ok(Opening {
                 study_map: Some(Arc::new(study_map)),
                 ..Opening::from(document)
-            });
+            }),
+            Err(errors) => Err(OpeningError::Scene(Box::new(errors))),
         }
-        open(name)
-            .map(Opening::from)
-            .map_err(|_| OpeningError::Folder(name.to_owned()))
     }
 }
 
@@ -106,13 +109,13 @@ impl Opened {
             Ok(opening) => return Ok(Opened::Scene(Box::new(opening))),
             Err(error) => error,
         };
-        match Content::of(Path::new(name)) {
-            Some(Content::Curve) => {
+        match MeasuredFile::of(Path::new(name)) {
+            Some(MeasuredFile::Curve) => {
                 let measured = Measured::read(Path::new(name), CurveOptions::default());
                 let opened = measured.map(|measured| Opened::Curve(Box::new(measured)));
                 opened.map_err(|error| error.to_string())
             }
-            Some(Content::Surface) => Err(
+            Some(MeasuredFile::Surface) => Err(
                 "a surface; its name, typed on the row of the roughness, makes it the roughness of the scene"
                     .to_owned(),
             ),

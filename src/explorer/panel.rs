@@ -5,7 +5,7 @@ use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
 use super::theme::{Appearance, Meaning};
 use asperity_data::{format_range, format_rounded};
-use asperity_plot::{CellStyle, Chart, ChartAxis, Colours, Ink, PaneChart, Shape, key, legend};
+use asperity_plot::{CellStyle, Chart, Colours, Ink, Layer, PaneChart, Shape, key, legend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::text::{Line, Span};
@@ -40,6 +40,9 @@ const NARROW: u16 = 40;
 /// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above
 /// and below.
 const FEWEST_ROWS: u16 = 6;
+/// Columns of the title line that neither the title nor the texts on its right may use.
+const FRAME_OF_TITLE: usize = 8;
+
 impl Panel {
     pub fn of_chart(title: String, chart: Chart) -> Panel {
         Panel {
@@ -73,93 +76,105 @@ impl Panel {
         let Body::Chart(plot) = &mut self.body else {
             return;
         };
-        let Chart {
-            x: across,
-            y: up,
-            layers,
-            ..
-        } = &mut plot.chart;
-        let at = across.span.low + share * across.span.width();
-        let x = across.scale.number(at);
-        let value = |axis: &ChartAxis, number| format_rounded(number, 3, &axis.unit);
-        let mut parts = vec![format!("{} {}", across.symbol_or_name(), value(across, x))];
-        for layer in layers.iter().filter(|layer| !layer.name.is_empty()) {
-            let read = |points: &[(f64, f64)]| {
-                let place = |point: &(f64, f64)| (across.scale.coordinate(point.0), point.1);
-                let mut between = points
-                    .windows(2)
-                    .map(|pair| (place(&pair[0]), place(&pair[1])));
-                let (from, to) = between.find(|(from, to)| {
-                    // Also at an end that is rounded.
-                    let far = HAIR * across.span.width() * (to.0 - from.0).abs();
-                    (from.0 - at) * (to.0 - at) <= far && from.0 != to.0
-                })?;
-                let [low, high] = [from.1, to.1].map(|y| up.scale.coordinate(y));
-                // The ends themselves where there is nothing between them, or no coordinate.
-                let share = (at - from.0) / (to.0 - from.0);
-                let is_level = low == high || !(low.is_finite() && high.is_finite());
-                Some(if is_level {
-                    from.1
-                } else {
-                    up.scale.number(low + (high - low) * share)
-                })
-            };
-            match &layer.shape {
-                Shape::Curve { points, .. } => {
-                    parts.extend(read(points).map(|y| format!("{} {}", layer.name, value(up, y))));
-                }
-                Shape::Band(points) => {
-                    let end = |of: fn(&(f64, f64, f64)) -> f64| {
-                        read(
-                            &points
-                                .iter()
-                                .map(|point| (point.0, of(point)))
-                                .collect::<Vec<_>>(),
-                        )
-                    };
-                    let ends = end(|point| point.1).zip(end(|point| point.2));
-                    let range = ends.map(|ends| format_range(ends, 3, &up.unit));
-                    parts.extend(range.map(|range| format!("{} {range}", layer.name)));
-                }
-                _ => {}
-            }
+        let axis = &plot.chart.x;
+        let coordinate = axis.span.low + share * axis.span.width();
+        let x = axis.scale.number(coordinate);
+        let texts = values_at(&plot.chart, coordinate);
+        plot.chart.layers.insert(0, upright(x));
+        if let Some(below) = &mut plot.below {
+            below.layers.insert(0, upright(x));
         }
-        let upright = || asperity_plot::Layer::unnamed(Ink::Cursor, Shape::Upright(x));
-        layers.insert(0, upright());
-        plot.below
-            .iter_mut()
-            .for_each(|below| below.layers.insert(0, upright()));
         let style = look.theme.style(Meaning::Cursor);
-        self.show(
-            parts
-                .into_iter()
-                .map(|text| vec![Span::styled(text, style)])
-                .collect(),
-            width,
-        );
+        let readings = texts
+            .into_iter()
+            .map(|text| vec![Span::styled(text, style)])
+            .collect();
+        self.show(readings, width);
     }
 
     /// Shows readings beside the title or, if there is no room for all of them, below the chart.
     pub fn show(&mut self, readings: Vec<Part>, width: u16) {
-        let taken = self.title.chars().count() + 8;
-        let lines = filled(
-            readings.clone(),
-            "  ",
-            usize::from(width).saturating_sub(taken),
-        );
+        let taken = self.title.chars().count() + FRAME_OF_TITLE;
+        let room = usize::from(width).saturating_sub(taken);
+        let lines = filled(readings.clone(), "  ", room);
         let is_whole = lines.len() == 1 && lines[0].spans.len() + 1 >= 2 * readings.len();
         if is_whole {
             self.edge = readings;
+            return;
+        }
+        // A low pane has no rows below its chart, so a narrow one has them beside its title too.
+        self.edge = if width < NARROW {
+            readings.clone()
         } else {
-            // A low pane has no rows below its chart.
-            self.edge = if width < NARROW {
-                readings.clone()
-            } else {
-                Vec::new()
-            };
-            self.foot.splice(..0, filled(readings, "  ", width.into()));
+            Vec::new()
+        };
+        self.foot.splice(..0, filled(readings, "  ", width.into()));
+    }
+}
+
+/// A vertical line of the crosshair.
+fn upright(x: f64) -> Layer {
+    Layer::unnamed(Ink::Cursor, Shape::Upright(x))
+}
+
+/// The number on the horizontal axis at a coordinate, and the values of all named curves there.
+fn values_at(chart: &Chart, coordinate: f64) -> Vec<String> {
+    let x = chart.x.scale.number(coordinate);
+    let mut texts = vec![format!(
+        "{} {}",
+        chart.x.symbol_or_name(),
+        format_rounded(x, 3, &chart.x.unit)
+    )];
+    for layer in &chart.layers {
+        if layer.name.is_empty() {
+            continue;
+        }
+        match &layer.shape {
+            Shape::Curve { points, .. } => {
+                if let Some(y) = height_at(chart, points, coordinate) {
+                    let value = format_rounded(y, 3, &chart.y.unit);
+                    texts.push(format!("{} {value}", layer.name));
+                }
+            }
+            Shape::Band(points) => {
+                let lower: Vec<_> = points.iter().map(|point| (point.0, point.1)).collect();
+                let upper: Vec<_> = points.iter().map(|point| (point.0, point.2)).collect();
+                if let Some(low) = height_at(chart, &lower, coordinate)
+                    && let Some(high) = height_at(chart, &upper, coordinate)
+                {
+                    let range = format_range((low, high), 3, &chart.y.unit);
+                    texts.push(format!("{} {range}", layer.name));
+                }
+            }
+            _ => {}
         }
     }
+    texts
+}
+
+/// The number on the vertical axis at which a curve passes a coordinate of the horizontal axis for
+/// the first time; `None` if the curve does not reach it.
+fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f64> {
+    for pair in points.windows(2) {
+        let from = chart.x.scale.coordinate(pair[0].0);
+        let to = chart.x.scale.coordinate(pair[1].0);
+        // An end of the curve may be away from the coordinate by rounding.
+        let rounding = HAIR * chart.x.span.width() * (to - from).abs();
+        let is_between = (from - coordinate) * (to - coordinate) <= rounding;
+        if !is_between || from == to {
+            continue;
+        }
+        let low = chart.y.scale.coordinate(pair[0].1);
+        let high = chart.y.scale.coordinate(pair[1].1);
+        // Without a coordinate, as of a negative number on a logarithmic axis, nothing is between
+        // the points.
+        if low == high || !low.is_finite() || !high.is_finite() {
+            return Some(pair[0].1);
+        }
+        let share = (coordinate - from) / (to - from);
+        return Some(chart.y.scale.number(low + (high - low) * share));
+    }
+    None
 }
 
 /// Entries of the legend of a chart.
@@ -170,23 +185,25 @@ pub fn entries(chart: &Chart, look: Appearance) -> Vec<Part> {
 /// Label of the vertical axis of a map, and its shades with their numbers, each at most `width`
 /// columns wide.
 pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
-    let title = |text: String| Span::styled(text, look.theme.style(Meaning::Title));
-    let scale = chart.map().map(|map| {
-        let name = title(format!("{} ", map.key.label_with_unit()));
-        let scale = key(map, width.saturating_sub(name.width()), Colours::None);
-        std::iter::once(name)
-            .chain(scale.into_iter().map(|(text, _)| Span::raw(text)))
-            .collect()
-    });
-    let label = vec![title(format!("↑ {}", chart.y.label_with_unit()))];
-    std::iter::once(label).chain(scale).collect()
+    let style = look.theme.style(Meaning::Title);
+    let label = Span::styled(format!("↑ {}", chart.y.label_with_unit()), style);
+    let mut parts = vec![vec![label]];
+    if let Some(map) = chart.map() {
+        let name = Span::styled(format!("{} ", map.key.label_with_unit()), style);
+        let room = width.saturating_sub(name.width());
+        let mut scale = vec![name];
+        for (text, _) in key(map, room, Colours::None) {
+            scale.push(Span::raw(text));
+        }
+        parts.push(scale);
+    }
+    parts
 }
 
 /// Calls `draw` with the styles of charts for this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
-    let ink = |ink| look.theme.style(meaning(ink));
     draw(&CellStyle {
-        ink: &ink,
+        ink: &|ink| look.theme.style(meaning(ink)),
         colours: Colours::None,
     })
 }
@@ -250,41 +267,26 @@ impl Places {
 
 /// Draws a panel into an area, with a title if there is room; a selected panel is marked.
 pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buffer: &mut Buffer) {
-    let quiet = look.theme.style(Meaning::Quiet);
-    let (legend, edge) = legend_of(panel, area, look);
+    let Heading { legend, edge } = heading(panel, area, look);
     let Places { head, body, foot } = Places::within(panel, legend.len(), inside(area));
     draw_lines(&[&panel.head[..], &legend].concat(), head, buffer);
     draw_lines(&panel.foot, foot, buffer);
     match &panel.body {
         Body::Text(text) => {
-            draw_lines(
-                &wrapped(&Line::styled(text.clone(), quiet), body.width),
-                body,
-                buffer,
-            );
+            let text = Line::styled(text.clone(), look.theme.style(Meaning::Quiet));
+            draw_lines(&wrapped(&text, body.width), body, buffer);
         }
         Body::Rows { rows, selected } => {
             let first = first_row(*selected, rows.len(), body.height);
             draw_lines(rows.get(first..).unwrap_or_default(), body, buffer);
             let hidden = rows.len().saturating_sub(body.height.into());
             if hidden > 0 && has_title(area) {
-                let mut state = ScrollbarState::new(hidden + 1).position(first);
-                state = state.viewport_content_length(body.height.into());
-                let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight).style(quiet);
-                let bar = bar
-                    .begin_symbol(None)
-                    .end_symbol(None)
-                    .track_symbol(Some("│"))
-                    .thumb_symbol("█");
-                bar.render(
-                    Rect {
-                        x: area.right() - 1,
-                        width: 1,
-                        ..body
-                    },
-                    buffer,
-                    &mut state,
-                );
+                let column = Rect {
+                    x: area.right() - 1,
+                    width: 1,
+                    ..body
+                };
+                draw_scrollbar(first, hidden, column, look, buffer);
             }
         }
         Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
@@ -297,39 +299,80 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
     }
 }
 
-/// Entries of the legend that have no room beside their curves: as lines above the chart, or if
-/// there is room for all of them on the right of the title, with the texts that are there.
-fn legend_of(panel: &Panel, area: Rect, look: Appearance) -> (Vec<Line<'static>>, Vec<Part>) {
+/// Draws the scrollbar of a list whose first visible row is `first`, and of which `hidden` rows are
+/// not visible.
+fn draw_scrollbar(
+    first: usize,
+    hidden: usize,
+    column: Rect,
+    look: Appearance,
+    buffer: &mut Buffer,
+) {
+    let bar = Scrollbar::new(ScrollbarOrientation::VerticalRight)
+        .style(look.theme.style(Meaning::Quiet))
+        .begin_symbol(None)
+        .end_symbol(None)
+        .track_symbol(Some("│"))
+        .thumb_symbol("█");
+    let mut state = ScrollbarState::new(hidden + 1)
+        .position(first)
+        .viewport_content_length(column.height.into());
+    bar.render(column, buffer, &mut state);
+}
+
+/// What a panel shows above its chart.
+struct Heading {
+    /// Entries of the legend as lines above the chart.
+    legend: Vec<Line<'static>>,
+    /// Texts on the right of the title.
+    edge: Vec<Part>,
+}
+
+/// Places the entries of the legend that have no room beside their curves: on the right of the
+/// title before the texts that are there, if there is room for all of them, and otherwise in lines
+/// above the chart.
+fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
+    let mut heading = Heading {
+        legend: Vec::new(),
+        edge: panel.edge.clone(),
+    };
     let Body::Chart(plot) = &panel.body else {
-        return (Vec::new(), panel.edge.clone());
+        return heading;
     };
     let inner = inside(area);
-    let (mut kept, mut legend): (Vec<Part>, _) = (Vec::new(), Vec::new());
-    // Rows of the legend leave less room for names beside the curves.
+    let mut entries: Vec<Part> = Vec::new();
+    // Lines of the legend leave less room for names beside the curves, so more names may need an
+    // entry.
     for _ in 0..MOST_ROUNDS {
-        let body = Places::within(panel, legend.len(), inner).body;
+        let body = Places::within(panel, heading.legend.len(), inner).body;
         let left_out = in_theme(look, |style| {
             plot.draw(body, style, &mut Buffer::empty(body))
         });
-        let before = kept.len();
-        kept.extend(
-            left_out
-                .into_iter()
-                .filter(|entry| !kept.contains(entry))
-                .collect::<Vec<_>>(),
-        );
-        let all: Vec<Part> = kept.iter().chain(&panel.edge).cloned().collect();
-        let width = |part: &Part| part.iter().map(Span::width).sum::<usize>() + 1;
-        let taken = panel.title.chars().count() + 8 + all.iter().map(width).sum::<usize>();
-        if legend.is_empty() && (taken <= usize::from(area.width) || !has_title(area)) {
-            return (Vec::new(), all);
+        let before = entries.len();
+        let known = entries.clone();
+        entries.extend(left_out.into_iter().filter(|entry| !known.contains(entry)));
+        let in_title = [&entries[..], &panel.edge].concat();
+        if heading.legend.is_empty()
+            && (!has_title(area) || fits_into_title(&panel.title, &in_title, area.width))
+        {
+            heading.edge = in_title;
+            return heading;
         }
-        if kept.len() == before {
+        if entries.len() == before {
             break;
         }
-        legend = filled(kept.clone(), "  ", inner.width.into());
+        heading.legend = filled(entries.clone(), "  ", inner.width.into());
     }
-    (legend, panel.edge.clone())
+    heading
+}
+
+/// Returns true if a title line of this width has room for all texts.
+fn fits_into_title(title: &str, texts: &[Part], width: u16) -> bool {
+    let mut taken = title.chars().count() + FRAME_OF_TITLE;
+    for text in texts {
+        taken += text.iter().map(Span::width).sum::<usize>() + 1;
+    }
+    taken <= usize::from(width)
 }
 
 /// The title of a pane on a line across it, with texts on the right as far as there is room.
@@ -349,21 +392,15 @@ fn title_line(
     let mut line = fitted(Line::styled(format!("{mark} {title} "), style), width);
     let room = usize::from(width) - line.width();
     let edge = spaced(edge, room.saturating_sub(4));
-    let dashes = room
-        - if edge.width() > 0 {
-            edge.width() + 2
-        } else {
-            0
-        };
-    line.push_span(Span::styled("─".repeat(dashes), quiet));
-    if edge.width() > 0 {
-        line.spans.extend(
-            [Span::raw(" ")]
-                .into_iter()
-                .chain(edge.spans)
-                .chain([Span::raw(" ")]),
-        );
+    if edge.width() == 0 {
+        line.push_span(Span::styled("─".repeat(room), quiet));
+        return line;
     }
+    let dashes = room - (edge.width() + 2);
+    line.push_span(Span::styled("─".repeat(dashes), quiet));
+    line.push_span(Span::raw(" "));
+    line.spans.extend(edge.spans);
+    line.push_span(Span::raw(" "));
     line
 }
 
@@ -388,22 +425,21 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
 /// apart if all fit, otherwise one.
 fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
-    let between = if widths + 2 * parts.len().saturating_sub(1) <= columns {
-        "  "
-    } else {
-        " "
-    };
+    let fits_wide = widths + 2 * parts.len().saturating_sub(1) <= columns;
+    let between = if fits_wide { "  " } else { " " };
     let mut taken = 0;
-    let fits = parts.iter().take_while(|part| {
-        taken += part.iter().map(Span::width).sum::<usize>() + between.len();
-        taken - between.len() <= columns
-    });
-    let count = fits.count();
+    let mut count = 0;
+    for part in &parts {
+        taken += part.iter().map(Span::width).sum::<usize>();
+        if taken > columns {
+            break;
+        }
+        taken += between.len();
+        count += 1;
+    }
     parts.truncate(count);
-    filled(parts, between, columns)
-        .into_iter()
-        .next()
-        .unwrap_or_default()
+    let lines = filled(parts, between, columns);
+    lines.into_iter().next().unwrap_or_default()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -417,14 +453,19 @@ pub enum Under {
 /// Returns what a panel drawn into an area shows in a cell.
 pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Under {
     let inner = inside(area);
-    let body = Places::within(panel, legend_of(panel, area, look).0.len(), inner).body;
+    let legend = heading(panel, area, look).legend;
+    let body = Places::within(panel, legend.len(), inner).body;
     match &panel.body {
         Body::Chart(plot) if inner.contains(cell) => {
-            let data = plot.divided(body).0.data_at(&plot.chart, (cell.x, cell.y));
-            data.map_or(Under::Frame, |(x, y)| Under::Data(x, y))
+            let (cells, _) = plot.divided(body);
+            match cells.data_at(&plot.chart, (cell.x, cell.y)) {
+                Some((x, y)) => Under::Data(x, y),
+                None => Under::Frame,
+            }
         }
         Body::Rows { rows, selected } if body.contains(cell) => {
-            let row = first_row(*selected, rows.len(), body.height) + usize::from(cell.y - body.y);
+            let first = first_row(*selected, rows.len(), body.height);
+            let row = first + usize::from(cell.y - body.y);
             if row < rows.len() {
                 Under::Row(row)
             } else {
@@ -440,7 +481,7 @@ mod tests {
     use super::*;
     use crate::explorer::theme::{Marker, Theme};
     use asperity_data::AxisScale;
-    use asperity_plot::{Layer, Span as Range, Stroke};
+    use asperity_plot::{ChartAxis, Span as Range, Stroke};
 
     #[test]
     fn the_crosshair_reads_curves_and_both_ends_of_bands() {

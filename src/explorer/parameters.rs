@@ -1,7 +1,8 @@
 //! The list of parameters: the fields of the present scene that can be changed, in groups.
 
+use super::curve_options;
 use super::measured::Measured;
-use super::reading;
+use super::text::on_one_line;
 use asperity_contact::Move;
 use asperity_data::{format_quantity, grouped};
 use asperity_scene::fields::{Effect, Field, Range, STAGE, choice_in_words, field, target_field};
@@ -20,7 +21,7 @@ const GROUPS: [&str; 8] = [
     "material",
     "numerics",
     "title",
-    reading::GROUP,
+    curve_options::GROUP,
 ];
 
 /// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
@@ -78,8 +79,8 @@ pub enum Setting {
     RoughnessParameter(RoughnessParameter),
     /// γ, in place of any of γ, κ and e_el/γ that the scene states.
     WorkOfAdhesion,
-    /// Option of reading the measured curve, by its index in [`reading::OPTIONS`].
-    Reading(usize),
+    /// Option of reading the measured curve, by its index in [`curve_options::OPTIONS`].
+    CurveOption(usize),
 }
 
 impl Parameter {
@@ -114,7 +115,7 @@ impl Parameter {
         match self.setting {
             Setting::Heading => false,
             // Numbers of segments and of points are typed as texts.
-            Setting::Reading(_) => !matches!(self.field.range, Range::Choice(_)),
+            Setting::CurveOption(_) => !matches!(self.field.range, Range::Choice(_)),
             // A stage in words may become one with a number.
             _ => self.leg.is_some() || !is_text,
         }
@@ -124,18 +125,20 @@ impl Parameter {
     /// `None` for a stated value.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
-        match (self.setting, self.path.as_str()) {
-            (Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion, _) if is_computed => {
+        if !is_computed {
+            return None;
+        }
+        match self.setting {
+            Setting::RoughnessParameter(_) | Setting::WorkOfAdhesion => {
                 let given = scene.adhesion?.parameter();
                 Some(given.map_or("γ", |(parameter, _)| parameter.symbol()))
             }
-            (Setting::Field, "roughness.modes") if is_computed => Some("the wavelengths"),
-            (Setting::Field, "roughness.wavelengths") if is_computed => Some("the modes"),
-            (Setting::Field, path) if is_computed => {
-                let given = field(replaced_by(path)?, None)?;
-                Some(given.symbol)
-            }
-            _ => None,
+            Setting::Field => match self.path.as_str() {
+                "roughness.modes" => Some("the wavelengths"),
+                "roughness.wavelengths" => Some("the modes"),
+                path => Some(field(replaced_by(path)?, None)?.symbol),
+            },
+            Setting::Heading | Setting::CurveOption(_) => None,
         }
     }
 
@@ -144,15 +147,14 @@ impl Parameter {
         self.path == self.group
     }
 
-    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path of the
-    /// length L is a whole word of other names.
+    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path has blanks
+    /// in place of its separators, since the path of the length L is a whole word of other names.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
-        let words = self.path.replace(['.', '_'], " ");
         vec![
             symbol.to_owned(),
             spelled(symbol),
-            words,
+            self.path.replace(['.', '_'], " "),
             self.name(),
             self.field.meaning.to_owned(),
         ]
@@ -170,36 +172,35 @@ const GREEK: [(char, &str); 6] = [
 ];
 
 fn spelled(symbol: &str) -> String {
-    GREEK
-        .iter()
-        .fold(symbol.to_owned(), |text, (letter, name)| {
-            text.replace(*letter, name)
-        })
+    let mut spelled = symbol.to_owned();
+    for (letter, name) in GREEK {
+        spelled = spelled.replace(letter, name);
+    }
+    spelled
 }
 
-/// The group of a field: that of its path, but the form for the diameter, the loading for the
-/// stiffness of the instrument, and the title for the notice.
+/// The group of a field, which is the first name of its path. The diameter belongs to the form, the
+/// stiffness of the instrument to the loading, and the notice to the title.
 fn group_of(path: &str) -> &'static str {
     let first = match path {
         "notice" => "title",
         "loading_stiffness" => "loading",
         _ => path.split('.').next().unwrap_or(path),
     };
-    GROUPS
-        .into_iter()
-        .find(|group| *group == first)
-        .unwrap_or("form")
+    let group = GROUPS.into_iter().find(|group| *group == first);
+    group.unwrap_or("form")
 }
 
 /// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height
 /// and rms gradient.
 pub fn replaced_by(path: &str) -> Option<&'static str> {
-    let pairs = [["roughness.modes", "roughness.wavelengths"], AMPLITUDE];
-    pairs.into_iter().find_map(|[one, other]| match path {
-        _ if path == one => Some(other),
-        _ if path == other => Some(one),
+    match path {
+        "roughness.modes" => Some("roughness.wavelengths"),
+        "roughness.wavelengths" => Some("roughness.modes"),
+        "roughness.rms_height" => Some("roughness.rms_gradient"),
+        "roughness.rms_gradient" => Some("roughness.rms_height"),
         _ => None,
-    })
+    }
 }
 
 /// The rows for a scene and the measured curve beside it.
@@ -209,55 +210,15 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
         if HIDDEN.iter().any(|hidden| field.path.starts_with(hidden)) {
             continue;
         }
-        if field.range == Range::Group {
-            let heading = Parameter::new(field, field.path);
-            parameters.push(Parameter {
-                effect: None,
-                setting: Setting::Heading,
-                ..heading
-            });
-            continue;
-        }
-        let Some(written) = document.value(field.path) else {
-            continue;
-        };
-        // A rigid instrument has a row where a stage prescribes its displacement.
-        let displaces = |stage: &Move| matches!(stage, Move::ToDisplacement(_));
-        if field.path == "loading_stiffness"
-            && written == "None"
-            && !document.scene().loading.iter().any(displaces)
-        {
-            continue;
-        }
-        let is_given = written != "None" || field.parent().is_empty();
-        // Other fields without a value are equivalent to those in use.
-        if !is_given && AMPLITUDE.contains(&field.path) {
-            parameters.push(Parameter::new(field, field.path));
-            continue;
-        }
-        let written = if is_given {
-            Some(written.to_owned())
-        } else {
-            waves(document, field)
-        };
-        let Some(written) = written else { continue };
-        let shown = match field.path {
-            "loading" => loading_text(&document.scene().loading, format_quantity),
-            "roughness.roll_off" if !is_given => "none".to_owned(),
-            _ if !is_given => format!("= {}", shown(field, &written)),
-            _ => shown(field, &written),
-        };
-        parameters.push(Parameter {
-            written,
-            shown,
-            ..Parameter::new(field, field.path)
-        });
+        parameters.extend(row_of_field(document, field));
         if field.path == "loading" {
             parameters.extend(stage_rows(&document.scene().loading));
         }
     }
     add_other_adhesion(&mut parameters);
-    parameters.extend(measured.into_iter().flat_map(reading_rows));
+    if let Some(measured) = measured {
+        parameters.extend(curve_rows(measured));
+    }
     parameters.sort_by_key(|parameter| {
         let group = GROUPS.iter().position(|group| *group == parameter.group);
         let first = FIRST.iter().position(|path| *path == parameter.path);
@@ -266,11 +227,63 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
     parameters
 }
 
+/// The row of a field of the scene; `None` for a field that the list does not show in this scene.
+fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter> {
+    let row = Parameter::new(field, field.path);
+    if field.range == Range::Group {
+        return Some(Parameter {
+            effect: None,
+            setting: Setting::Heading,
+            ..row
+        });
+    }
+    let written = document.value(field.path)?;
+    // The stiffness of a rigid instrument has a row only where a stage prescribes its displacement.
+    let is_rigid = field.path == "loading_stiffness" && written == "None";
+    if is_rigid && !has_displacement_stage(document.scene()) {
+        return None;
+    }
+    let is_given = written != "None" || field.parent().is_empty();
+    if is_given {
+        let shown = match field.path {
+            "loading" => loading_text(&document.scene().loading, format_quantity),
+            _ => shown(field, written),
+        };
+        return Some(Parameter {
+            written: written.to_owned(),
+            shown,
+            ..row
+        });
+    }
+    if AMPLITUDE.contains(&field.path) {
+        // Its value is computed with the scene.
+        return Some(row);
+    }
+    // Any other field without a value is shown only if its value follows from the scene.
+    let written = waves(document, field)?;
+    let shown = match field.path {
+        "roughness.roll_off" => "none".to_owned(),
+        _ => format!("= {}", shown(field, &written)),
+    };
+    Some(Parameter {
+        written,
+        shown,
+        ..row
+    })
+}
+
+fn has_displacement_stage(scene: &Scene) -> bool {
+    let mut stages = scene.loading.iter();
+    stages.any(|stage| matches!(stage, Move::ToDisplacement(_)))
+}
+
+/// The effect that a field belongs to; observation is no effect of the contact.
 fn effect_of(path: &str) -> Option<Effect> {
-    Effect::ALL
-        .into_iter()
-        .filter(|effect| effect.path() != "observe")
-        .find(|effect| path == effect.path() || path.starts_with(&format!("{}.", effect.path())))
+    let mut effects = Effect::ALL.into_iter();
+    effects.find(|effect| {
+        let group = effect.path();
+        group != "observe" && (path == group || path.starts_with(&format!("{group}.")))
+    })
 }
 
 fn setting_of(path: &str) -> Setting {
@@ -283,23 +296,25 @@ fn setting_of(path: &str) -> Setting {
 
 /// Adds rows for the two of γ, κ and e_el/γ that follow from the stated one.
 fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
-    let is_listed = |path: &str| parameters.iter().any(|one| one.path == path);
-    let others: Vec<&str> = ADHESION
-        .into_iter()
-        .filter(|path| !is_listed(path))
-        .collect();
-    if others.len() < ADHESION.len() {
-        let fields = others.into_iter().filter_map(|path| field(path, None));
-        parameters.extend(fields.map(|field| Parameter::new(field, field.path)));
+    let mut others = ADHESION.to_vec();
+    others.retain(|path| !parameters.iter().any(|listed| listed.path == *path));
+    if others.len() == ADHESION.len() {
+        return;
+    }
+    for path in others {
+        if let Some(field) = field(path, None) {
+            parameters.push(Parameter::new(field, field.path));
+        }
     }
 }
 
 /// Value of a field that follows from others: the other way to give the waves of a self-affine
 /// profile, and as a roll-off without effect the longest wave.
 fn waves(document: &Document, field: &Field) -> Option<String> {
-    let spectrum = document.scene().spectrum()?;
-    let [longest, shortest] = [spectrum.first, spectrum.last]
-        .map(|mode| ron_float(document.scene().length / mode as f64));
+    let scene = document.scene();
+    let spectrum = scene.spectrum()?;
+    let longest = ron_float(scene.length / spectrum.first as f64);
+    let shortest = ron_float(scene.length / spectrum.last as f64);
     match field.path {
         "roughness.modes" => Some(format!("({}, {})", spectrum.first, spectrum.last)),
         "roughness.wavelengths" => Some(format!("({longest}, {shortest})")),
@@ -308,45 +323,51 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
     }
 }
 
-/// A row with the name of the measured curve, and one for each option of reading.
-fn reading_rows(measured: &Measured) -> impl Iterator<Item = Parameter> {
-    let row = |field, setting, shown| Parameter {
-        setting,
-        shown,
-        ..Parameter::new(field, field.path)
-    };
-    let option = move |(index, option): (usize, &'static reading::ReadingOption)| {
-        row(
-            &option.field,
-            Setting::Reading(index),
-            option.shown(measured),
-        )
-    };
-    let head = row(&reading::HEAD, Setting::Heading, measured.name.clone());
-    [head]
-        .into_iter()
-        .chain(reading::OPTIONS.iter().enumerate().map(option))
+/// A row with the name of the measured curve, and one for each option of reading it.
+fn curve_rows(measured: &Measured) -> Vec<Parameter> {
+    let head = &curve_options::HEAD;
+    let mut rows = vec![Parameter {
+        setting: Setting::Heading,
+        shown: measured.name.clone(),
+        ..Parameter::new(head, head.path)
+    }];
+    for (index, option) in curve_options::OPTIONS.iter().enumerate() {
+        rows.push(Parameter {
+            setting: Setting::CurveOption(index),
+            shown: option.shown(measured),
+            ..Parameter::new(&option.field, option.field.path)
+        });
+    }
+    rows
 }
 
-/// A row for each loading stage, at the path of its number if it has one.
-fn stage_rows(loading: &[Move]) -> impl Iterator<Item = Parameter> {
-    loading.iter().enumerate().map(|(index, stage)| {
-        let number = target_field(*stage);
-        let path = format!(
-            "loading.{index}{}",
-            if number.is_some() { ".0" } else { "" }
-        );
-        Parameter {
+/// A row for each loading stage.
+fn stage_rows(loading: &[Move]) -> Vec<Parameter> {
+    let mut rows = Vec::new();
+    for (index, stage) in loading.iter().enumerate() {
+        rows.push(stage_row(index, *stage));
+    }
+    rows
+}
+
+/// The row of a loading stage; a stage with a number has the path of its number.
+fn stage_row(index: usize, stage: Move) -> Parameter {
+    let Some((field, value)) = target_field(stage) else {
+        return Parameter {
             leg: Some(index),
-            written: number.map_or_else(|| stage_in_ron(stage), |(_, value)| ron_float(value)),
-            shown: match number {
-                Some((field, value)) => format_quantity(value, field.unit),
-                None => loading_text(&[*stage], format_quantity),
-            },
+            written: stage_in_ron(&stage),
+            shown: loading_text(&[stage], format_quantity),
             effect: Some(Effect::Unloading),
-            ..Parameter::new(number.map_or(&STAGE, |(field, _)| field), &path)
-        }
-    })
+            ..Parameter::new(&STAGE, &format!("loading.{index}"))
+        };
+    };
+    Parameter {
+        leg: Some(index),
+        written: ron_float(value),
+        shown: format_quantity(value, field.unit),
+        effect: Some(Effect::Unloading),
+        ..Parameter::new(field, &format!("loading.{index}.0"))
+    }
 }
 
 /// A written value in the format for readers.
@@ -354,39 +375,43 @@ fn shown(field: &Field, written: &str) -> String {
     if let Some(quantities) = field.quantities(written, format_quantity) {
         return quantities;
     }
+    if written == "None" {
+        return "none".to_owned();
+    }
     match field.range {
-        _ if written == "None" => "none".to_owned(),
-        Range::Choice(_) => {
-            // The parts of a choice have rows of their own.
-            let name = written.split('(').next().unwrap_or(written).trim();
-            match (name, field.path) {
-                ("", "material" | "adhesion") => first_name(written).to_owned(),
-                (name, _) => choice_in_words(name),
-            }
-        }
+        Range::Choice(_) => shown_choice(field, written),
         Range::Band(..) => written.trim_matches(['(', ')']).to_owned(),
-        Range::Whole(..) if field.path != "roughness.seed" => {
-            written.parse().map_or(written.to_owned(), grouped)
-        }
+        Range::Whole(..) if field.path != "roughness.seed" => match written.parse() {
+            Ok(number) => grouped(number),
+            Err(_) => written.to_owned(),
+        },
         Range::Text { .. } => text_of(written),
-        _ => written.split_whitespace().collect::<Vec<_>>().join(" "),
+        _ => on_one_line(written),
+    }
+}
+
+/// The name of a choice in words; its parts have rows of their own.
+fn shown_choice(field: &Field, written: &str) -> String {
+    let name = written.split('(').next().unwrap_or(written).trim();
+    if name.is_empty() && matches!(field.path, "material" | "adhesion") {
+        first_name(written).to_owned()
+    } else {
+        choice_in_words(name)
     }
 }
 
 /// The text of a string as written in RON, on one line; any other value as it is written.
 pub(super) fn text_of(written: &str) -> String {
-    let text: String = ron::from_str(written).unwrap_or_else(|_| written.to_owned());
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    match ron::from_str::<String>(written) {
+        Ok(text) => on_one_line(&text),
+        Err(_) => on_one_line(written),
+    }
 }
 
 /// The first name in a group, in words: `work` of `(work: 0.05)`.
 fn first_name(written: &str) -> &str {
-    let name = written
-        .trim_start_matches('(')
-        .split(':')
-        .next()
-        .unwrap_or("")
-        .trim();
+    let group = written.trim_start_matches('(');
+    let name = group.split(':').next().unwrap_or("").trim();
     match name {
         "work" => "by work of adhesion",
         "kappa" => "by κ",

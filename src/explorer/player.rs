@@ -33,8 +33,10 @@ impl Player {
     /// The state in which the animation of these loading stages rests: at the pull-off, or without
     /// one at the end.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
-        let last = legs.len().saturating_sub(1);
-        let (leg, at) = pull_off(legs).map_or((last, At::End), |(leg, _)| (leg, At::PullOff));
+        let (leg, at) = match pull_off(legs) {
+            Some((leg, _)) => (leg, At::PullOff),
+            None => (legs.len().saturating_sub(1), At::End),
+        };
         Player {
             leg,
             at,
@@ -46,18 +48,22 @@ impl Player {
     /// does not exist any more, and otherwise between the ends of its stage. A state of rest stays
     /// one.
     pub fn within(self, legs: &[LegRecord]) -> Player {
-        match legs.len().checked_sub(1) {
-            Some(_) if self.at == At::PullOff => Player::at_rest(legs),
-            Some(last) if self.leg > last => Player {
+        let Some(last) = legs.len().checked_sub(1) else {
+            return self;
+        };
+        if self.at == At::PullOff {
+            return Player::at_rest(legs);
+        }
+        if self.leg > last {
+            return Player {
                 leg: last,
                 at: At::End,
                 playing: false,
-            },
-            Some(_) => Player {
-                at: self.advanced(legs, 0.0),
-                ..self
-            },
-            None => self,
+            };
+        }
+        Player {
+            at: self.advanced(legs, 0.0),
+            ..self
         }
     }
 
@@ -87,14 +93,17 @@ impl Player {
 
     /// The position further on by a share of the stage, limited to its ends.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
-        let to = self.share(legs) + share;
+        let reached = self.share(legs) + share;
         let start = start_of(legs, self.leg);
         let end = legs.get(self.leg).map_or(start, LegRecord::end);
-        match self.at {
-            _ if to >= 1.0 || start == end && share > 0.0 => At::End,
-            _ if to <= 0.0 => At::Start,
-            at if share == 0.0 => at,
-            _ => At::Indentation(start + (end - start) * to),
+        if reached >= 1.0 || start == end && share > 0.0 {
+            At::End
+        } else if reached <= 0.0 {
+            At::Start
+        } else if share == 0.0 {
+            self.at
+        } else {
+            At::Indentation(start + (end - start) * reached)
         }
     }
 }
@@ -108,13 +117,15 @@ fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
 
 /// Lowest and highest indentation of the curves of loading stages, m; `None` without points.
 pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
-    let points = legs
-        .iter()
-        .flat_map(|leg| &leg.curve)
-        .map(|point| point.indentation);
-    points.fold(None, |range: Option<(f64, f64)>, d| {
-        Some(range.map_or((d, d), |(low, high)| (low.min(d), high.max(d))))
-    })
+    let mut range: Option<(f64, f64)> = None;
+    for point in legs.iter().flat_map(|leg| &leg.curve) {
+        let indentation = point.indentation;
+        range = Some(match range {
+            Some((low, high)) => (low.min(indentation), high.max(indentation)),
+            None => (indentation, indentation),
+        });
+    }
+    range
 }
 
 /// Indentation at which the animation begins a loading stage, m; the first stage begins a little

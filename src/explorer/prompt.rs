@@ -78,19 +78,30 @@ pub enum Aim {
 }
 
 impl Topic {
+    /// An entry of the help that is only read.
+    pub fn read_only(name: &str, text: &str) -> Self {
+        Topic {
+            section: "What you see",
+            name: name.to_owned(),
+            text: text.to_owned(),
+            words: String::new(),
+            aim: Aim::Nothing,
+        }
+    }
+
     pub fn of(binding: &Binding) -> Self {
-        let Binding { row, .. } = binding;
-        let (text, words) = (row.help.to_owned(), row.words.to_owned());
+        let row = binding.row;
         Topic {
             section: row.section,
             name: binding.names(),
-            text,
-            words,
+            text: row.help.to_owned(),
+            words: row.words.to_owned(),
             aim: Aim::Command(row),
         }
     }
 
-    pub fn of_parameter((row, parameter): (usize, &Parameter)) -> Self {
+    /// The entry of the parameter in a row of the list.
+    pub fn of_parameter(row: usize, parameter: &Parameter) -> Self {
         Topic {
             section: "Parameters of this scene",
             name: parameter.name(),
@@ -101,12 +112,14 @@ impl Topic {
     }
 
     pub fn of_preset(preset: &Preset) -> Self {
-        let title =
-            Document::parse(preset.text, preset.name).map(|document| document.title().to_owned());
+        let text = match Document::parse(preset.text, preset.name) {
+            Ok(document) => document.title().to_owned(),
+            Err(_) => String::new(),
+        };
         Topic {
             section: "Built-in scenes",
             name: preset.name.to_owned(),
-            text: title.unwrap_or_default(),
+            text,
             words: String::new(),
             aim: Aim::Open(preset.name.to_owned()),
         }
@@ -114,13 +127,12 @@ impl Topic {
 
     /// Texts that a search compares: each key, name, other words, description, section.
     fn texts(&self) -> Vec<String> {
-        let words = [&self.name, &self.words, &self.text].map(String::clone);
-        self.name
-            .split(' ')
-            .map(str::to_owned)
-            .chain(words)
-            .chain([self.section.to_owned()])
-            .collect()
+        let mut texts: Vec<String> = self.name.split(' ').map(str::to_owned).collect();
+        texts.push(self.name.clone());
+        texts.push(self.words.clone());
+        texts.push(self.text.clone());
+        texts.push(self.section.to_owned());
+        texts
     }
 }
 
@@ -137,14 +149,13 @@ impl Prompt {
         } else {
             TextLine::new(text)
         };
-        let (found, paths) = (Vec::new(), Vec::new());
         let mut prompt = Prompt {
             purpose,
             line,
-            found,
+            found: Vec::new(),
             selected: 0,
             corrected: None,
-            paths,
+            paths: Vec::new(),
             refused: None,
         };
         prompt.search(parameters);
@@ -171,19 +182,25 @@ impl Prompt {
         self.found = match &self.purpose {
             // A text with a separator is a path, not a name to search for.
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
-            Purpose::Scene(entries) => find(entries.iter().enumerate().map(scene_texts), query),
+            Purpose::Scene(entries) => {
+                let entries = entries.iter().enumerate();
+                find(
+                    entries.map(|(index, entry)| scene_texts(index, entry)),
+                    query,
+                )
+            }
             Purpose::Parameter { .. } => find(parameters.iter().map(Parameter::texts), query),
             Purpose::Topics { topics, .. } => {
-                let texts = || topics.iter().map(Topic::texts);
-                let found = find(texts(), query);
+                let found = find(topics.iter().map(Topic::texts), query);
                 self.corrected = if found.is_empty() {
-                    corrected(texts(), query)
+                    corrected(topics.iter().map(Topic::texts), query)
                 } else {
                     None
                 };
-                self.corrected
-                    .as_ref()
-                    .map_or(found, |other| find(texts(), other))
+                match &self.corrected {
+                    Some(words) => find(topics.iter().map(Topic::texts), words),
+                    None => found,
+                }
             }
             _ => Vec::new(),
         };
@@ -204,9 +221,9 @@ impl Prompt {
 
 /// Texts that a search compares: number of a built-in scene (these come first), name, title and
 /// notice.
-fn scene_texts((place, entry): (usize, &Entry)) -> Vec<String> {
+fn scene_texts(index: usize, entry: &Entry) -> Vec<String> {
     let number = if entry.origin == Source::BuiltIn {
-        (place + 1).to_string()
+        (index + 1).to_string()
     } else {
         String::new()
     };

@@ -11,18 +11,22 @@ use std::path::Path;
 
 /// What a measured file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
+pub enum MeasuredFile {
     Curve,
     Surface,
 }
 
-impl Content {
+impl MeasuredFile {
     /// Reads a file as a force curve and as a surface; `None` if it is neither.
-    pub fn of(path: &Path) -> Option<Content> {
-        match path.is_file() {
-            true if MeasuredCurve::is_in(path) => Some(Content::Curve),
-            true if is_surface(path) => Some(Content::Surface),
-            _ => None,
+    pub fn of(path: &Path) -> Option<MeasuredFile> {
+        if !path.is_file() {
+            None
+        } else if MeasuredCurve::is_in(path) {
+            Some(MeasuredFile::Curve)
+        } else if is_surface(path) {
+            Some(MeasuredFile::Surface)
+        } else {
+            None
         }
     }
 
@@ -31,11 +35,11 @@ impl Content {
         // Control characters of a name would act on the terminal.
         let file = printable(&quoted(path)).into_owned();
         match self {
-            Content::Curve => format!(
+            MeasuredFile::Curve => format!(
                 "a force curve: asperity SCENE --measured {file} shows it beside a scene, asperity fit {file} SCENE fits a scene \
                  to it"
             ),
-            Content::Surface => format!(
+            MeasuredFile::Surface => format!(
                 "a surface: asperity surface {file} analyses it, asperity SCENE --set roughness={file} makes it the roughness of \
                  a scene"
             ),
@@ -43,40 +47,49 @@ impl Content {
     }
 }
 
-/// Returns true if a file is read as a surface; units and spacing may be missing where no text
-/// could be meant.
+/// Returns true if a file is read as a surface. Units and spacing may be missing in a file that no
+/// text editor would show, since this file cannot be anything else.
 fn is_surface(path: &Path) -> bool {
-    let is_binary = || content(path).is_ok_and(|bytes| bytes.contains(&0));
+    if read(path, &ReadOptions::default()).is_ok() {
+        return true;
+    }
+    let is_binary = content(path).is_ok_and(|bytes| bytes.contains(&0));
+    if !is_binary {
+        return false;
+    }
     let assumed = ReadOptions {
         convention: "m".parse().ok(),
         spacing: Some(1.0),
         interpolate: true,
         ..ReadOptions::default()
     };
-    read(path, &ReadOptions::default()).is_ok() || is_binary() && read(path, &assumed).is_ok()
+    read(path, &assumed).is_ok()
 }
 
 /// What a measured file is that was given as a scene, in one line; `None` if it is no such file.
 pub fn no_scene(path: &Path) -> Option<String> {
-    Content::of(path).map(|content| format!("{}: {}", path_name(path), content.way(path)))
+    let file = MeasuredFile::of(path)?;
+    Some(format!("{}: {}", path_name(path), file.way(path)))
 }
 
 /// The reason why a file is not read as a force curve, with the way to read it if it is a surface.
 pub fn no_curve(path: &Path, why: &ExperimentError) -> String {
-    match (why, Content::of(path)) {
-        (ExperimentError::File(_), Some(content @ Content::Surface)) => said(why, content, path),
+    match (why, MeasuredFile::of(path)) {
+        (ExperimentError::File(_), Some(MeasuredFile::Surface)) => {
+            with_way(why, MeasuredFile::Surface, path)
+        }
         _ => why.to_string(),
     }
 }
 
 /// The reason why a file is not read as a surface, with the way to read it if it is a force curve.
 pub fn no_surface(path: &Path, why: &impl Display) -> String {
-    match Content::of(path) {
-        Some(content @ Content::Curve) => said(why, content, path),
+    match MeasuredFile::of(path) {
+        Some(MeasuredFile::Curve) => with_way(why, MeasuredFile::Curve, path),
         _ => why.to_string(),
     }
 }
 
-fn said(why: &impl Display, content: Content, path: &Path) -> String {
-    format!("{why}; it can be read as {}", content.way(path))
+fn with_way(why: &impl Display, file: MeasuredFile, path: &Path) -> String {
+    format!("{why}; it can be read as {}", file.way(path))
 }

@@ -13,15 +13,18 @@ use super::studies::{Study, StudyThread};
 use super::update::{request, update};
 use super::writing;
 use asperity_scene::Simulation;
-use asperity_scene::library::{own_folder, scenes};
+use asperity_scene::library::{Entry, own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 /// Solver and studies; they answer at once, or later by actions.
 pub struct Engine {
+    /// Asks the solver.
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
     /// Performs these studies in place of all others.
     perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
+    /// True while the solver has not answered the last request.
+    is_waiting: bool,
 }
 
 impl Engine {
@@ -35,6 +38,7 @@ impl Engine {
                 studies.ask(wanted);
                 Vec::new()
             }),
+            is_waiting: false,
         }
     }
 
@@ -42,24 +46,31 @@ impl Engine {
     /// true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
-        let solve = move |request| {
-            let mut reports = Vec::new();
-            solver.answer(request, &mut |report| reports.push(Action::Reply(report)));
-            reports
-        };
-        let perform = move |wanted: Vec<Study>| {
-            let mut found = Vec::new();
-            for study in wanted.into_iter().filter(performs) {
-                let mut report = |finding| found.push(Action::Found(finding));
-                study.perform(&mut Simulation::default(), &|| false, &mut report);
-            }
-            found
-        };
         Engine {
-            solve: Box::new(solve),
-            perform: Box::new(perform),
+            solve: Box::new(move |request| replies(&mut solver, request)),
+            perform: Box::new(move |wanted| findings(wanted, performs)),
+            is_waiting: false,
         }
     }
+}
+
+/// The replies of a solver to a request.
+fn replies(solver: &mut Solver, request: Request) -> Vec<Action> {
+    let mut actions = Vec::new();
+    solver.answer(request, &mut |reply| actions.push(Action::Reply(reply)));
+    actions
+}
+
+/// The findings of those studies for which `performs` returns true.
+fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
+    let mut actions = Vec::new();
+    for study in studies {
+        if performs(&study) {
+            let mut report = |finding| actions.push(Action::Found(finding));
+            study.perform(&mut Simulation::default(), &|| false, &mut report);
+        }
+    }
+    actions
 }
 
 /// The explorer with all that its tasks need, except the terminal.
@@ -76,80 +87,96 @@ impl Runtime {
     /// Applies an action and performs the tasks that follow; returns the tasks that need the
     /// terminal.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
-        let effects = update(&mut self.app, action);
-        self.perform(effects)
+        if let Action::Reply(reply) = &action
+            && reply.is_answer()
+        {
+            self.engine.is_waiting = false;
+        }
+        let tasks = update(&mut self.app, action);
+        self.perform(tasks)
+    }
+
+    /// Returns true while the solver has not answered the last request.
+    pub fn awaits_answer(&self) -> bool {
+        self.engine.is_waiting
     }
 
     /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane;
     /// returns the tasks that need the terminal.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
-        let elsewhere = || {
-            bindings
-                .named(name, Context::Explore)
-                .filter(|_| self.app.prompt.is_none())
-        };
-        let command = bindings.named(name, self.app.keys()).or_else(elsewhere);
-        command.map_or_else(Vec::new, |command| self.act(Action::Command(command)))
+        let mut command = bindings.named(name, self.app.keys());
+        if command.is_none() && self.app.prompt.is_none() {
+            command = bindings.named(name, Context::Explore);
+        }
+        match command {
+            Some(command) => self.act(Action::Command(command)),
+            None => Vec::new(),
+        }
     }
 
     /// Performs tasks, and the tasks of the actions that follow; returns the tasks that need the
     /// terminal.
-    pub fn perform(&mut self, effects: Vec<Task>) -> Vec<Task> {
-        let (mut waiting, mut left) = (VecDeque::from(effects), Vec::new());
-        while let Some(effect) = waiting.pop_front() {
-            if matches!(effect, Task::Copy(_) | Task::Redraw | Task::Suspend) {
-                left.push(effect);
+    pub fn perform(&mut self, tasks: Vec<Task>) -> Vec<Task> {
+        let mut waiting = VecDeque::from(tasks);
+        let mut of_terminal = Vec::new();
+        while let Some(task) = waiting.pop_front() {
+            if matches!(task, Task::Copy(_) | Task::Redraw | Task::Suspend) {
+                of_terminal.push(task);
                 continue;
             }
-            for action in self.answer(effect) {
+            for action in self.answer(task) {
                 waiting.extend(update(&mut self.app, action));
             }
         }
-        left
+        of_terminal
     }
 
     /// Performs one task; returns the actions that follow at once.
-    pub fn answer(&mut self, effect: Task) -> Vec<Action> {
-        let Runtime {
-            app,
-            engine,
-            folder,
-            asked,
-            ..
-        } = self;
-        let action = match effect {
-            Task::Ask => {
-                let request = request(app);
-                if request.generation != *asked {
-                    if *asked > 0 {
-                        // Estimates of the former scene are of no use, and take time from this one.
-                        (engine.perform)(Vec::new());
-                    }
-                    *asked = request.generation;
-                }
-                return (engine.solve)(request);
-            }
-            Task::Study => return (engine.perform)(studies(app)),
-            Task::Write(file) => writing::write(app, folder, file),
-            Task::List if folder.as_os_str().is_empty() => {
-                Action::Listed(scenes(own_folder().as_deref(), Path::new(".")))
-            }
-            Task::List => Action::Listed(scenes(None, folder)),
+    pub fn answer(&mut self, task: Task) -> Vec<Action> {
+        let action = match task {
+            Task::Ask => return self.ask(),
+            Task::Study => return (self.engine.perform)(studies(&mut self.app)),
+            Task::Write(file) => writing::write(&self.app, &self.folder, file),
+            Task::List => Action::Listed(self.scenes()),
             Task::Complete(typed) => Action::Completed(complete(&typed)),
             Task::Open(name) => {
                 let opened = Opened::of(&name);
                 Action::Opened(name, opened)
             }
-            Task::Read(reading) => {
-                let Some(measured) = &app.edit.measured else {
+            Task::ReadCurve(wanted) => {
+                let Some(measured) = &self.app.edit.measured else {
                     return Vec::new();
                 };
-                let read = measured.read_again(reading.options.clone()).map(Box::new);
-                Action::Read(reading, read.map_err(|error| error.to_string()))
+                let read = measured.read_again(wanted.options.clone()).map(Box::new);
+                Action::CurveRead(wanted, read.map_err(|error| error.to_string()))
             }
             Task::Copy(_) | Task::Redraw | Task::Suspend => return Vec::new(),
         };
         vec![action]
+    }
+
+    /// Asks the solver for the state that the screen waits for. Studies of a former scene are
+    /// stopped, since they are of no use and take time from this one.
+    fn ask(&mut self) -> Vec<Action> {
+        let request = request(&mut self.app);
+        if request.generation != self.asked {
+            if self.asked > 0 {
+                (self.engine.perform)(Vec::new());
+            }
+            self.asked = request.generation;
+        }
+        let replies = (self.engine.solve)(request);
+        self.engine.is_waiting = replies.is_empty();
+        replies
+    }
+
+    /// The scenes that can be opened; in a folder of tests and demos without those of the user.
+    fn scenes(&self) -> Vec<Entry> {
+        if self.folder.as_os_str().is_empty() {
+            scenes(own_folder().as_deref(), Path::new("."))
+        } else {
+            scenes(None, &self.folder)
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Search of lists by words, for parameters, commands and scenes.
 
+use super::text::on_one_line;
 use asperity_scene::text::nearest;
 
 /// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of
@@ -16,20 +17,26 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
         return Vec::new();
     }
     let words: Vec<&str> = query.split_whitespace().collect();
-    let cost = |(index, texts): (usize, Vec<String>)| {
-        let of_word = |word: &&str| {
-            let mut ranks = texts.iter().enumerate();
-            ranks.find_map(|(number, text)| Some(RANKS * number + rank(text, word)?))
-        };
-        Some((words.iter().map(of_word).sum::<Option<usize>>()?, index))
-    };
-    let mut found: Vec<(usize, usize)> = candidates
-        .into_iter()
-        .enumerate()
-        .filter_map(cost)
-        .collect();
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    for (index, texts) in candidates.into_iter().enumerate() {
+        let costs = words.iter().map(|word| cost(&texts, word));
+        if let Some(total) = costs.sum::<Option<usize>>() {
+            found.push((total, index));
+        }
+    }
     found.sort_unstable();
     found.into_iter().map(|(_, index)| index).collect()
+}
+
+/// How late and how badly texts have a word; `None` if no text has it. A worse rank in an earlier
+/// text is better than any rank in a later one.
+fn cost(texts: &[String], word: &str) -> Option<usize> {
+    for (number, text) in texts.iter().enumerate() {
+        if let Some(word_rank) = rank(text, word) {
+            return Some(RANKS * number + word_rank);
+        }
+    }
+    None
 }
 
 /// A query with the nearest word of the candidates in place of each word that none of them has;
@@ -39,23 +46,26 @@ pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str)
         return None;
     }
     let texts: Vec<String> = candidates.into_iter().flatten().collect();
-    let is_known = |word: &str| texts.iter().any(|text| rank(text, word).is_some());
-    let known = || {
-        texts
-            .iter()
-            .flat_map(|text| text.split(|c: char| !c.is_alphanumeric()))
-    };
-    let words = query.split_whitespace();
-    let words = words.map(|word| {
-        if is_known(word) {
-            Some(word)
+    let mut corrected = Vec::new();
+    for word in query.split_whitespace() {
+        let is_known = texts.iter().any(|text| rank(text, word).is_some());
+        corrected.push(if is_known {
+            word
         } else {
-            nearest(word, known())
-        }
-    });
-    let corrected = words.collect::<Option<Vec<&str>>>()?.join(" ");
-    (!corrected.is_empty() && corrected != query.split_whitespace().collect::<Vec<_>>().join(" "))
-        .then_some(corrected)
+            nearest(word, words_of(&texts))?
+        });
+    }
+    let corrected = corrected.join(" ");
+    if corrected.is_empty() || corrected == on_one_line(query) {
+        return None;
+    }
+    Some(corrected)
+}
+
+fn words_of(texts: &[String]) -> impl Iterator<Item = &str> {
+    texts
+        .iter()
+        .flat_map(|text| text.split(|c: char| !c.is_alphanumeric()))
 }
 
 /// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper
@@ -64,13 +74,17 @@ fn rank(text: &str, word: &str) -> Option<usize> {
     if text == word {
         return Some(0);
     }
-    let (text, word) = (text.to_lowercase(), word.to_lowercase());
-    let begins_word = |(at, _): &(usize, &str)| !text[..*at].ends_with(char::is_alphanumeric);
-    match text.match_indices(&word).find(begins_word) {
-        Some((0, _)) => Some(1),
-        Some(_) => Some(2),
-        None => text.contains(&word).then_some(3),
+    let text = text.to_lowercase();
+    let word = word.to_lowercase();
+    for (place, _) in text.match_indices(&word) {
+        if place == 0 {
+            return Some(1);
+        }
+        if !text[..place].ends_with(char::is_alphanumeric) {
+            return Some(2);
+        }
     }
+    if text.contains(&word) { Some(3) } else { None }
 }
 
 #[cfg(test)]

@@ -24,13 +24,16 @@ use ratatui::{Frame, Terminal};
 use std::io;
 use std::io::Stdout;
 use std::mem::{ManuallyDrop, take};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, channel, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::time::{Duration, Instant};
 
 /// Limit of the frame rate over SSH, 1/s, where each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
+
+/// Longest time for which a frame over SSH waits for the answer of the solver.
+const ANSWER_TIME: Duration = Duration::from_millis(30);
 
 /// Number of input events that may wait for the loop; the terminal keeps further ones.
 const MOST_WAITING: usize = 64;
@@ -76,7 +79,8 @@ pub struct SessionEnd {
 /// Function that draws the state of the explorer; see [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
-enum Message {
+/// What a thread sends to the loop of the session.
+enum Incoming {
     /// Input of the user; `None` when it ends.
     Input(Option<Event>),
     Signal(SystemSignal),
@@ -94,60 +98,40 @@ pub fn open(
 ) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
     let guard = TerminalGuard::take(options.config.mouse)?;
+    // This sender lives as long as the session, so that the inbox is never closed.
     let (sender, inbox) = channel();
-    let sender = || sender.clone();
-    let to = sender();
-    let solver = SolverThread::start(solve, move |report| {
-        drop(to.send(Message::Act(Action::Reply(report).into())))
-    })?;
-    let to = sender();
-    let studies = StudyThread::start(move |finding| {
-        drop(to.send(Message::Act(Action::Found(finding).into())))
-    })?;
-    let to = sender();
-    terminal::watch_for_hang_up(move || drop(to.send(Message::Input(None))))?;
-    let to = sender();
-    watch_for_signals(move |signal| to.send(Message::Signal(signal)).is_ok())?;
-    let to = sender();
-    let (places, waiting) = sync_channel(MOST_WAITING);
-    input::read(move |event| places.send(()).is_ok() && to.send(Message::Input(event)).is_ok())?;
+    let engine = start_engine(solve, &sender)?;
+    let waiting = start_input(&sender)?;
     // The guard restores everything; ratatui's own drop would complain on standard error, and panic
     // where that is gone together with the terminal.
     let writer = FrameWriter::new(io::stdout());
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
-    let environment = Appearance::of_environment();
-    let appearance = Appearance {
-        theme: options
-            .theme
-            .or(options.config.theme)
-            .unwrap_or(environment.theme),
-        marker: options
-            .marker
-            .or(options.config.markers)
-            .unwrap_or(environment.marker),
-    };
+    let appearance = chosen_appearance(&options);
     let mut app = begin(
         opening.into(),
         (size.width, size.height),
         appearance,
         options.config,
     );
-    let remote = ["SSH_CONNECTION", "SSH_TTY"]
-        .iter()
-        .any(|name| std::env::var_os(name).is_some());
-    let frame_rate = app.config.frame_rate;
-    let offer = match &options.restored {
-        Some(kept) => {
-            app.edit.restore(&kept.documents);
-            None
-        }
-        None => options.unsaved.as_deref().and_then(autosave::offer),
-    };
+    let offer = restore_or_offer(
+        &mut app,
+        options.restored.as_ref(),
+        options.unsaved.as_deref(),
+    );
     app.state_beside(options.warning, offer);
+    let autosave = options
+        .unsaved
+        .map(|folder| Autosave::new(&folder, options.restored));
+    let remote = is_remote();
+    let mut frame_rate = app.config.frame_rate;
+    if remote {
+        frame_rate = frame_rate.min(REMOTE_FRAMES);
+    }
+    let now = Instant::now();
     let mut session = Session {
         runtime: Runtime {
             app,
-            engine: Engine::threads(solver, studies),
+            engine,
             asked: 0,
             folder: PathBuf::new(),
         },
@@ -156,32 +140,87 @@ pub fn open(
         redraw: false,
         draw,
         remote,
-        frames: if remote {
-            frame_rate.min(REMOTE_FRAMES)
-        } else {
-            frame_rate
-        },
+        frame_time: Duration::from_secs(1) / frame_rate,
+        changed: true,
+        due: now,
+        asked: None,
+        moved: now,
         inbox,
         waiting,
-        autosave: options
-            .unsaved
-            .map(|folder| Autosave::new(&folder, options.restored)),
+        autosave,
         kept: (0, 0),
     };
     let end = session.run();
     session.keep_unsaved();
-    let signal = end?;
-    let app = session.runtime.app;
-    if let Some(autosave) = session.autosave.as_mut().filter(|_| app.finished) {
-        // The user was asked about the changes.
-        let _ = autosave.keep(&[]);
+    Ok(session.end(end?))
+}
+
+/// Takes over the unsaved changes of another session, or else returns the message that offers the
+/// newest ones.
+fn restore_or_offer(
+    app: &mut App,
+    restored: Option<&Kept>,
+    unsaved: Option<&Path>,
+) -> Option<String> {
+    if let Some(kept) = restored {
+        app.edit.restore(&kept.documents);
+        return None;
     }
-    let computed = app.current().cloned();
-    Ok(SessionEnd {
-        document: app.edit.document,
-        computed,
-        signal,
-    })
+    autosave::offer(unsaved?)
+}
+
+/// Starts the threads of solver and studies, which send their results.
+fn start_engine(solve: Solve, sender: &Sender<Incoming>) -> io::Result<Engine> {
+    let replies = sender.clone();
+    let solver = SolverThread::start(solve, move |reply| {
+        let action = Box::new(Action::Reply(reply));
+        let _ = replies.send(Incoming::Act(action));
+    })?;
+    let findings = sender.clone();
+    let studies = StudyThread::start(move |finding| {
+        let action = Box::new(Action::Found(finding));
+        let _ = findings.send(Incoming::Act(action));
+    })?;
+    Ok(Engine::threads(solver, studies))
+}
+
+/// Starts the threads that wait for the user and the system. Returns a receiver with one entry for
+/// each input event in the inbox: it is full if the loop cannot follow, and further input then
+/// waits in the terminal.
+fn start_input(sender: &Sender<Incoming>) -> io::Result<Receiver<()>> {
+    let hang_up = sender.clone();
+    terminal::watch_for_hang_up(move || {
+        let _ = hang_up.send(Incoming::Input(None));
+    })?;
+    let signals = sender.clone();
+    watch_for_signals(move |signal| signals.send(Incoming::Signal(signal)).is_ok())?;
+    let events = sender.clone();
+    let (places, waiting) = sync_channel(MOST_WAITING);
+    input::read(move |event| {
+        places.send(()).is_ok() && events.send(Incoming::Input(event)).is_ok()
+    })?;
+    Ok(waiting)
+}
+
+/// Appearance by the options of the command line, else by the configuration, else by the
+/// environment.
+fn chosen_appearance(options: &Options) -> Appearance {
+    let environment = Appearance::of_environment();
+    let config = &options.config;
+    Appearance {
+        theme: options.theme.or(config.theme).unwrap_or(environment.theme),
+        marker: options
+            .marker
+            .or(config.markers)
+            .unwrap_or(environment.marker),
+    }
+}
+
+fn is_remote() -> bool {
+    let variables = ["SSH_CONNECTION", "SSH_TTY"];
+    variables
+        .iter()
+        .any(|name| std::env::var_os(name).is_some())
 }
 
 type Screen = Terminal<CrosstermBackend<FrameWriter<Stdout>>>;
@@ -194,8 +233,18 @@ struct Session<'a> {
     redraw: bool,
     draw: Draw,
     remote: bool,
-    frames: u32,
-    inbox: Receiver<Message>,
+    /// Shortest time between two frames.
+    frame_time: Duration,
+    /// True if the state has changed since the last frame.
+    changed: bool,
+    /// Time before which nothing is drawn. Over SSH a held key or a dragged mouse would otherwise
+    /// fill the line with frames that nobody sees in time.
+    due: Instant,
+    /// Time since which an answer of the solver is awaited, if one is.
+    asked: Option<Instant>,
+    /// Time of the last step of the animation.
+    moved: Instant,
+    inbox: Receiver<Incoming>,
     /// One entry for each input event in the inbox.
     waiting: Receiver<()>,
     autosave: Option<Autosave>,
@@ -203,72 +252,138 @@ struct Session<'a> {
     kept: (u64, u64),
 }
 
+/// Why a session ends without the user leaving it.
+enum Interruption {
+    /// The terminal is gone.
+    NoInput,
+    /// A signal with this number asked for it.
+    Signal(i32),
+}
+
 impl Session<'_> {
     /// Runs until the explorer is to end; returns the number of the signal that ended it, if one
     /// did.
     fn run(&mut self) -> io::Result<Option<i32>> {
-        let frame_time = Duration::from_secs(1) / self.frames;
         self.runtime.perform(vec![Task::Ask]);
-        let mut moved = Instant::now();
-        let mut changed = true;
-        // Over SSH nothing is drawn before this time: a held key or a dragged mouse would fill the
-        // line with frames that nobody sees in time.
-        let mut due = moved;
         while !self.runtime.app.finished {
             // Unsaved changes are kept before they are drawn.
             self.keep_unsaved();
-            if changed && Instant::now() >= due {
+            if self.changed && Instant::now() >= self.next_frame() {
                 self.show()?;
+                self.changed = false;
                 if self.remote {
-                    due = Instant::now() + frame_time;
+                    self.due = Instant::now() + self.frame_time;
                 }
-                changed = false;
             }
-            let app = &self.runtime.app;
-            let playing = app.play.playing && app.is_current() && app.manual.is_none();
+            let playing = self.is_playing();
             if !playing {
-                moved = Instant::now();
+                self.moved = Instant::now();
             }
-            let step = playing.then(|| frame_time.saturating_sub(moved.elapsed()));
-            let frame = changed.then(|| due.saturating_duration_since(Instant::now()));
-            let mut next = match step.into_iter().chain(frame).min() {
-                Some(wait) => self.inbox.recv_timeout(wait).ok(),
-                None => self.inbox.recv().ok(),
-            };
-            let since = Instant::now();
-            while let Some(message) = next {
-                if matches!(message, Message::Input(_)) {
-                    let _ = self.waiting.try_recv();
-                }
-                let action = match message {
-                    Message::Input(None) => return Ok(None),
-                    Message::Signal(SystemSignal::End(signal)) => return Ok(Some(signal)),
-                    Message::Signal(SystemSignal::Continue) => {
-                        self.guard.take_again()?;
-                        Some(self.resize()?)
-                    }
-                    Message::Signal(SystemSignal::Resize) => Some(self.resize()?),
-                    Message::Input(Some(event)) => input::action_of(event),
-                    Message::Act(action) => Some(*action),
-                };
-                if let Some(action) = action {
-                    changed = true;
-                    self.act(action)?;
-                }
-                // Keys faster than their effects would else be drawn after the last one.
-                let is_late = since.elapsed() >= DRAINING;
-                next = if is_late {
-                    None
-                } else {
-                    self.inbox.try_recv().ok()
-                };
+            let next = self.wait(playing);
+            match self.handle_all(next)? {
+                Some(Interruption::NoInput) => return Ok(None),
+                Some(Interruption::Signal(signal)) => return Ok(Some(signal)),
+                None => {}
             }
-            if playing && moved.elapsed() >= frame_time {
-                // Time alone shows nothing: the requested snapshot does.
-                let elapsed = moved.elapsed().min(4 * frame_time);
-                moved = Instant::now();
+            if playing && self.moved.elapsed() >= self.frame_time {
+                // A frame follows with the snapshot that the new position requests: time alone
+                // changes nothing on the screen.
+                let elapsed = self.moved.elapsed().min(4 * self.frame_time);
+                self.moved = Instant::now();
                 self.act(Action::Elapse(elapsed))?;
             }
+        }
+        Ok(None)
+    }
+
+    /// The final state, after the signal with this number if one ended the session.
+    fn end(self, signal: Option<i32>) -> SessionEnd {
+        let app = self.runtime.app;
+        if app.finished
+            && let Some(mut autosave) = self.autosave
+        {
+            // The user was asked about the changes.
+            let _ = autosave.keep(&[]);
+        }
+        let computed = app.current().cloned();
+        SessionEnd {
+            document: app.edit.document,
+            computed,
+            signal,
+        }
+    }
+
+    /// Time before which nothing is drawn. Over SSH the frame after a key waits a little for the
+    /// answer of the solver: a frame without the answer would hold it back until the next frame is
+    /// due, and would cost as many bytes.
+    fn next_frame(&self) -> Instant {
+        match self.asked {
+            Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
+            _ => self.due,
+        }
+    }
+
+    fn is_playing(&self) -> bool {
+        let app = &self.runtime.app;
+        app.play.playing && app.is_current() && app.manual.is_none()
+    }
+
+    /// Waits until something comes in; `None` when the next step of the animation or the next frame
+    /// is due before.
+    fn wait(&self, playing: bool) -> Option<Incoming> {
+        let mut deadlines = Vec::new();
+        if playing {
+            deadlines.push(self.moved + self.frame_time);
+        }
+        if self.changed {
+            deadlines.push(self.next_frame());
+        }
+        match deadlines.into_iter().min() {
+            Some(deadline) => {
+                let time = deadline.saturating_duration_since(Instant::now());
+                self.inbox.recv_timeout(time).ok()
+            }
+            None => self.inbox.recv().ok(),
+        }
+    }
+
+    /// Handles what has come in, and what comes in meanwhile. If keys come faster than they are
+    /// handled, a frame is drawn after some time all the same, so that the user sees their effects.
+    fn handle_all(&mut self, first: Option<Incoming>) -> io::Result<Option<Interruption>> {
+        let begun = Instant::now();
+        let mut next = first;
+        while let Some(incoming) = next {
+            if let Some(interruption) = self.handle(incoming)? {
+                return Ok(Some(interruption));
+            }
+            if begun.elapsed() >= DRAINING {
+                break;
+            }
+            next = self.inbox.try_recv().ok();
+        }
+        Ok(None)
+    }
+
+    fn handle(&mut self, incoming: Incoming) -> io::Result<Option<Interruption>> {
+        if let Incoming::Input(_) = incoming {
+            let _ = self.waiting.try_recv();
+        }
+        let action = match incoming {
+            Incoming::Input(None) => return Ok(Some(Interruption::NoInput)),
+            Incoming::Signal(SystemSignal::End(signal)) => {
+                return Ok(Some(Interruption::Signal(signal)));
+            }
+            Incoming::Signal(SystemSignal::Continue) => {
+                self.guard.take_again()?;
+                Some(self.resize()?)
+            }
+            Incoming::Signal(SystemSignal::Resize) => Some(self.resize()?),
+            Incoming::Input(Some(event)) => input::action_of(event),
+            Incoming::Act(action) => Some(*action),
+        };
+        if let Some(action) = action {
+            self.changed = true;
+            self.act(action)?;
         }
         Ok(None)
     }
@@ -286,27 +401,21 @@ impl Session<'_> {
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
-        let Session {
-            runtime,
-            terminal,
-            draw,
-            ..
-        } = self;
-        terminal.draw(|frame| draw(frame, &runtime.app)).map(drop)
+        let app = &self.runtime.app;
+        self.terminal.draw(|frame| (self.draw)(frame, app))?;
+        Ok(())
     }
 
     fn act(&mut self, action: Action) -> io::Result<()> {
         // A window that shrank and grew back between two frames has lost its content, though its
         // size is that of the last frame.
         self.redraw |= matches!(action, Action::Resize(..));
-        for effect in self.runtime.act(action) {
-            match effect {
+        for task in self.runtime.act(action) {
+            match task {
                 // Sent with the next frame; the terminal does not confirm a copy.
                 Task::Copy(text) => {
-                    queue!(
-                        self.terminal.backend_mut(),
-                        CopyToClipboard::to_clipboard_from(text)
-                    )?;
+                    let copy = CopyToClipboard::to_clipboard_from(text);
+                    queue!(self.terminal.backend_mut(), copy)?;
                 }
                 Task::Redraw => self.redraw = true,
                 Task::Suspend => {
@@ -317,20 +426,30 @@ impl Session<'_> {
                 _ => {}
             }
         }
+        if !self.runtime.awaits_answer() {
+            self.asked = None;
+        } else if self.asked.is_none() {
+            self.asked = Some(Instant::now());
+        }
         Ok(())
     }
 
+    /// Keeps the unsaved changes for another session, if they differ from those kept before.
     fn keep_unsaved(&mut self) {
         let app = &mut self.runtime.app;
-        let now = (app.edit.generation, app.edit.saves);
-        if let Some(autosave) = self.autosave.as_mut().filter(|_| now != self.kept) {
-            self.kept = now;
-            if let Err(error) = autosave.keep(&app.edit.unsaved()) {
-                self.autosave = None;
-                app.set_error(format!(
-                    "unsaved changes are not kept for another session: {error}"
-                ));
-            }
+        let present = (app.edit.generation, app.edit.saves);
+        if present == self.kept {
+            return;
+        }
+        let Some(autosave) = &mut self.autosave else {
+            return;
+        };
+        self.kept = present;
+        if let Err(error) = autosave.keep(&app.edit.unsaved()) {
+            self.autosave = None;
+            app.set_error(format!(
+                "unsaved changes are not kept for another session: {error}"
+            ));
         }
     }
 }

@@ -70,15 +70,15 @@ impl Probe {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
         let next = contact.patches.partition_point(|patch| patch.last < spring);
+        let is_in_contact = match contact.patches.get(next) {
+            Some(patch) => patch.first <= spring,
+            None => false,
+        };
         Some(Probe {
             spring,
             height: contact.height(spring),
             level: contact.level(),
-            patch: contact
-                .patches
-                .get(next)
-                .filter(|patch| patch.first <= spring)
-                .map(|_| next),
+            patch: if is_in_contact { Some(next) } else { None },
         })
     }
 }
@@ -86,27 +86,25 @@ impl Probe {
 impl ContactSnapshot {
     /// A part of the profile and its contact, reduced to columns; `None` if the springs are gone.
     pub fn section(&self, part: Part) -> Option<Section> {
-        let SpringsInContact { gaps, patches } = &self.springs;
-        let (gaps, indentation) = (gaps.upgrade()?, self.point.indentation);
+        let gaps = self.springs.gaps.upgrade()?;
         let contact = SectionContact {
             gaps: &gaps,
             summit: self.line.summit,
-            indentation,
-            patches,
+            indentation: self.point.indentation,
+            patches: &self.springs.patches,
         };
         Some(contact.section(part, &mut LineColumns::default()))
     }
 }
 
-/// The springs that the profile pane shows, within the line.
+/// The springs that the profile pane shows, within the profile.
 pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     let LineView { centre, share } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
-    let first = ((count as f64 * centre) as usize)
-        .saturating_sub(springs / 2)
-        .min(count.saturating_sub(springs));
+    let middle = (count as f64 * centre) as usize;
+    let first = middle.saturating_sub(springs / 2);
     Part {
-        first,
+        first: first.min(count.saturating_sub(springs)),
         springs,
         columns: request.profile_columns,
     }
@@ -177,6 +175,11 @@ impl Reply {
             Reply::Shown(snapshot) => snapshot.generation,
             Reply::Progress { generation, .. } | Reply::Failed { generation, .. } => *generation,
         }
+    }
+
+    /// Returns true for the last reply to a request, after which none follows.
+    pub fn is_answer(&self) -> bool {
+        !matches!(self, Reply::Progress { .. })
     }
 }
 

@@ -2,7 +2,7 @@
 //! request of the explorer, on a thread of its own or at once.
 
 use super::close_up::close_up;
-use super::manual_body::ManualBody;
+use super::manual_body::{ManualBegin, ManualBody};
 use super::player::{At, Player, indentations};
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part};
@@ -56,6 +56,35 @@ struct Newest {
     close_up: LineColumns,
 }
 
+/// The legs of a loading, as far as they are kept in memory.
+#[derive(Default)]
+struct KeptLegs {
+    legs: Vec<Option<Leg>>,
+    /// Memory of all legs so far, bytes.
+    bytes: usize,
+    /// How far the contact of the first leg can be pressed.
+    reach: Reach,
+}
+
+impl KeptLegs {
+    fn add(&mut self, leg: &Leg) {
+        if self.legs.is_empty() {
+            self.reach = Reach::of(leg.contact());
+        }
+        let is_kept = self.bytes <= BYTES_KEPT;
+        self.legs
+            .push(if is_kept { Some(leg.clone()) } else { None });
+        self.bytes += leg.bytes();
+    }
+}
+
+/// A state of the contact to show.
+struct ShownState {
+    drive: Drive,
+    leg: Leg,
+    point: CurvePoint,
+}
+
 impl Solver {
     /// Creates a solver with this function; it computes only the scene of the awaited generation.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
@@ -76,16 +105,15 @@ impl Solver {
     /// Answers a request. A panic ends the request, and not the explorer.
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
-        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report))) {
+        let served = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report)));
+        if let Err(panic) = served {
             self.newest = Newest {
                 generation,
                 ..Newest::default()
             };
             self.simulation = Simulation::default();
-            let error = format!(
-                "internal error, please report it: {}",
-                panic_text(panic.as_ref())
-            );
+            let why = panic_text(panic.as_ref());
+            let error = format!("internal error, please report it: {why}");
             report(Reply::Failed { generation, error });
         }
     }
@@ -101,8 +129,11 @@ impl Solver {
         if is_new {
             match self.compute(generation, scene, report) {
                 Ok(()) => {}
-                // Unless the scene is awaited again.
-                Err(error) if error.is_interruption() => return self.newest.generation = 0,
+                Err(error) if error.is_interruption() => {
+                    // The scene is computed anew if it is awaited again.
+                    self.newest.generation = 0;
+                    return;
+                }
                 Err(error) => report(Reply::Failed {
                     generation,
                     error: error.to_string(),
@@ -113,13 +144,14 @@ impl Solver {
             self.follow(order);
         }
         let shown = self.snapshot(&snapshot).map(Arc::new);
-        match (self.newest.solved.clone().filter(|_| is_new), shown) {
-            (Some(solved), shown) => report(Reply::Solved(solved, shown)),
-            (None, Some(shown)) => report(Reply::Shown(shown)),
-            (None, None) => {}
+        if is_new && let Some(solved) = self.newest.solved.clone() {
+            report(Reply::Solved(solved, shown));
+        } else if let Some(shown) = shown {
+            report(Reply::Shown(shown));
         }
     }
 
+    /// Computes a scene, with the height histogram beside the profile.
     fn compute(
         &mut self,
         generation: u64,
@@ -130,20 +162,15 @@ impl Solver {
             generation,
             ..Newest::default()
         };
-        // The histogram beside the profile needs the heights.
         let observed = scene.observing(Observer::HeightHistogram);
         let stop = || self.awaited.load(Ordering::Relaxed) != generation;
-        let (mut bytes, mut legs, mut reach) = (0, Vec::new(), Reach::default());
+        let mut kept = KeptLegs::default();
         let outcome = (self.solve)(
             &mut self.simulation,
             &observed,
             &stop,
             &mut |stage, _, leg| {
-                if stage == 0 {
-                    reach = Reach::of(leg.contact());
-                }
-                legs.push(Some(leg.clone()).filter(|_| bytes <= BYTES_KEPT));
-                bytes += leg.bytes();
+                kept.add(leg);
                 report(Reply::Progress {
                     generation,
                     legs: stage + 1,
@@ -151,17 +178,17 @@ impl Solver {
                 Ok(())
             },
         )?;
-        let solved = Some(Arc::new(SolvedScene {
+        let solved = SolvedScene {
             generation,
             scene,
             outcome,
-            reach,
-        }));
+            reach: kept.reach,
+        };
         self.newest = Newest {
             generation,
             scene: Some(observed),
-            solved,
-            legs,
+            solved: Some(Arc::new(solved)),
+            legs: kept.legs,
             ..Newest::default()
         };
         Ok(())
@@ -178,103 +205,86 @@ impl Solver {
         }
     }
 
+    /// Begins manual loading at a position of a loading stage; `None` without enough memory, or if
+    /// there is no such stage.
     fn take(&mut self, number: usize, at: At) -> Option<ManualBody> {
         self.newest.body = None;
         let solved = self.newest.solved.clone()?;
-        let leg = if solved.scene.numerics.solver == SceneSolver::Exact {
-            self.leg(number)
-        } else {
-            // The stepwise solver knows no leg but those of the loading.
-            let exact = solved
-                .scene
-                .with(|scene| scene.numerics.solver = SceneSolver::Exact)
-                .ok()?;
-            self.leg_of(&exact, number)
-        }?;
+        let leg = self.exact_leg(&solved, number)?;
         let legs = &solved.outcome.history.legs;
-        let indentation = Player {
+        let player = Player {
             leg: number,
             at,
             playing: false,
-        }
-        .indentation(legs);
+        };
         let (low, high) = indentations(legs).unwrap_or_default();
-        let so_far = stages_until(&solved, number, at);
-        let is_separated = at == At::End && is_separated(legs.get(number));
-        ManualBody::take(
-            &leg,
-            (indentation, is_separated),
-            (high - low) / STEPS_OF_A_PULL,
-            so_far,
-        )
+        let begin = ManualBegin {
+            indentation: player.indentation(legs),
+            is_separated: at == At::End && is_separated(legs.get(number)),
+            step: (high - low) / STEPS_OF_A_PULL,
+            loading: stages_until(&solved, number, at),
+            direction: direction_at(&solved, number, at),
+        };
+        ManualBody::take(&leg, begin)
+    }
+
+    /// A leg of the loading by the exact solver, whose legs also continue beyond their stages.
+    fn exact_leg(&mut self, solved: &SolvedScene, number: usize) -> Option<Leg> {
+        if solved.scene.numerics.solver == SceneSolver::Exact {
+            return self.leg(number);
+        }
+        let exact = solved
+            .scene
+            .with(|scene| scene.numerics.solver = SceneSolver::Exact)
+            .ok()?;
+        self.leg_of(&exact, number)
     }
 
     /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not
     /// begun.
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
-        let (drive, leg, point) = match request.drive {
-            Drive::Leg(number) => {
-                self.newest.body = None;
-                let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
-                // The existing leg nearest to the requested one.
-                let player = Player {
-                    leg: number,
-                    at: request.at,
-                    playing: false,
-                }
-                .within(legs);
-                let (number, indentation) = (player.leg, player.indentation(legs));
-                // After a separation nothing is in contact, at the same indentation.
-                let end = legs
-                    .get(number)
-                    .filter(|leg| player.at == At::End && is_separated(Some(leg)));
-                let end = end.and_then(|leg| leg.curve.last().copied());
-                let leg = self.leg(number)?;
-                let point = end.map_or_else(|| leg.point(indentation).ok(), Some)?;
-                (Drive::Leg(number), leg, point)
-            }
+        let state = match request.drive {
+            Drive::Leg(number) => self.state_of_loading(number, request.at)?,
             Drive::Manual => {
                 let body = self.newest.body.as_ref()?;
-                (Drive::Manual, body.leg(), body.point())
+                ShownState {
+                    drive: Drive::Manual,
+                    leg: body.leg(),
+                    point: body.point(),
+                }
             }
         };
-        let Newest {
-            generation,
-            solved,
-            body,
-            profile,
-            close_up: columns,
-            ..
-        } = &mut self.newest;
-        let line = solved.as_deref()?.outcome.line;
+        let ShownState { drive, leg, point } = state;
+        let newest = &mut self.newest;
+        let line = newest.solved.as_deref()?.outcome.line;
         let patches = if point.springs == 0 {
             Vec::new()
         } else {
             leg.patches(point.indentation)
         };
-        let CurvePoint { indentation, .. } = point;
         let gaps = leg.contact().gaps();
         let contact = SectionContact {
             gaps,
             summit: line.summit,
-            indentation,
+            indentation: point.indentation,
             patches: &patches,
         };
-        let close_up = close_up(&contact, &leg, request, columns);
+        let close_up = close_up(&contact, &leg, request, &mut newest.close_up);
         let part = profile_part(request, gaps.len());
+        let probe = request
+            .crosshair
+            .and_then(|position| Probe::at(&contact, position));
         Some(ContactSnapshot {
-            generation: *generation,
+            generation: newest.generation,
             drive,
             line,
             focus: request.focus,
             point,
             contact_radius: leg.contact().contact_radius(&patches, point),
-            profile: contact.section(part, profile),
+            profile: contact.section(part, &mut newest.profile),
             close_up,
-            probe: request
-                .crosshair
-                .and_then(|position| Probe::at(&contact, position)),
-            manual: body.as_mut().map(ManualBody::travel),
+            probe,
+            manual: newest.body.as_mut().map(ManualBody::travel),
             springs: SpringsInContact {
                 gaps: Arc::downgrade(leg.contact().profile().shared_gaps()),
                 patches,
@@ -282,22 +292,52 @@ impl Solver {
         })
     }
 
+    /// The state of the scene's loading that the animation shows, which ends manual loading. If
+    /// there is no such stage, the nearest one is shown.
+    fn state_of_loading(&mut self, number: usize, at: At) -> Option<ShownState> {
+        self.newest.body = None;
+        let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
+        let player = Player {
+            leg: number,
+            at,
+            playing: false,
+        }
+        .within(legs);
+        let indentation = player.indentation(legs);
+        let record = legs.get(player.leg);
+        // After a separation nothing is in contact, though the indentation is the one before it.
+        let end = if player.at == At::End && is_separated(record) {
+            record.and_then(|record| record.curve.last().copied())
+        } else {
+            None
+        };
+        let leg = self.leg(player.leg)?;
+        let point = match end {
+            Some(end) => end,
+            None => leg.point(indentation).ok()?,
+        };
+        Some(ShownState {
+            drive: Drive::Leg(player.leg),
+            leg,
+            point,
+        })
+    }
+
     /// A leg of the loading; computed again if it was not kept.
     fn leg(&mut self, number: usize) -> Option<Leg> {
         if self.newest.legs.get(number)?.is_none() {
             let scene = self.newest.scene.take()?;
-            let found = self.leg_of(&scene, number);
+            let computed = self.leg_of(&scene, number);
             self.newest.scene = Some(scene);
-            // Only one recalled leg is kept at a time.
-            let firsts = found
-                .as_ref()
-                .map_or(0, |leg| BYTES_KEPT / leg.bytes().max(1));
-            self.newest
-                .legs
-                .iter_mut()
-                .skip(firsts + 1)
-                .for_each(|leg| *leg = None);
-            self.newest.legs[number] = found;
+            // Only one leg beyond the limit of the memory is kept at a time.
+            let kept = match &computed {
+                Some(leg) => BYTES_KEPT / leg.bytes().max(1),
+                None => 0,
+            };
+            for leg in self.newest.legs.iter_mut().skip(kept + 1) {
+                *leg = None;
+            }
+            self.newest.legs[number] = computed;
         }
         self.newest.legs[number].clone()
     }
@@ -305,7 +345,7 @@ impl Solver {
     /// Computes the leg of one loading stage by running the scene up to it.
     fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
-        // The run ends as soon as the leg is found.
+        // The run ends with an error as soon as the leg is found.
         let _ = (self.solve)(
             &mut self.simulation,
             scene,
@@ -324,37 +364,58 @@ impl Solver {
 
 /// Returns true if nothing is in contact at the end of a stage.
 fn is_separated(leg: Option<&LegRecord>) -> bool {
-    leg.and_then(|leg| leg.curve.last())
-        .is_some_and(|end| end.springs == 0)
+    match leg.and_then(|leg| leg.curve.last()) {
+        Some(end) => end.springs == 0,
+        None => false,
+    }
 }
 
-/// The loading history up to a position in a stage, and the direction of its last stage.
-fn stages_until(solved: &SolvedScene, number: usize, at: At) -> (Vec<Move>, Option<Direction>) {
-    let (legs, loading) = (&solved.outcome.history.legs, &solved.scene.loading);
-    let mut stages = loading.iter().take(number).copied().collect::<Vec<_>>();
-    let before = number
-        .checked_sub(1)
-        .and_then(|before| legs.get(before))
-        .map(|leg| leg.direction);
-    let Some(leg) = legs.get(number) else {
-        return (stages, None);
-    };
+/// Returns true if the animation has not begun a stage: it is at the start, or in the first stage
+/// above the foundation.
+fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
     match at {
-        At::Start => return (stages, before),
-        // The animation begins above the foundation.
-        At::Indentation(indentation) if number == 0 && indentation <= leg.start() => {
-            return (stages, before);
-        }
-        At::Indentation(indentation) => stages.push(Move::ToIndentation(indentation)),
-        At::PullOff | At::End => stages.push(leg.target),
+        At::Start => true,
+        At::Indentation(indentation) => number == 0 && indentation <= leg.start(),
+        At::PullOff | At::End => false,
     }
-    (stages, Some(leg.direction))
+}
+
+/// The loading history up to a position in a stage.
+fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
+    let loading = &solved.scene.loading;
+    let mut stages: Vec<Move> = loading.iter().take(number).copied().collect();
+    let Some(leg) = solved.outcome.history.legs.get(number) else {
+        return stages;
+    };
+    if !has_not_begun(leg, number, at) {
+        stages.push(match at {
+            At::Indentation(indentation) => Move::ToIndentation(indentation),
+            At::Start | At::PullOff | At::End => leg.target,
+        });
+    }
+    stages
+}
+
+/// The direction of the last stage of the loading history up to a position in a stage; `None`
+/// before the first one.
+fn direction_at(solved: &SolvedScene, number: usize, at: At) -> Option<Direction> {
+    let legs = &solved.outcome.history.legs;
+    let leg = legs.get(number)?;
+    if has_not_begun(leg, number, at) {
+        let before = legs.get(number.checked_sub(1)?)?;
+        return Some(before.direction);
+    }
+    Some(leg.direction)
 }
 
 fn panic_text(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("unknown cause")
+    if let Some(text) = panic.downcast_ref::<&str>() {
+        return text;
+    }
+    match panic.downcast_ref::<String>() {
+        Some(text) => text,
+        None => "unknown cause",
+    }
 }
 
 pub struct SolverThread {
@@ -369,17 +430,16 @@ impl SolverThread {
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
         let newest = Arc::clone(&awaited);
-        // The explorer may be behind with its input: reports of scenes that it has left do not wait
-        // for it.
-        let mut report = move |one: Reply| {
-            if one.generation() == newest.load(Ordering::Relaxed) {
-                report(one);
+        // The explorer may have more input than it can handle, so it gets no replies about scenes
+        // that it has left.
+        let mut report_awaited = move |reply: Reply| {
+            if reply.generation() == newest.load(Ordering::Relaxed) {
+                report(reply);
             }
         };
-        let serve = move || serve(solver, &inbox, &mut report);
         std::thread::Builder::new()
             .name("simulation".to_owned())
-            .spawn(serve)?;
+            .spawn(move || serve(solver, &inbox, &mut report_awaited))?;
         Ok(SolverThread { requests, awaited })
     }
 

@@ -13,59 +13,68 @@ pub type Part = Vec<Span<'static>>;
 /// Breaks a line into lines of at most this number of columns. A word that is wider is broken
 /// anywhere, a number neither at its thousands nor before its unit.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
-    let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
-    let is_blank = |grapheme: &StyledGrapheme<'_>| grapheme.symbol.trim().is_empty();
-    let width = |part: &[StyledGrapheme<'_>]| {
-        part.iter()
-            .map(|one| Span::raw(one.symbol).width())
-            .sum::<usize>()
-    };
     let room = usize::from(columns);
+    let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let words: Vec<_> = graphemes.split_inclusive(is_blank).collect();
-    let text = |word: &[StyledGrapheme<'_>]| -> String {
-        word.iter()
-            .filter(|grapheme| !is_blank(grapheme))
-            .map(|grapheme| grapheme.symbol)
-            .collect()
-    };
     let mut lines: Vec<Vec<StyledGrapheme<'_>>> = vec![Vec::new()];
-    for together in words.chunk_by(|word, next| belong_together(&text(word), &text(next))) {
+    for together in words.chunk_by(|word, next| belong_together(&text_of(word), &text_of(next))) {
         let symbols = together.concat();
         let last = lines.len() - 1;
+        // A blank at the end of a line needs no room.
         let blank_end = usize::from(symbols.last().is_some_and(is_blank));
-        if !lines[last].is_empty()
-            && width(&lines[last]) + width(&symbols).saturating_sub(blank_end) > room
-        {
+        let needed = width(&symbols).saturating_sub(blank_end);
+        if !lines[last].is_empty() && width(&lines[last]) + needed > room {
             lines.push(Vec::new());
         }
         for grapheme in symbols {
             let last = lines.len() - 1;
-            let (before, more) = (width(&lines[last]), width(std::slice::from_ref(&grapheme)));
-            let is_full = before + more > room;
-            if more > room || is_blank(&grapheme) && (is_full || lines[last].is_empty()) {
+            let more = width(std::slice::from_ref(&grapheme));
+            if more > room {
+                continue;
+            }
+            let is_full = width(&lines[last]) + more > room;
+            if is_blank(&grapheme) && (is_full || lines[last].is_empty()) {
                 continue;
             }
             if is_full {
-                lines.push(Vec::new());
+                lines.push(vec![grapheme]);
+            } else {
+                lines[last].push(grapheme);
             }
-            lines[if is_full { last + 1 } else { last }].push(grapheme);
         }
     }
     lines.retain(|line| !line.is_empty());
     lines.iter().map(|line| styled(line)).collect()
 }
 
+fn is_blank(grapheme: &StyledGrapheme<'_>) -> bool {
+    grapheme.symbol.trim().is_empty()
+}
+
+/// Width in columns.
+fn width(graphemes: &[StyledGrapheme<'_>]) -> usize {
+    graphemes
+        .iter()
+        .map(|grapheme| Span::raw(grapheme.symbol).width())
+        .sum()
+}
+
+/// The text of a word without blanks.
+fn text_of(word: &[StyledGrapheme<'_>]) -> String {
+    word.iter()
+        .filter(|grapheme| !is_blank(grapheme))
+        .map(|grapheme| grapheme.symbol)
+        .collect()
+}
+
 /// A line of graphemes: one span for each style.
 fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
-    let spans = graphemes.chunk_by(|one, next| one.style == next.style);
-    let text = |span: &[StyledGrapheme<'_>]| {
-        span.iter()
-            .map(|grapheme| grapheme.symbol)
-            .collect::<String>()
-    };
-    spans
-        .map(|span| Span::styled(text(span), span[0].style))
-        .collect()
+    let mut line = Line::default();
+    for span in graphemes.chunk_by(|grapheme, next| grapheme.style == next.style) {
+        let text: String = span.iter().map(|grapheme| grapheme.symbol).collect();
+        line.push_span(Span::styled(text, span[0].style));
+    }
+    line
 }
 
 /// Breaks a line into at most `rows` lines; a rest is replaced by `…`.
@@ -73,10 +82,9 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
         lines.truncate(rows.into());
-        lines
-            .last_mut()
-            .into_iter()
-            .for_each(|last| *last = clipped(last, columns));
+        if let Some(last) = lines.last_mut() {
+            *last = clipped(last, columns);
+        }
     }
     lines
 }
@@ -93,23 +101,23 @@ pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
 /// A line shortened to at most `columns`, with `…` in place of the rest.
 fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
-    let mut width = 1;
-    let kept = graphemes.iter().take_while(|grapheme| {
+    let mut kept = 0;
+    let mut width = Span::raw("…").width();
+    for grapheme in &graphemes {
         width += Span::raw(grapheme.symbol).width();
-        width <= usize::from(columns)
-    });
-    let (kept, rest) = graphemes.split_at(kept.count());
-    let blanks = kept
-        .iter()
-        .rev()
-        .take_while(|grapheme| grapheme.symbol.trim().is_empty())
-        .count();
-    let mut clipped = styled(&kept[..kept.len() - blanks]);
+        if width > usize::from(columns) {
+            break;
+        }
+        kept += 1;
+    }
+    let (beginning, rest) = graphemes.split_at(kept);
+    let blanks = beginning.iter().rev().take_while(|last| is_blank(last));
+    let mut clipped = styled(&beginning[..kept - blanks.count()]);
     if columns > 0 {
-        let style = rest
-            .first()
-            .or(kept.last())
-            .map_or(line.style, |grapheme| grapheme.style);
+        let style = match rest.first().or(beginning.last()) {
+            Some(grapheme) => grapheme.style,
+            None => line.style,
+        };
         clipped.push_span(Span::styled("…", style));
     }
     clipped.style(line.style)
@@ -122,19 +130,21 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
     for part in parts {
         let width: usize = part.iter().map(Span::width).sum();
         let apart = Span::raw(between);
-        match lines
-            .last_mut()
-            .filter(|line| line.width() + apart.width() + width <= columns)
+        if let Some(line) = lines.last_mut()
+            && line.width() + apart.width() + width <= columns
         {
-            Some(line) => {
-                line.spans.push(apart);
-                line.spans.extend(part);
-            }
-            None if width <= columns => lines.push(Line::from(part)),
-            None => {}
+            line.spans.push(apart);
+            line.spans.extend(part);
+        } else if width <= columns {
+            lines.push(Line::from(part));
         }
     }
     lines
+}
+
+/// A text on one line, with one blank between two words.
+pub fn on_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

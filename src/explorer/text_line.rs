@@ -51,9 +51,10 @@ impl TextLine {
 
     /// The text before the cursor, under it and after it.
     fn parts(&self) -> (String, String, String) {
-        let part = |from, count| self.text().chars().skip(from).take(count).collect();
-        let cursor = self.input.cursor();
-        (part(0, cursor), part(cursor, 1), part(cursor + 1, LONGEST))
+        let mut characters = self.text().chars();
+        let before = characters.by_ref().take(self.input.cursor()).collect();
+        let under = characters.by_ref().take(1).collect();
+        (before, under, characters.collect())
     }
 
     /// Message about what the last insertion left out; `None` if it left nothing out.
@@ -64,21 +65,21 @@ impl TextLine {
     /// Inserts a text before the cursor or in place of the selected text, without control
     /// characters, as far as it fits.
     pub fn insert(&mut self, text: &str) {
-        let mut inserted = text
-            .chars()
-            .filter(|character| !is_control(*character))
-            .peekable();
-        if self.selected && inserted.peek().is_some() {
+        let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
+        if self.selected && !inserted.is_empty() {
             *self = TextLine::default();
         }
         let room = LONGEST - self.text().chars().count();
-        for character in inserted.by_ref().take(room) {
+        for character in inserted.chars().take(room) {
             self.input.handle(InputRequest::InsertChar(character));
         }
-        let has_controls = text
-            .contains(is_control)
-            .then_some("control characters are left out");
-        self.left_out = inserted.next().map(|_| TOO_LONG).or(has_controls);
+        self.left_out = if inserted.chars().nth(room).is_some() {
+            Some(TOO_LONG)
+        } else if text.contains(is_control) {
+            Some("control characters are left out")
+        } else {
+            None
+        };
     }
 
     /// Moves the cursor or deletes text; deleting removes a selected text as a whole. Afterwards
@@ -86,12 +87,14 @@ impl TextLine {
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
-        self.input.handle(if self.selected && deletes {
+        let request = if self.selected && deletes {
             DeleteLine
         } else {
             request
-        });
-        (self.selected, self.left_out) = (false, None);
+        };
+        self.input.handle(request);
+        self.selected = false;
+        self.left_out = None;
     }
 
     /// The text, in a smaller number of columns without digits in its middle: its end has the
@@ -102,11 +105,12 @@ impl TextLine {
         if Span::raw(self.text()).width() <= columns || characters.len() <= kept {
             return self.text().to_owned();
         }
-        let (start, end) = (
-            &characters[..kept - kept / 2],
-            &characters[characters.len() - kept / 2..],
-        );
-        start.iter().chain(['…'].iter()).chain(end).collect()
+        let of_end = kept / 2;
+        let start = characters[..kept - of_end].iter().collect::<String>();
+        let end = characters[characters.len() - of_end..]
+            .iter()
+            .collect::<String>();
+        format!("{start}…{end}")
     }
 
     /// The part of the line around the cursor that fits into a number of columns.
@@ -115,22 +119,32 @@ impl TextLine {
         if self.selected && !self.text().is_empty() {
             return vec![Span::styled(self.shortened(columns), reversed)];
         }
-        let (before, under, after) = self.parts();
-        let under = if under.is_empty() {
-            " ".to_owned()
-        } else {
-            under
-        };
-        let mut room = columns.saturating_sub(Span::raw(under.as_str()).width());
-        let fits = |character: char| {
-            room = room.checked_sub(Span::raw(character.to_string()).width())?;
-            Some(character)
-        };
-        let mut seen: Vec<char> = before.chars().rev().map_while(fits).collect();
-        seen.reverse();
-        let cursor = Span::styled(under, reversed);
-        vec![Span::raw(String::from_iter(seen)), cursor, Span::raw(after)]
+        let (before, mut under, after) = self.parts();
+        if under.is_empty() {
+            under.push(' ');
+        }
+        let room = columns.saturating_sub(Span::raw(under.as_str()).width());
+        vec![
+            Span::raw(end_within(&before, room)),
+            Span::styled(under, reversed),
+            Span::raw(after),
+        ]
     }
+}
+
+/// The longest end of a text that fits into a number of columns.
+fn end_within(text: &str, columns: usize) -> String {
+    let mut room = columns;
+    let mut end = Vec::new();
+    for character in text.chars().rev() {
+        let width = Span::raw(character.to_string()).width();
+        if width > room {
+            break;
+        }
+        room -= width;
+        end.push(character);
+    }
+    end.into_iter().rev().collect()
 }
 
 #[cfg(test)]

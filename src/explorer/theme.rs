@@ -3,6 +3,7 @@
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
 use serde::{Deserialize, Serialize};
+use std::ffi::OsString;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Appearance {
@@ -54,15 +55,16 @@ impl Appearance {
     /// of Linux (`TERM=linux`) and for a locale without Unicode (`C`, `POSIX`), which show no
     /// Braille.
     pub fn of_environment() -> Self {
-        let value = |name| std::env::var_os(name).filter(|value| !value.is_empty());
-        let theme = match value("COLORFGBG") {
-            _ if value("NO_COLOR").is_some() => Theme::Plain,
+        let theme = match variable("COLORFGBG") {
+            _ if variable("NO_COLOR").is_some() => Theme::Plain,
             Some(colours) => Theme::on_background(&colours.to_string_lossy()),
             None => Theme::Neutral,
         };
-        let locale = ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(value);
+        let locale = ["LC_ALL", "LC_CTYPE", "LANG"]
+            .into_iter()
+            .find_map(variable);
         let is_ascii = locale.is_some_and(|locale| locale == "C" || locale == "POSIX");
-        let is_console = value("TERM").is_some_and(|term| term == "linux");
+        let is_console = variable("TERM").is_some_and(|term| term == "linux");
         Appearance {
             theme,
             marker: if is_ascii || is_console {
@@ -72,6 +74,12 @@ impl Appearance {
             },
         }
     }
+}
+
+/// Value of a variable of the environment that is not empty.
+fn variable(name: &str) -> Option<OsString> {
+    let value = std::env::var_os(name)?;
+    if value.is_empty() { None } else { Some(value) }
 }
 
 impl Theme {

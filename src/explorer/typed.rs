@@ -1,9 +1,9 @@
 //! Values being typed: a number without a unit gets the unit that its row shows.
 
 use crate::explorer::app::App;
+use crate::explorer::curve_options::OPTIONS;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
-use crate::explorer::reading::OPTIONS;
 use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::fields::target_field;
 use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
@@ -30,26 +30,27 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
 /// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of
 /// the computed curve.
 pub fn unit_of_force(app: &App) -> String {
-    let computed = || {
-        app.current()
-            .and_then(|solved| solved.outcome.figures.preload)
+    let of_loading = pressing_force(&app.edit.document.scene().loading);
+    let of_curve = app
+        .current()
+        .and_then(|solved| solved.outcome.figures.preload)
+        .unwrap_or_default();
+    let force = if of_loading > 0.0 {
+        of_loading
+    } else if of_curve > 0.0 {
+        of_curve
+    } else {
+        USUAL_FORCE
     };
-    let given = [
-        pressing_force(&app.edit.document.scene().loading),
-        computed().unwrap_or_default(),
-        USUAL_FORCE,
-    ];
-    let force = given
-        .into_iter()
-        .find(|force| *force > 0.0)
-        .unwrap_or(USUAL_FORCE);
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
 /// Adds the unit of the row to a typed value without one. A number for a stage without one is a
 /// force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
-    if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
+    if let Setting::CurveOption(index) = parameter.setting
+        && let Some(measured) = &app.edit.measured
+    {
         return OPTIONS[index].with_unit(measured, typed);
     }
     match parameter.leg {
@@ -60,35 +61,53 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
 }
 
-/// How a typed text without a unit will be read: `50 mJ/m²` for `50`.
-pub fn reading(app: &App) -> Option<String> {
+/// What a typed text without a unit means: `50 mJ/m²` for `50`. `None` for a text that states its
+/// unit, and for a quantity without one.
+pub fn understood(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();
-    let (unit, read) = match prompt.purpose {
-        Purpose::Force => {
-            let force = parse_quantity(&in_unit(typed, &unit_of_force(app)), "N").ok()?;
-            ("N", format_quantity(force, "N"))
-        }
-        Purpose::Value => {
-            let parameter = app.edit.parameter()?;
-            let typed = with_unit(app, parameter, typed);
-            if let Some(leg) = parameter.leg {
-                let kind = StageKind::of(app.edit.document.scene().loading.get(leg)?).0;
-                let stage = read_stage(&typed, Some(kind)).ok()?;
-                (
-                    target_field(stage)?.0.unit,
-                    loading_text(&[stage], format_quantity),
-                )
-            } else {
-                let written = parameter.field.read_typed(&typed).ok()?;
-                (
-                    parameter.field.unit,
-                    parameter.field.quantities(&written, format_quantity)?,
-                )
-            }
-        }
+    let quantity = match prompt.purpose {
+        Purpose::Force => typed_force(app, typed)?,
+        Purpose::Value => typed_value(app, typed)?,
         _ => return None,
     };
-    let says_so = typed.ends_with(unit) && !prompt.line.text().is_empty();
-    (!says_so && !matches!(unit, "" | "1")).then_some(read)
+    let has_unit = typed.ends_with(quantity.unit) && !prompt.line.text().is_empty();
+    if has_unit || matches!(quantity.unit, "" | "1") {
+        return None;
+    }
+    Some(quantity.in_words)
+}
+
+/// A typed quantity as it is understood.
+struct Quantity {
+    unit: &'static str,
+    in_words: String,
+}
+
+fn typed_force(app: &App, typed: &str) -> Option<Quantity> {
+    let force = parse_quantity(&in_unit(typed, &unit_of_force(app)), "N").ok()?;
+    Some(Quantity {
+        unit: "N",
+        in_words: format_quantity(force, "N"),
+    })
+}
+
+/// A typed value of the selected parameter. A loading stage may be typed as another kind.
+fn typed_value(app: &App, typed: &str) -> Option<Quantity> {
+    let parameter = app.edit.parameter()?;
+    let typed = with_unit(app, parameter, typed);
+    let Some(leg) = parameter.leg else {
+        let written = parameter.field.read_typed(&typed).ok()?;
+        return Some(Quantity {
+            unit: parameter.field.unit,
+            in_words: parameter.field.quantities(&written, format_quantity)?,
+        });
+    };
+    let (kind, _) = StageKind::of(app.edit.document.scene().loading.get(leg)?);
+    let stage = read_stage(&typed, Some(kind)).ok()?;
+    let (field, _) = target_field(stage)?;
+    Some(Quantity {
+        unit: field.unit,
+        in_words: loading_text(&[stage], format_quantity),
+    })
 }

@@ -5,7 +5,7 @@ use super::action::Action;
 use super::action::Task;
 use super::app::{App, Awaited};
 use super::commands::{accuracy, dialogue, edit, files, measured, movement, opening, table};
-use super::keys::bindings::Command;
+use super::keys::bindings::KeyCommand;
 use super::layout::Layout;
 use super::mouse;
 use super::prompt::Purpose;
@@ -46,38 +46,36 @@ fn apply(app: &mut App, action: Action) {
             app.ask_again(Purpose::Scene(Vec::new()), &path, &why);
             app.effects.push(Task::List);
         }
-        Action::Read(reading, read) => measured::read(app, &reading, read),
+        Action::CurveRead(wanted, read) => measured::show_read(app, &wanted, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
     // A search goes through the rows of the present scene.
-    if let Some(prompt) = app
-        .prompt
-        .as_mut()
-        .filter(|_| app.edit.parameters.len() != rows)
-    {
+    let has_other_rows = app.edit.parameters.len() != rows;
+    if has_other_rows && let Some(prompt) = &mut app.prompt {
         prompt.search(&app.edit.parameters);
     }
 }
 
 /// Runs the command of a key, or types its character.
 fn pressed(app: &mut App, key: &KeyEvent) {
-    let is_typed = !key
+    if let Some(command) = app.config.bindings.command(key, app.keys()) {
+        return run(app, command);
+    }
+    let is_control = key
         .modifiers
         .intersects(KeyModifiers::CONTROL | KeyModifiers::ALT);
-    match (app.config.bindings.command(key, app.keys()), key.code) {
-        (Some(command), _) => run(app, command),
-        (None, KeyCode::Char(typed)) if is_typed => {
-            edit::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])));
-        }
-        _ => {}
+    if let KeyCode::Char(typed) = key.code
+        && !is_control
+    {
+        edit::edit_line(app, |line| line.insert(typed.encode_utf8(&mut [0; 4])));
     }
 }
 
-fn run(app: &mut App, command: Command) {
+fn run(app: &mut App, command: KeyCommand) {
     if app.prompt.is_none() {
-        let moving = app.map.moving && command.row.merges;
+        let goes_on = app.map.moving && command.row.merges;
         app.begin();
-        app.map.moving = moving;
+        app.map.moving = goes_on;
     }
     table::run(command, app);
     if let Some(chosen) = app.chosen.take() {
@@ -85,10 +83,13 @@ fn run(app: &mut App, command: Command) {
     }
 }
 
-/// Stores a reply of the solver, unless scene or text have changed since.
+/// Stores a reply of the solver, unless the scene has changed since.
 fn replied(app: &mut App, reply: Reply) {
+    if reply.generation() != app.edit.generation {
+        return;
+    }
     match reply {
-        Reply::Solved(computed, snapshot) if computed.generation == app.edit.generation => {
+        Reply::Solved(computed, snapshot) => {
             app.progress = None;
             app.play = app.play.within(&computed.outcome.history.legs);
             app.solved = Some(computed);
@@ -97,27 +98,22 @@ fn replied(app: &mut App, reply: Reply) {
             }
             app.effects.push(Task::Study);
         }
-        Reply::Shown(snapshot) if snapshot.generation == app.edit.generation => {
-            movement::shown(app, snapshot);
-        }
-        Reply::Progress { generation, legs } if generation == app.edit.generation => {
-            app.progress = app.progress.map(|_| legs);
-        }
-        Reply::Failed { generation, error } if generation == app.edit.generation => {
+        Reply::Shown(snapshot) => movement::shown(app, snapshot),
+        Reply::Progress { legs, .. } => app.progress = app.progress.map(|_| legs),
+        Reply::Failed { error, .. } => {
             app.progress = None;
             app.set_error(error);
         }
-        Reply::Solved(..) | Reply::Shown(_) | Reply::Progress { .. } | Reply::Failed { .. } => {}
     }
 }
 
 /// Makes the request for the state that the screen waits for; it takes the waiting manual moves
 /// with it.
 pub fn request(app: &mut App) -> Request {
-    let moves = app
-        .manual
-        .as_mut()
-        .map_or_else(Vec::new, |manual| std::mem::take(&mut manual.moves));
+    let moves = match &mut app.manual {
+        Some(manual) => std::mem::take(&mut manual.moves),
+        None => Vec::new(),
+    };
     // Without the moves taken: a move before the answer is another request.
     app.asked = Some(awaited(app));
     Request {

@@ -5,7 +5,7 @@ use super::app::{App, Message};
 use super::commands::stages::with_path;
 use super::pane::Pane;
 use super::panes;
-use super::panes::row::OPEN_COMMAND;
+use super::panes::row::{Exported, OPEN_COMMAND};
 use super::theme::Theme;
 use super::view;
 use asperity_data::{WriteError, object, write_new_file};
@@ -26,71 +26,89 @@ use std::path::{Path, is_separator};
 /// extension `.ron` if it has none, unless it names something that is no file. Returns the file
 /// with its final name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
-    let mut written = || {
-        let path = folder.join(&file.path);
-        let is_file =
-            path.is_file() || !(path.exists() || path.to_string_lossy().ends_with(is_separator));
-        if file.content == Content::Scene && file.path.extension().is_none() && is_file {
-            file.path.set_extension("ron");
-        }
-        let path = folder.join(&file.path);
-        // The folder of the user's own scenes comes with the first of them.
-        if let Some(own) = own_folder().filter(|own| path.parent() == Some(own)) {
-            create_dir_all(&own).map_err(|reason| WriteError::Failed {
-                path: own.clone(),
-                reason,
-            })?;
-        }
-        write_new_file(&path, file.overwrite, |out| {
-            write_content(out, app, &file.path, file.content)
-        })
-    };
-    let result = written().map_err(|error| match error {
+    let is_scene = file.content == Content::Scene;
+    if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
+        file.path.set_extension("ron");
+    }
+    let result = write_file(app, folder, &file).map_err(|error| match error {
         WriteError::Exists { .. } => WriteFailure::Exists,
         other => WriteFailure::Refused(other.to_string()),
     });
     Action::Written(file, result)
 }
 
+/// Returns true for a path of a file, or of nothing that ends as a folder does.
+fn can_be_file(path: &Path) -> bool {
+    let ends_as_folder = path.to_string_lossy().ends_with(is_separator);
+    path.is_file() || !path.exists() && !ends_as_folder
+}
+
+fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteError> {
+    let path = folder.join(&file.path);
+    // The folder of the user's own scenes is made for the first of them.
+    if let Some(own) = own_folder()
+        && path.parent() == Some(&own)
+    {
+        create_dir_all(&own).map_err(|reason| WriteError::Failed {
+            path: own.clone(),
+            reason,
+        })?;
+    }
+    write_new_file(&path, file.overwrite, |out| {
+        write_content(out, app, &file.path, file.content)
+    })
+}
+
 fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) -> io::Result<()> {
-    let missing = || io::Error::other("the selected pane has nothing yet to export");
     match content {
         Content::Scene => out.write_all(app.edit.document.text_for_own_file().as_bytes()),
         Content::Pane(Format::Text) => out.write_all(screen_text(&picture_of(app)).as_bytes()),
-        Content::Pane(format) => {
-            let drawn = |figure: Figure| (OPEN_COMMAND.into(), Box::new(figure) as Box<dyn Report>);
-            let has_table = |figure: &Figure| app.is_current() && figure.table().is_some();
-            let report = if format.is_picture() {
-                figure(app).map(drawn)
-            } else {
-                let report = (panes::row(app.view.pane).report)(app);
-                report.or_else(|| figure(app).filter(has_table).map(drawn))
-            };
-            let (command, report) = report.ok_or_else(missing)?;
-            let kept = if command == OPEN_COMMAND {
-                with_path(app).and_then(Result::ok)
-            } else {
-                None
-            };
-            let document = kept.as_ref().unwrap_or(&app.edit.document);
-            let command = command_line(&command, document.name(), document.overrides());
-            let (folder, destination) =
-                (document.resolve(""), path.parent().unwrap_or(Path::new("")));
-            let provenance = scene_provenance(&command, document.scene(), &folder, destination);
-            let provenance = provenance.map_err(io::Error::other)?;
-            let beside_scene = SceneTable {
-                scene: document.scene(),
-                table: &*report,
-            };
-            let is_table_alone = format == Format::Json && report.json().is_none();
-            let report: &dyn Report = if is_table_alone {
-                &beside_scene
-            } else {
-                &*report
-            };
-            asperity_report::write(out, report, format, &provenance)
+        Content::Pane(format) => write_pane(out, app, path, format),
+    }
+}
+
+/// Writes the selected pane, with the command that computes its content.
+fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io::Result<()> {
+    let Some((command, report)) = exported(app, format) else {
+        let why = "the selected pane has nothing yet to export";
+        return Err(io::Error::other(why));
+    };
+    // The command opens the path of manual loading as the loading of the scene.
+    let opened = match with_path(app) {
+        Some(Ok(document)) if command == OPEN_COMMAND => Some(document),
+        _ => None,
+    };
+    let document = opened.as_ref().unwrap_or(&app.edit.document);
+    let command = command_line(&command, document.name(), document.overrides());
+    let folder = document.resolve("");
+    let destination = path.parent().unwrap_or(Path::new(""));
+    let provenance = scene_provenance(&command, document.scene(), &folder, destination)
+        .map_err(io::Error::other)?;
+    if format == Format::Json && report.json().is_none() {
+        let table = SceneTable {
+            scene: document.scene(),
+            table: &*report,
+        };
+        return asperity_report::write(out, &table, format, &provenance);
+    }
+    asperity_report::write(out, &*report, format, &provenance)
+}
+
+/// The selected pane as a report: for a picture its figure, otherwise its result, or without one
+/// the curves of its figure.
+fn exported(app: &App, format: Format) -> Exported<'_> {
+    if !format.is_picture() {
+        let result = (panes::row(app.view.pane).report)(app);
+        if result.is_some() {
+            return result;
         }
     }
+    let drawn = figure(app)?;
+    let has_table = app.is_current() && drawn.table().is_some();
+    if !format.is_picture() && !has_table {
+        return None;
+    }
+    Some((OPEN_COMMAND.into(), Box::new(drawn)))
 }
 
 /// The table of a pane beside its scene, as JSON of a result that has no other.
@@ -124,14 +142,10 @@ pub fn screenshot(app: &App) -> String {
     } else {
         Palette::DARK
     };
-    let name = Path::new(app.edit.document.name())
-        .file_stem()
-        .unwrap_or_default();
-    screen_svg(
-        &picture_of(app),
-        &palette,
-        &format!("Asperity: {}", name.to_string_lossy()),
-    )
+    let path = Path::new(app.edit.document.name());
+    let name = path.file_stem().unwrap_or_default();
+    let title = format!("Asperity: {}", name.to_string_lossy());
+    screen_svg(&picture_of(app), &palette, &title)
 }
 
 /// The screen without prompts, questions and messages other than errors.

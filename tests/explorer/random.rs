@@ -6,7 +6,7 @@ use super::common::effort::cases;
 use super::common::scenes::{changed, one_spring, punch, rough, smooth, without_adhesion};
 use super::common::study::{PLAN, merged};
 use asperity::explorer::action::{Action, Gesture, Mouse, Task};
-use asperity::explorer::keys::bindings::Command;
+use asperity::explorer::keys::bindings::KeyCommand;
 use asperity::explorer::opening::Opening;
 use asperity::explorer::parameters::parameters;
 use asperity::explorer::snapshot::Reply;
@@ -227,7 +227,7 @@ impl Explorer {
             .collect();
         let (row, key) = keys[number % keys.len()];
         for _ in 0..times {
-            self.act(Action::Command(Command {
+            self.act(Action::Command(KeyCommand {
                 row,
                 key: Some(key),
             }));

@@ -2,7 +2,7 @@
 //! the animation and of a held key are few enough for a slow line.
 
 use crate::common::terminal::{Frame, Program, Terminal};
-use crate::driving::{ASPERITY, paused, quit};
+use crate::driving::{ASPERITY, explorer, headline, paused, quit, select, wait_for_another};
 use std::time::{Duration, Instant};
 
 /// Most bytes in a second on a slow connection.
@@ -97,4 +97,33 @@ fn a_held_key_does_not_flood_a_slow_line() {
         terminal.text()
     );
     quit(&mut terminal);
+}
+
+/// A frame without the answer of the solver would hold the answer back until the next frame is due.
+#[test]
+fn the_frame_after_a_key_has_the_new_curve() {
+    const KEYS: usize = 10;
+    let (program, _folder) = explorer();
+    let mut terminal = paused(program.env("SSH_CONNECTION", "192.0.2.1 50000 192.0.2.2 22"));
+    select(&mut terminal, "κ");
+    let mut frames = 0;
+    for _ in 0..KEYS {
+        // The profiles of the former scene may still be computed.
+        terminal.settle_for(Duration::from_millis(500));
+        let before = headline(&terminal.rows()).expect("a force is shown");
+        let first = terminal.frames().len();
+        terminal.send("h");
+        wait_for_another(&mut terminal, &before);
+        frames += terminal.frames().len() - first;
+    }
+    println!("{frames} frames for the answers to {KEYS} keys");
+    // One each; a busy machine may take longer than the frame waits.
+    assert!(frames <= 3 * KEYS / 2, "{frames} frames for {KEYS} keys");
+    quit_without_saving(&mut terminal);
+}
+
+fn quit_without_saving(terminal: &mut Terminal) {
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    quit(terminal);
 }

@@ -121,13 +121,11 @@ fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     })
 }
 
-const NOT_COMPUTED: &str = "the scene is still being computed";
-
 pub fn type_tolerance(app: &mut App) {
     if app.is_current() {
         app.ask(Purpose::Tolerance, "");
     } else {
-        app.set_error(NOT_COMPUTED);
+        app.set_error(edit::STILL_COMPUTED);
     }
 }
 
@@ -135,17 +133,14 @@ pub fn type_tolerance(app: &mut App) {
 pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
-        return Err(NOT_COMPUTED.to_owned());
+        return Err(edit::STILL_COMPUTED.to_owned());
     }
-    app.studies.set(
-        app.edit.generation,
-        Choosing {
-            tolerance,
-            tried: None,
-            found: None,
-        },
-        false,
-    );
+    let choosing = Choosing {
+        tolerance,
+        tried: None,
+        found: None,
+    };
+    app.studies.set(app.edit.generation, choosing, false);
     app.effects.push(Task::Study);
     Ok(())
 }
@@ -167,25 +162,22 @@ pub fn found(app: &mut App) {
 
 fn apply(app: &mut App, choice: &Choice) {
     let numerics = app.edit.document.scene().numerics;
-    let is_so = (numerics.points, numerics.edges) == (choice.points, choice.edges);
-    if !is_so {
+    let is_unchanged = numerics.points == choice.points && numerics.edges == choice.edges;
+    if !is_unchanged {
         let points = choice.points.to_string();
-        let fields = [
-            ("numerics.points", points.as_str()),
-            ("numerics.edges", choice.edges.name()),
+        let edges = choice.edges.name().to_owned();
+        let values = [
+            ("numerics.points".to_owned(), points),
+            ("numerics.edges".to_owned(), edges),
         ];
-        let fields = fields.map(|(path, value)| (path.to_owned(), value.to_owned()));
-        edit::apply(app, app.edit.document.set_all(&fields));
+        edit::apply(app, app.edit.document.set_all(&values));
         if app.is_refused() {
             return;
         }
     }
-    // From finer solutions than those of an estimate.
+    // The errors of the choice are known from finer solutions than those of an estimate.
     app.studies
         .set(app.edit.generation, choice.estimate(), true);
-    app.set_done(format!(
-        "{}{}",
-        if is_so { "as it is: " } else { "" },
-        choice.sentence()
-    ));
+    let unchanged = if is_unchanged { "as it is: " } else { "" };
+    app.set_done(format!("{unchanged}{}", choice.sentence()));
 }

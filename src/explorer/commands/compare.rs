@@ -22,30 +22,29 @@ pub fn toggle_squares(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
+/// The present scene, to be kept; `None` before it is computed.
 fn ghost(app: &App) -> Option<Ghost> {
-    let outcome = Arc::new(app.current()?.outcome.clone());
+    let computed = app.current()?;
     Some(Ghost {
         document: app.edit.document.clone(),
-        outcome,
+        outcome: Arc::new(computed.outcome.clone()),
     })
 }
 
 pub fn pin(app: &mut App) {
-    let Some(ghost) = ghost(app) else {
+    let Some(present) = ghost(app) else {
         return app.set_error("there is no curve yet to keep");
     };
-    if app
-        .ghosts
-        .iter()
-        .any(|kept| kept.document.scene() == ghost.document.scene())
-    {
+    let scene = present.document.scene();
+    let mut kept = app.ghosts.iter();
+    if kept.any(|kept| kept.document.scene() == scene) {
         return app.set_done("this loop is kept already");
     }
     let is_full = app.ghosts.len() == MOST_GHOSTS;
     if is_full {
         app.ghosts.remove(0);
     }
-    app.ghosts.push(ghost);
+    app.ghosts.push(present);
     let name = letter(app.ghosts.len() - 1);
     let rest = if is_full {
         "the oldest ghost has been removed"

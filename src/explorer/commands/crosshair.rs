@@ -6,10 +6,13 @@ use crate::explorer::keys::bindings::Context;
 use crate::explorer::keys::key::direction;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
+use asperity_plot::Chart;
 use crossterm::event::{KeyCode, KeyEvent};
 
-/// Number of small and of large steps across a pane.
-const STEPS: (f64, f64) = (100.0, 10.0);
+/// Number of small steps across a pane.
+const SMALL_STEPS: f64 = 100.0;
+/// Number of large steps across a pane.
+const LARGE_STEPS: f64 = 10.0;
 
 /// Shows or hides the crosshair, which appears in the middle of the selected pane.
 pub fn toggle(app: &mut App) {
@@ -27,13 +30,18 @@ pub fn toggle(app: &mut App) {
 
 /// Moves the crosshair by a small or a large step.
 pub fn step(app: &mut App, key: &KeyEvent) {
-    let Some(((columns, _), is_coarse)) = direction(key) else {
+    let Some(direction) = direction(key) else {
         return;
     };
     let (low, high) = ends(app);
-    let step = (high - low) / if is_coarse { STEPS.1 } else { STEPS.0 };
-    let now = app.view.crosshair.unwrap_or(low);
-    app.view.crosshair = Some((now + f64::from(columns) * step).clamp(low, high));
+    let steps = if direction.is_coarse {
+        LARGE_STEPS
+    } else {
+        SMALL_STEPS
+    };
+    let step = f64::from(direction.columns) * (high - low) / steps;
+    let present = app.view.crosshair.unwrap_or(low);
+    app.view.crosshair = Some((present + step).clamp(low, high));
 }
 
 /// Moves the crosshair to the left or right end of the pane.
@@ -45,13 +53,12 @@ pub fn go_to_end(app: &mut App, key: &KeyEvent) {
 
 /// Moves the crosshair to a number on the horizontal axis of the selected pane.
 pub fn point_at(app: &mut App, x: f64) {
-    let share = match app.section().zip(app.snapshot.as_deref()) {
-        Some((_, snapshot)) => {
-            (x / snapshot.line.spacing - snapshot.line.first as f64) / springs(app)
+    let share = match (app.section(), app.snapshot.as_deref()) {
+        (Some(_), Some(snapshot)) => {
+            let spring = x / snapshot.line.spacing - snapshot.line.first as f64;
+            spring / springs(app)
         }
-        None => match panes::figure(app, app.view.pane)
-            .and_then(|figure| figure.charts.into_iter().next())
-        {
+        _ => match chart(app) {
             Some(chart) => chart.x.share(x),
             None => return,
         },
@@ -60,31 +67,44 @@ pub fn point_at(app: &mut App, x: f64) {
     app.view.crosshair = Some(share.clamp(low, high));
 }
 
-/// Positions, as shares, of the left and right end of the selected pane: of the part of the
-/// profile, or of the curves of another chart.
-fn ends(app: &App) -> (f64, f64) {
-    let share = |spring: usize| (spring as f64 / springs(app)).min(1.0);
-    if let Some(section) = app.section() {
-        return (share(section.first), share(section.first + section.springs));
-    }
-    let chart =
-        panes::figure(app, app.view.pane).and_then(|figure| figure.charts.into_iter().next());
-    let shares = chart.iter().flat_map(|chart| {
-        let named = chart.layers.iter().filter(|layer| !layer.name.is_empty());
-        named
-            .flat_map(|layer| layer.shape.points())
-            .map(|point| chart.x.share(point.0).clamp(0.0, 1.0))
-    });
-    shares
-        .fold(None, |ends: Option<(f64, f64)>, at| {
-            Some(ends.map_or((at, at), |(low, high)| (low.min(at), high.max(at))))
-        })
-        .filter(|(low, high)| low < high)
-        .unwrap_or((0.0, 1.0))
+/// The main chart of the selected pane, if it has one.
+fn chart(app: &App) -> Option<Chart> {
+    let figure = panes::figure(app, app.view.pane)?;
+    figure.charts.into_iter().next()
 }
 
+/// Positions, as shares, of the left and right end of the selected pane: of the part of the
+/// profile, or of the named curves of another chart.
+fn ends(app: &App) -> (f64, f64) {
+    if let Some(section) = app.section() {
+        let springs = springs(app);
+        let from = section.first as f64 / springs;
+        let to = (section.first + section.springs) as f64 / springs;
+        return (from.min(1.0), to.min(1.0));
+    }
+    const WHOLE: (f64, f64) = (0.0, 1.0);
+    let Some(chart) = chart(app) else {
+        return WHOLE;
+    };
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    for layer in &chart.layers {
+        if layer.name.is_empty() {
+            continue;
+        }
+        for (x, _) in layer.shape.points() {
+            let share = chart.x.share(x).clamp(0.0, 1.0);
+            low = low.min(share);
+            high = high.max(share);
+        }
+    }
+    if low < high { (low, high) } else { WHOLE }
+}
+
+/// Number of springs of the whole profile.
 fn springs(app: &App) -> f64 {
-    app.solved.as_ref().map_or(1.0, |computed| {
-        computed.outcome.history.work.springs.max(1) as f64
-    })
+    match app.outcome() {
+        Some(outcome) => outcome.history.work.springs.max(1) as f64,
+        None => 1.0,
+    }
 }

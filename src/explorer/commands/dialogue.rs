@@ -4,11 +4,12 @@ use super::{accuracy, edit, files, measured, movement, target};
 use crate::explorer::action::{OutputFile, Task};
 use crate::explorer::app::App;
 use crate::explorer::completion::common_start;
-use crate::explorer::keys::bindings::{Command, Context};
+use crate::explorer::keys::bindings::{Context, KeyCommand, Row};
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panes;
 use crate::explorer::prompt::{Aim, Prompt, Purpose, Topic};
+use crate::explorer::text::on_one_line;
 use asperity_scene::library::{Entry, typed_path};
 use asperity_scene::presets;
 use crossterm::event::{KeyCode, KeyEvent};
@@ -19,12 +20,8 @@ const HELP: &str = "Help";
 
 /// Opens the search of the list of parameters, and its pane.
 pub fn find_parameter(app: &mut App) {
-    app.ask(
-        Purpose::Parameter {
-            before: app.view.pane,
-        },
-        "",
-    );
+    let before = app.view.pane;
+    app.ask(Purpose::Parameter { before }, "");
     edit::show_parameters(app)
 }
 
@@ -43,65 +40,44 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
 /// Opens the help: the notice of the scene, for which a small window has no room, the contents of
 /// the panes, and all keys.
 pub fn open_help(app: &mut App) {
-    let topic = |name: &str, text: &str| Topic {
-        section: "What you see",
-        name: name.to_owned(),
-        text: text.to_owned(),
-        words: String::new(),
-        aim: Aim::Nothing,
+    let mut topics = Vec::new();
+    let notice = on_one_line(&app.edit.document.scene().notice);
+    if !notice.is_empty() {
+        topics.push(Topic::read_only("This scene", &notice));
+    }
+    for pane in Pane::ALL {
+        for (name, text) in panes::row(*pane).help {
+            topics.push(Topic::read_only(name, text));
+        }
+    }
+    topics.extend(app.config.bindings.rows().map(Topic::of));
+    let help = Purpose::Topics {
+        name: HELP,
+        topics,
+        is_typed: false,
     };
-    let notice = app
-        .edit
-        .document
-        .scene()
-        .notice
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
-    let notice = (!notice.is_empty()).then(|| topic("This scene", &notice));
-    let panes = Pane::ALL
-        .iter()
-        .flat_map(|pane| panes::row(*pane).help)
-        .map(|(name, text)| topic(name, text));
-    let keys = app.config.bindings.rows().map(Topic::of);
-    let topics = notice.into_iter().chain(panes).chain(keys).collect();
-    app.ask(
-        Purpose::Topics {
-            name: HELP,
-            topics,
-            is_typed: false,
-        },
-        "",
-    );
+    app.ask(help, "");
 }
 
 /// Opens the list of commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
-    let commands = app.config.bindings.listed().map(Topic::of);
-    let parameters = app
-        .edit
-        .parameters
-        .iter()
-        .enumerate()
-        .map(Topic::of_parameter);
-    let topics = commands
-        .chain(parameters)
-        .chain(presets().iter().map(Topic::of_preset))
-        .collect();
-    app.ask(
-        Purpose::Topics {
-            name: "Commands",
-            topics,
-            is_typed: true,
-        },
-        "",
-    );
+    let mut topics: Vec<Topic> = app.config.bindings.listed().map(Topic::of).collect();
+    for (row, parameter) in app.edit.parameters.iter().enumerate() {
+        topics.push(Topic::of_parameter(row, parameter));
+    }
+    topics.extend(presets().iter().map(Topic::of_preset));
+    let commands = Purpose::Topics {
+        name: "Commands",
+        topics,
+        is_typed: true,
+    };
+    app.ask(commands, "");
 }
 
 /// Searches the help for what is typed next.
 pub fn search_help(app: &mut App) {
-    if let Some(Purpose::Topics { is_typed, .. }) =
-        app.prompt.as_mut().map(|prompt| &mut prompt.purpose)
+    if let Some(prompt) = &mut app.prompt
+        && let Purpose::Topics { is_typed, .. } = &mut prompt.purpose
     {
         *is_typed = true;
     }
@@ -111,24 +87,20 @@ pub fn search_help(app: &mut App) {
 pub fn select(app: &mut App, rows: i32) {
     if let Some(prompt) = &mut app.prompt {
         let last = prompt.found.len().saturating_sub(1);
-        prompt.selected = prompt
-            .selected
-            .saturating_add_signed(rows as isize)
-            .min(last);
+        let row = prompt.selected.saturating_add_signed(rows as isize);
+        prompt.selected = row.min(last);
     }
 }
 
 /// Moves the selection of the list to the row that a key asks for.
 pub fn select_by(app: &mut App, key: &KeyEvent) {
-    select(
-        app,
-        match key.code {
-            KeyCode::Home | KeyCode::Char('g') => i32::MIN,
-            KeyCode::End | KeyCode::Char('G') => i32::MAX,
-            KeyCode::Up | KeyCode::Char('k' | 'p') => -1,
-            _ => 1,
-        },
-    );
+    let rows = match key.code {
+        KeyCode::Home | KeyCode::Char('g') => i32::MIN,
+        KeyCode::End | KeyCode::Char('G') => i32::MAX,
+        KeyCode::Up | KeyCode::Char('k' | 'p') => -1,
+        _ => 1,
+    };
+    select(app, rows);
 }
 
 /// Moves the selection of the list, or of the parameters, by a page: half the rows of a window,
@@ -172,61 +144,72 @@ pub fn accept(app: &mut App) {
     }
 }
 
+/// Does what a prompt is for, or returns the reason why not.
 fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
-    let nothing = || "nothing in the list fits".to_owned();
     match &prompt.purpose {
-        Purpose::Value if measured::is_option(app) => return measured::accept_option(app, typed),
-        Purpose::Value => return edit::accept_value(app, typed),
-        Purpose::Target => return target::accept(app, typed),
-        Purpose::Force => return movement::accept_force(app, typed),
-        Purpose::Tolerance => return accuracy::accept_tolerance(app, typed),
-        Purpose::Fit => return measured::accept_fit(app, typed),
-        Purpose::Save { then_quit } => return files::save(app, typed_path(typed), *then_quit),
-        Purpose::Export => return files::export(app, typed_path(typed)),
-        Purpose::Scene(_) => match prompt.scene() {
-            Some(entry) => {
-                let document = entry
-                    .document
-                    .clone()
-                    .map_err(|errors| errors.to_string())?;
-                edit::open(app, document);
-            }
-            None if typed.trim().is_empty() => return Err("type a name or a path".to_owned()),
-            // The path of a scene, or of a study.
-            None => {
-                let path = typed_path(typed.trim()).to_string_lossy().into_owned();
-                app.effects.push(Task::Open(path));
-            }
-        },
+        Purpose::Value if measured::is_option(app) => measured::accept_option(app, typed),
+        Purpose::Value => edit::accept_value(app, typed),
+        Purpose::Target => target::accept(app, typed),
+        Purpose::Force => movement::accept_force(app, typed),
+        Purpose::Tolerance => accuracy::accept_tolerance(app, typed),
+        Purpose::Fit => measured::accept_fit(app, typed),
+        Purpose::Save { then_quit } => files::save(app, typed_path(typed), *then_quit),
+        Purpose::Export => files::export(app, typed_path(typed)),
+        Purpose::Scene(_) => accept_scene(app, prompt),
         Purpose::Parameter { .. } => {
-            app.edit.select(prompt.choice().ok_or_else(nothing)?);
-            app.show(Pane::Parameters);
+            let row = prompt.choice().ok_or(NOTHING_FITS)?;
+            show_parameter(app, row);
+            Ok(())
         }
         Purpose::Topics { topics, .. } => {
-            let topic = prompt
-                .choice()
-                .and_then(|index| topics.get(index))
-                .ok_or_else(nothing)?;
-            match &topic.aim {
-                Aim::Nothing => {}
-                Aim::Command(row) => choose(app, Command { row, key: None }),
-                Aim::Parameter(row) => {
-                    app.edit.select(*row);
-                    app.show(Pane::Parameters);
-                }
-                Aim::Open(name) => app.effects.push(Task::Open(name.clone())),
-            }
+            let index = prompt.choice().ok_or(NOTHING_FITS)?;
+            let topic = topics.get(index).ok_or(NOTHING_FITS)?;
+            accept_topic(app, topic);
+            Ok(())
         }
         Purpose::Overwrite(file) => {
             app.effects.push(Task::Write(OutputFile {
                 overwrite: true,
                 ..file.clone()
             }));
+            Ok(())
         }
-        Purpose::Leave => {}
+        Purpose::Leave => Ok(()),
     }
+}
+
+const NOTHING_FITS: &str = "nothing in the list fits";
+
+/// Opens the selected scene or, if no scene in the list fits what is typed, a scene or a study by
+/// its path.
+fn accept_scene(app: &mut App, prompt: &Prompt) -> Result<(), String> {
+    if let Some(entry) = prompt.scene() {
+        let document = entry.document.clone();
+        edit::open(app, document.map_err(|errors| errors.to_string())?);
+        return Ok(());
+    }
+    let typed = prompt.line.text().trim();
+    if typed.is_empty() {
+        return Err("type a name or a path".to_owned());
+    }
+    let path = typed_path(typed).to_string_lossy().into_owned();
+    app.effects.push(Task::Open(path));
     Ok(())
+}
+
+fn show_parameter(app: &mut App, row: usize) {
+    app.edit.select(row);
+    app.show(Pane::Parameters);
+}
+
+fn accept_topic(app: &mut App, topic: &Topic) {
+    match &topic.aim {
+        Aim::Nothing => {}
+        Aim::Command(row) => choose(app, KeyCommand { row, key: None }),
+        Aim::Parameter(row) => show_parameter(app, *row),
+        Aim::Open(name) => app.effects.push(Task::Open(name.clone())),
+    }
 }
 
 pub fn cancel(app: &mut App) {
@@ -239,15 +222,23 @@ pub fn cancel(app: &mut App) {
 }
 
 /// Chooses a command of the list, to be run in a pane in which its key is valid.
-fn choose(app: &mut App, command: Command) {
-    let is_valid = |context: Context| command.row.contexts.contains(&context);
-    match app.keys() {
-        here if is_valid(here) => {}
-        _ if is_valid(Context::Parameters) => app.show(Pane::Parameters),
-        _ if is_valid(Context::Explore) => app.show(Pane::Force),
-        _ => app.show(Pane::Map),
+fn choose(app: &mut App, command: KeyCommand) {
+    let is_valid_here = command.row.contexts.contains(&app.keys());
+    if !is_valid_here {
+        app.show(pane_of(command.row));
     }
     app.chosen = Some(command);
+}
+
+/// A pane in which the key of a command is valid.
+fn pane_of(row: &Row) -> Pane {
+    if row.contexts.contains(&Context::Parameters) {
+        Pane::Parameters
+    } else if row.contexts.contains(&Context::Explore) {
+        Pane::Force
+    } else {
+        Pane::Map
+    }
 }
 
 /// Paths of parameters whose values contain names of files.
@@ -267,13 +258,8 @@ fn typed_in_line(app: &App) -> Option<String> {
         Purpose::Save { .. } | Purpose::Export | Purpose::Scene(_) => Some(text.to_owned()),
         Purpose::Value if WITH_FILES.contains(&app.edit.parameter()?.path.as_str()) => {
             let path = text.rsplit('"').next().unwrap_or(text);
-            Some(
-                app.edit
-                    .document
-                    .resolve(path)
-                    .to_string_lossy()
-                    .into_owned(),
-            )
+            let path = app.edit.document.resolve(path);
+            Some(path.to_string_lossy().into_owned())
         }
         _ => None,
     }
@@ -302,12 +288,13 @@ pub fn completed(app: &mut App, paths: Vec<String>) {
             line.insert(rest);
         });
     }
-    app.refuse(
-        paths
-            .is_empty()
-            .then(|| "no file or folder begins so".to_owned()),
-    );
-    if let Some(prompt) = &mut app.prompt {
-        prompt.paths = if paths.len() > 1 { paths } else { Vec::new() };
-    }
+    let Some(prompt) = &mut app.prompt else {
+        return;
+    };
+    prompt.refused = if paths.is_empty() {
+        Some("no file or folder begins so".to_owned())
+    } else {
+        None
+    };
+    prompt.paths = if paths.len() > 1 { paths } else { Vec::new() };
 }

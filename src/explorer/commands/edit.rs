@@ -2,13 +2,13 @@
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, Message};
+use crate::explorer::curve_options;
 use crate::explorer::editor::Edited;
 use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::{Parameter, Setting, replaced_by, text_of};
 use crate::explorer::player::Player;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::reading;
 use crate::explorer::request::{CloseUpTarget, LineView};
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::ensemble_key;
@@ -16,7 +16,7 @@ use crate::explorer::text_line::TextLine;
 use crate::explorer::typed;
 use asperity_contact::Move;
 use asperity_data::{exact_quantity, parse_quantity};
-use asperity_scene::fields::{Range, Step};
+use asperity_scene::fields::{Field, Range, Step};
 use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, RoughnessParameter, SceneErrors, Solver};
@@ -56,24 +56,17 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     let Some(parameter) = app.edit.parameter() else {
         return;
     };
-    match parameter.setting {
-        _ if first.is_some() && !parameter.takes_number() => {
-            let way = way_of_changing(parameter);
-            app.set_done(way);
-        }
-        Setting::Heading => app.set_done(way_of_changing(parameter)),
-        Setting::Field
-        | Setting::RoughnessParameter(_)
-        | Setting::WorkOfAdhesion
-        | Setting::Reading(_) => {
-            let text = editable(app, parameter);
-            app.ask(Purpose::Value, &text);
-            // No preview of an earlier edit.
-            app.tried = None;
-            app.studies.forget::<Preview>();
-            if let Some(first) = first {
-                edit_line(app, |line| line.insert(first.encode_utf8(&mut [0; 4])));
-            }
+    let is_no_number = first.is_some() && !parameter.takes_number();
+    if is_no_number || parameter.setting == Setting::Heading {
+        app.set_done(way_of_changing(parameter));
+    } else {
+        let text = editable(app, parameter);
+        app.ask(Purpose::Value, &text);
+        // No preview of an earlier edit.
+        app.tried = None;
+        app.studies.forget::<Preview>();
+        if let Some(first) = first {
+            edit_line(app, |line| line.insert(first.encode_utf8(&mut [0; 4])));
         }
     }
     show_parameters(app);
@@ -118,7 +111,8 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     if prompt.line.text() == before && prompt.line.left_out().is_none() {
         return;
     }
-    (prompt.refused, prompt.paths) = (None, Vec::new());
+    prompt.refused = None;
+    prompt.paths.clear();
     prompt.search(&app.edit.parameters);
     match prompt.purpose {
         Purpose::Value => preview(app),
@@ -129,17 +123,20 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
 
 /// States how a parameter without a number is changed.
 pub fn way_of_changing(parameter: &Parameter) -> String {
-    let way = match (
-        parameter.setting,
-        parameter.field.step,
-        parameter.field.range,
-    ) {
-        (Setting::Heading, ..) => "a group: its fields are in the rows below",
-        (Setting::Reading(_), _, Range::Choice(_)) => "a choice: ← → change it",
-        (_, Step::Choice, _) => "a choice: ← → change it",
-        (.., Range::Text { .. }) => "a text: Enter types it",
-        (.., Range::List { .. }) => "a list: Enter types it",
-        _ => "several numbers: Enter types them",
+    let range = parameter.field.range;
+    let is_option = matches!(parameter.setting, Setting::CurveOption(_));
+    let is_choice =
+        parameter.field.step == Step::Choice || is_option && matches!(range, Range::Choice(_));
+    let way = if parameter.setting == Setting::Heading {
+        "a group: its fields are in the rows below"
+    } else if is_choice {
+        "a choice: ← → change it"
+    } else if matches!(range, Range::Text { .. }) {
+        "a text: Enter types it"
+    } else if matches!(range, Range::List { .. }) {
+        "a list: Enter types it"
+    } else {
+        "several numbers: Enter types them"
     };
     format!("{} is {way}", parameter.name())
 }
@@ -151,72 +148,75 @@ pub fn show_parameters(app: &mut App) {
     }
 }
 
+/// Changes the selected value by a number of small or, if `coarse`, large steps; or states why it
+/// has no further step.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
         return;
     };
-    let is_text =
-        matches!(parameter.field.range, Range::Text { .. }) || parameter.path == "loading";
-    if parameter.setting == Setting::Heading || is_text {
-        return refuse(app, way_of_changing(parameter));
-    }
-    if let Setting::RoughnessParameter(of) = parameter.setting
-        && app
-            .governing()
-            .is_some_and(|governing| governing.amplitude.is_none())
-    {
-        return refuse(app, undefined(of));
-    }
-    if let Some(given) = parameter.follows_from(app.edit.document.scene()) {
-        let name = parameter.name();
-        return refuse(
-            app,
-            format!("{name} follows from {given}; Enter types a value of its own"),
-        );
+    if let Some(why) = refusal_of_step(app, parameter) {
+        return refuse(app, why);
     }
     let no_step = format!("no further step; allowed: {}", parameter.field.allowed());
+    let document = &app.edit.document;
     if parameter.field.step == Step::Choice {
-        return match app
-            .edit
-            .document
-            .with_next_choice(parameter.field, steps > 0)
-        {
+        return match document.with_next_choice(parameter.field, steps > 0) {
             Ok(Some(document)) => apply(app, Ok(document)),
             Ok(None) => refuse(app, no_step),
             Err(errors) => apply(app, Err(errors)),
         };
     }
     let Some(written) = app.written(parameter) else {
-        return refuse(app, "the scene is still being computed".to_owned());
+        return refuse(app, STILL_COMPUTED.to_owned());
     };
-    let length = app.edit.document.scene().length;
+    let length = document.scene().length;
     match parameter.field.stepped_on(length, &written, steps, coarse) {
         Some(next) => set_selected(app, &next),
         None => refuse(app, no_step),
     }
 }
 
+/// Reason why the value of a parameter cannot be changed in steps; `None` if it can.
+fn refusal_of_step(app: &App, parameter: &Parameter) -> Option<String> {
+    let is_text = matches!(parameter.field.range, Range::Text { .. });
+    if parameter.setting == Setting::Heading || is_text || parameter.path == "loading" {
+        return Some(way_of_changing(parameter));
+    }
+    if let Setting::RoughnessParameter(roughness_parameter) = parameter.setting
+        && let Some(governing) = app.governing()
+        && governing.amplitude.is_none()
+    {
+        return Some(undefined(roughness_parameter));
+    }
+    let given = parameter.follows_from(app.edit.document.scene())?;
+    let name = parameter.name();
+    Some(format!(
+        "{name} follows from {given}; Enter types a value of its own"
+    ))
+}
+
 /// The value of a parameter when its editor opens: in the shown unit, with all digits.
 pub fn editable(app: &App, parameter: &Parameter) -> String {
-    if let (Setting::Reading(index), Some(measured)) = (parameter.setting, &app.edit.measured) {
-        return reading::OPTIONS[index].editable(&measured.options);
+    if let Setting::CurveOption(index) = parameter.setting
+        && let Some(measured) = &app.edit.measured
+    {
+        return curve_options::OPTIONS[index].editable(&measured.options);
+    }
+    if parameter.group == "loading" {
+        let loading = &app.edit.document.scene().loading;
+        let stages = match parameter.leg {
+            Some(leg) => loading.get(leg..=leg),
+            None => Some(&loading[..]),
+        };
+        return loading_text(stages.unwrap_or_default(), exact_quantity);
     }
     let written = app.written(parameter).unwrap_or_default();
-    match parameter.field.range {
-        _ if parameter.group == "loading" => {
-            let loading = &app.edit.document.scene().loading;
-            let stages = parameter
-                .leg
-                .map_or(loading.get(..), |leg| loading.get(leg..=leg));
-            loading_text(stages.unwrap_or_default(), exact_quantity)
-        }
-        Range::Text { .. } => text_of(&written),
-        _ => parameter
-            .field
-            .quantities(&written, exact_quantity)
-            .unwrap_or(written),
+    if let Range::Text { .. } = parameter.field.range {
+        return text_of(&written);
     }
+    let quantities = parameter.field.quantities(&written, exact_quantity);
+    quantities.unwrap_or(written)
 }
 
 pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
@@ -228,10 +228,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     }
     let document = with_typed(app, typed)?;
     // A loading that the contact does not follow is known once its preview has been computed.
-    if let Some(why) = app
-        .studies
-        .failure::<Preview>()
-        .filter(|_| app.tried.is_some())
+    if app.tried.is_some()
+        && let Some(why) = app.studies.failure::<Preview>()
     {
         return Err(why.to_owned());
     }
@@ -243,43 +241,49 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
 /// may be typed as any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
-    if let Setting::Reading(_) = parameter.setting {
+    if let Setting::CurveOption(_) = parameter.setting {
         return Err("an option of reading is no part of the scene".to_owned());
     }
-    let document = &app.edit.document;
     let typed = &typed::with_unit(app, parameter, typed);
-    let Some(leg) = parameter.leg else {
-        let written = parameter.field.read_typed(typed);
-        let allowed = || parameter.field.allowed();
-        return with_selected(
-            app,
-            &written.map_err(|error| format!("{error}; allowed: {}", allowed()))?,
-        );
-    };
-    let mut stages = document.stages();
-    let (kind, _) = StageKind::of(&stages[leg].1);
-    let stage = read_stage(typed, Some(kind)).map_err(|error| error.to_string())?;
-    match StageKind::of(&stage) {
-        (same, Some(number)) if same == kind => with_selected(app, &ron_float(number)),
-        _ => {
-            stages[leg] = (None, stage);
-            let changed = document
-                .with_stages(&stages)
-                .map_err(|errors| reasons(&errors))?;
-            within_reach(app, changed)
-        }
+    if let Some(leg) = parameter.leg {
+        return with_typed_stage(app, leg, typed);
     }
+    match parameter.field.read_typed(typed) {
+        Ok(written) => with_selected(app, &written),
+        Err(error) => Err(format!("{error}; allowed: {}", parameter.field.allowed())),
+    }
+}
+
+/// The scene with a typed loading stage in place of the selected one. A number alone keeps the kind
+/// of the stage.
+fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, String> {
+    let document = &app.edit.document;
+    let mut stages = document.stages();
+    let (present_kind, _) = StageKind::of(&stages[leg].1);
+    let stage = read_stage(typed, Some(present_kind)).map_err(|error| error.to_string())?;
+    let (kind, number) = StageKind::of(&stage);
+    if let Some(number) = number
+        && kind == present_kind
+    {
+        return with_selected(app, &ron_float(number));
+    }
+    stages[leg] = (None, stage);
+    let changed = document.with_stages(&stages);
+    within_reach(app, changed.map_err(|errors| reasons(&errors))?)
 }
 
 /// Returns the scene unless it presses more than the present one and out of reach; otherwise the
 /// reason.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
-    let is_more = force > pressing_force(&app.edit.document.scene().loading);
-    let solved = app.current().filter(|_| is_more);
-    solved
-        .and_then(|solved| solved.reach.refusal(Move::ToForce(force)))
-        .map_or(Ok(changed), Err)
+    let present_force = pressing_force(&app.edit.document.scene().loading);
+    if force > present_force
+        && let Some(solved) = app.current()
+        && let Some(why) = solved.reach.refusal(Move::ToForce(force))
+    {
+        return Err(why);
+    }
+    Ok(changed)
 }
 
 /// Sets the selected parameter to a value in the notation of the scene.
@@ -295,63 +299,83 @@ pub fn set_selected(app: &mut App, written: &str) {
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
-    let number = || parse_quantity(written, selected.field.unit).map_err(|error| error.to_string());
-    let adhesion = document.scene().adhesion;
     let changed = match selected.setting {
-        Setting::Field | Setting::Heading | Setting::Reading(_) => {
-            let other = replaced_by(&selected.path);
-            let other =
-                other.filter(|path| document.value(path).is_some_and(|value| value != "None"));
-            let pair = |path: &str, value: &str| (path.to_owned(), value.to_owned());
-            let replaced = other.map(|path| pair(path, "None"));
-            document.set_all(
-                &replaced
-                    .into_iter()
-                    .chain([pair(&selected.path, written)])
-                    .collect::<Vec<_>>(),
-            )
+        Setting::Field | Setting::Heading | Setting::CurveOption(_) => {
+            with_field(document, &selected.path, written)
         }
         Setting::WorkOfAdhesion => {
-            let work = number()?;
-            document
-                .with_adhesion(adhesion.map_or(Adhesion::by_work(work), |of| of.with_work(work)))
+            let work = parse_number(selected, written)?;
+            let adhesion = match document.scene().adhesion {
+                Some(adhesion) => adhesion.with_work(work),
+                None => Adhesion::by_work(work),
+            };
+            document.with_adhesion(adhesion)
         }
         Setting::RoughnessParameter(parameter) => {
-            let value = number()?;
-            if !selected.field.range.contains(value) {
-                let (field, allowed) = (selected.field, selected.field.allowed());
-                return Err(format!(
-                    "{} = {}: allowed: {allowed} ({})",
-                    field.path,
-                    ron_float(value),
-                    field.name
-                ));
-            }
-            match (
-                adhesion.filter(|adhesion| adhesion.work().is_some()),
-                app.governing(),
-            ) {
-                // The scene has γ, which follows from the parameter.
-                (Some(adhesion), Some(governing)) => {
-                    let work = governing
-                        .work_for(parameter, value)
-                        .ok_or_else(|| undefined(parameter))?;
-                    document.with_adhesion(adhesion.with_work(work))
-                }
-                (Some(_), None) => return Err("the scene is still being computed".to_owned()),
-                (None, _) => {
-                    let by_parameter = Adhesion::by_parameter(parameter, value);
-                    let changed =
-                        adhesion.map_or(by_parameter, |of| of.with_parameter(parameter, value));
-                    document.with_adhesion(changed)
-                }
-            }
+            let value = parse_number(selected, written)?;
+            check_range(selected.field, value)?;
+            document.with_adhesion(with_roughness_parameter(app, parameter, value)?)
         }
     };
-    changed
-        .map_err(|errors| reasons(&errors))
-        .and_then(|changed| within_reach(app, changed))
+    let changed = changed.map_err(|errors| reasons(&errors))?;
+    within_reach(app, changed)
 }
+
+/// The number of a parameter in the notation of the scene.
+fn parse_number(parameter: &Parameter, written: &str) -> Result<f64, String> {
+    parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string())
+}
+
+/// The scene with a value of a field; a field that it replaces loses its value.
+fn with_field(document: &Document, path: &str, written: &str) -> Result<Document, SceneErrors> {
+    let mut values = Vec::new();
+    if let Some(replaced) = replaced_by(path)
+        && document
+            .value(replaced)
+            .is_some_and(|value| value != "None")
+    {
+        values.push((replaced.to_owned(), "None".to_owned()));
+    }
+    values.push((path.to_owned(), written.to_owned()));
+    document.set_all(&values)
+}
+
+/// Returns the reason why a number is out of the range of its field, if it is.
+fn check_range(field: &Field, value: f64) -> Result<(), String> {
+    if field.range.contains(value) {
+        return Ok(());
+    }
+    let value = ron_float(value);
+    Err(format!(
+        "{} = {value}: allowed: {} ({})",
+        field.path,
+        field.allowed(),
+        field.name
+    ))
+}
+
+/// The adhesion of the scene with another κ or e_el/γ. A scene that states γ keeps stating γ, which
+/// then follows from this value.
+fn with_roughness_parameter(
+    app: &App,
+    parameter: RoughnessParameter,
+    value: f64,
+) -> Result<Adhesion, String> {
+    let Some(adhesion) = app.edit.document.scene().adhesion else {
+        return Ok(Adhesion::by_parameter(parameter, value));
+    };
+    if adhesion.work().is_none() {
+        return Ok(adhesion.with_parameter(parameter, value));
+    }
+    let governing = app.governing().ok_or(STILL_COMPUTED)?;
+    match governing.work_for(parameter, value) {
+        Some(work) => Ok(adhesion.with_work(work)),
+        None => Err(undefined(parameter)),
+    }
+}
+
+/// Reason to refuse a change whose result depends on the outcome of the present scene.
+pub(super) const STILL_COMPUTED: &str = "the scene is still being computed";
 
 fn undefined(parameter: RoughnessParameter) -> String {
     format!("{} is not defined without roughness", parameter.symbol())
@@ -378,14 +402,7 @@ fn is_previewed(document: &Document) -> bool {
 
 /// Requests the curve for the value typed so far; no curve if the value is not allowed.
 pub fn preview(app: &mut App) {
-    let typed = app
-        .prompt
-        .as_ref()
-        .filter(|_| app.is_typing_value())
-        .map(|prompt| prompt.line.text());
-    let tried = typed.and_then(|typed| with_typed(app, typed).ok());
-    let tried =
-        tried.filter(|tried| tried.text() != app.edit.document.text() && is_previewed(tried));
+    let tried = tried(app);
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
         return;
     }
@@ -393,14 +410,27 @@ pub fn preview(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
+/// The scene with the value typed so far, if it is allowed, new and small enough for a preview.
+fn tried(app: &App) -> Option<Document> {
+    if !app.is_typing_value() {
+        return None;
+    }
+    let typed = app.prompt.as_ref()?.line.text();
+    let tried = with_typed(app, typed).ok()?;
+    let is_new = tried.text() != app.edit.document.text();
+    if is_new && is_previewed(&tried) {
+        Some(tried)
+    } else {
+        None
+    }
+}
+
 /// Switches the effect of the selected row on or off.
 pub fn toggle_effect(app: &mut App) {
     show_parameters(app);
     let Some(effect) = app.edit.parameter().and_then(|parameter| parameter.effect) else {
-        return refuse(
-            app,
-            "no effect to switch; form, roughness, adhesion, loading have one".to_owned(),
-        );
+        let why = "no effect to switch; form, roughness, adhesion, loading have one";
+        return refuse(app, why.to_owned());
     };
     let document = &app.edit.document;
     let changed = if effect.is_on(document.scene()) {
@@ -435,28 +465,24 @@ pub fn draw_seed(app: &mut App) {
 
 /// Makes a changed document the explored one, or states why it is not allowed.
 pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
-    match changed {
-        Ok(document) => {
-            let lost = app
-                .edit
-                .document
-                .comments()
-                .saturating_sub(document.comments());
-            // The words of a built-in scene go with the values that they describe.
-            let are_own = !document.is_changed_built_in();
-            adopt(app, document);
-            if lost > 0 && are_own {
-                let (comments, them) = if lost == 1 {
-                    ("comment", "it")
-                } else {
-                    ("comments", "them")
-                };
-                app.set_done(format!(
-                    "{lost} {comments} removed with the replaced value; u restores {them}"
-                ));
-            }
-        }
-        Err(errors) => refuse(app, reasons(&errors)),
+    let document = match changed {
+        Ok(document) => document,
+        Err(errors) => return refuse(app, reasons(&errors)),
+    };
+    let before = app.edit.document.comments();
+    let lost = before.saturating_sub(document.comments());
+    // The words of a built-in scene go with the values that they describe.
+    let are_own = !document.is_changed_built_in();
+    adopt(app, document);
+    if lost > 0 && are_own {
+        let (comments, them) = if lost == 1 {
+            ("comment", "it")
+        } else {
+            ("comments", "them")
+        };
+        app.set_done(format!(
+            "{lost} {comments} removed with the replaced value; u restores {them}"
+        ));
     }
 }
 
@@ -496,12 +522,10 @@ fn after_edit(app: &mut App) {
         .take_if(|message| !matches!(message, Message::Done(_)));
     app.progress = Some(0);
     app.map.moving = false;
-    let map = app.map.key(&app.edit.scene).unwrap_or_default();
-    app.studies.keep(&[
-        &map,
-        app.edit.document.text(),
-        &ensemble_key(&app.edit.scene),
-    ]);
+    let live_map = app.map.key(&app.edit.scene).unwrap_or_default();
+    let profiles = ensemble_key(&app.edit.scene);
+    let preview = app.edit.document.text();
+    app.studies.keep(&[&live_map, preview, &profiles]);
     // Manual loading belongs to the former profile and contact.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");

@@ -13,10 +13,8 @@ use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
     let name = app.edit.document.name();
-    let is_file = Path::new(name)
-        .extension()
-        .is_some_and(|extension| extension == "ron");
-    let file = if is_file {
+    let extension = Path::new(name).extension();
+    let file = if extension.is_some_and(|extension| extension == "ron") {
         name.to_owned()
     } else {
         format!("{name}.ron")
@@ -44,12 +42,10 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
 
 /// Asks for the file of the scene or, if that is saved, of another scene with unsaved changes.
 pub fn save_before_leaving(app: &mut App) {
-    let left = app
-        .edit
-        .unsaved()
-        .first()
-        .map(|document| Document::clone(document));
-    if let Some(document) = left.filter(|_| !app.edit.is_unsaved()) {
+    if !app.edit.is_unsaved()
+        && let Some(document) = app.edit.unsaved().first()
+    {
+        let document = Document::clone(document);
         edit::adopt(app, document);
     }
     ask_save(app, true);
@@ -57,39 +53,36 @@ pub fn save_before_leaving(app: &mut App) {
 
 pub fn ask_export(app: &mut App) {
     let name = Path::new(app.edit.document.name());
-    let stem = name
-        .file_stem()
-        .map_or_else(|| "scene".into(), |stem| stem.to_string_lossy());
-    app.ask(
-        Purpose::Export,
-        &format!("{stem}-{}.csv", app.view.pane.file_name()),
-    );
+    let stem = match name.file_stem() {
+        Some(stem) => stem.to_string_lossy(),
+        None => "scene".into(),
+    };
+    let file = format!("{stem}-{}.csv", app.view.pane.file_name());
+    app.ask(Purpose::Export, &file);
 }
 
 /// Exports the selected pane to a file; the extension of the name chooses the format.
 pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     let extensions = EXPORTS.map(Format::extension);
-    let place = check_extension(&path, &extensions)?.ok_or_else(|| {
-        let extensions = extensions
-            .map(|extension| format!(".{extension}"))
-            .join(", ");
-        format!("the extension chooses the format; use one of {extensions}")
-    })?;
+    let Some(place) = check_extension(&path, &extensions)? else {
+        let extensions = extensions.map(|extension| format!(".{extension}"));
+        return Err(format!(
+            "the extension chooses the format; use one of {}",
+            extensions.join(", ")
+        ));
+    };
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
 /// Reports the result of writing a file, and what follows from it.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
+    let is_scene = file.content == Content::Scene;
     match result {
         Ok(()) => {
-            let how = if file.content == Content::Scene {
-                "saved"
-            } else {
-                "exported"
-            };
+            let how = if is_scene { "saved" } else { "exported" };
             app.set_done(format!("{how} to {path}"));
-            if file.content == Content::Scene {
+            if is_scene {
                 app.edit.set_saved_as(&file.path);
             }
             if file.then_quit {
@@ -98,7 +91,6 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
         }
         Err(WriteFailure::Exists) => app.ask(Purpose::Overwrite(file), ""),
         Err(WriteFailure::Refused(error)) => {
-            let is_scene = file.content == Content::Scene;
             let purpose = if is_scene {
                 Purpose::Save {
                     then_quit: file.then_quit,
@@ -120,22 +112,17 @@ pub fn ask_quit(app: &mut App) {
     }
 }
 
+/// Copies the command that opens the scene, with its changes and the measured curve beside it.
 pub fn copy_command(app: &mut App) {
-    let measured = app
-        .edit
-        .measured
-        .as_ref()
-        .map_or_else(String::new, |Measured { path, options, .. }| {
-            format!(" --measured={}{options}", quoted(path))
-        });
+    let measured = match &app.edit.measured {
+        Some(Measured { path, options, .. }) => format!(" --measured={}{options}", quoted(path)),
+        None => String::new(),
+    };
+    let document = &app.edit.document;
     let program = format!("asperity{measured}");
-    let command = command_line(
-        &program,
-        app.edit.document.name(),
-        app.edit.document.overrides(),
-    );
+    let command = command_line(&program, document.name(), document.overrides());
+    // Pasted into a shell, control characters would act on its terminal.
     if command.contains(is_control) {
-        // Pasted into a shell they would act on its terminal.
         app.set_error(
             "not copied: control characters in the name of the file; allowed: a name without any",
         );

@@ -4,7 +4,7 @@ use super::edit;
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
 use crate::explorer::keys::key::direction;
-use crate::explorer::map::OpenStudy;
+use crate::explorer::map_state::OpenStudy;
 use asperity_scene::{Document, SceneErrors};
 use asperity_study::maps::GridPlace;
 use asperity_study::{Axis, Plan};
@@ -41,19 +41,21 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
         return;
     }
     let next = study.stepped(steps);
-    let goes_with = study
-        .study_map
-        .is_of(study.slice, app.edit.document.scene());
-    let followed = goes_with.then(|| study.study_map.follow(next, &app.edit.document));
     let study_map = Arc::clone(&study.study_map);
+    let followed = if study.is_of(app.edit.document.scene()) {
+        Some(study_map.follow(next, &app.edit.document))
+    } else {
+        None
+    };
     app.map.study = Some(OpenStudy::new(study_map, next));
-    if let Some(followed) = followed {
-        let was_unsaved = app.edit.is_unsaved();
-        edit::apply(app, followed);
-        // Browsing is no change that anyone has to save.
-        if !was_unsaved && !app.is_refused() {
-            app.edit.set_saved();
-        }
+    let Some(followed) = followed else {
+        return;
+    };
+    let was_unsaved = app.edit.is_unsaved();
+    edit::apply(app, followed);
+    // Browsing is no change that anyone has to save.
+    if !was_unsaved && !app.is_refused() {
+        app.edit.set_saved();
     }
 }
 
@@ -62,44 +64,55 @@ const LARGE_STEP: i32 = 4;
 
 /// Moves the mark, and with it the scene, by a column or a row of the map, or by several.
 pub fn step(app: &mut App, key: &KeyEvent) {
-    let Some(((columns, rows), is_coarse)) = direction(key) else {
+    let Some(direction) = direction(key) else {
         return;
     };
-    let [columns, rows] =
-        [columns, rows].map(|steps| steps * if is_coarse { LARGE_STEP } else { 1 });
-    let Some((at_across, at_up)) = app.place() else {
-        let why = match Plan::of_map(app.edit.document.scene()) {
-            Err(why) => why.to_string(),
-            Ok(_) if app.map.shown_study().is_some() => NO_PLACE.to_owned(),
-            Ok(_) => "the scene is still being computed: its κ follows from its profile".to_owned(),
-        };
-        app.set_error(why);
-        return;
+    let steps = if direction.is_coarse { LARGE_STEP } else { 1 };
+    let columns = direction.columns * steps;
+    let rows = direction.rows * steps;
+    let Some((place_across, place_up)) = app.place() else {
+        return app.set_error(why_no_place(app));
     };
     let Some((across, up)) = app.map_axes() else {
         return;
     };
     if rows != 0 && up.is_none() {
-        app.set_error(format!(
-            "this map has one axis, {}",
-            across.symbol_or_name()
-        ));
-        return;
+        let axis = across.symbol_or_name();
+        return app.set_error(format!("this map has one axis, {axis}"));
     }
-    let next = |at: f64, steps: i32, axis: &Axis| {
-        if steps == 0 {
-            Some(at)
-        } else {
-            axis.next_beyond(at, steps)
-        }
+    let Some(next_across) = next_on(&across, place_across, columns) else {
+        return app.set_done(EDGE);
     };
-    let to_up = match (at_up, &up) {
-        (Some(at), Some(axis)) => next(at, rows, axis).map(Some),
-        _ => Some(None),
+    let next_up = match (&up, place_up) {
+        (Some(axis), Some(place)) => match next_on(axis, place, rows) {
+            Some(next) => Some(next),
+            None => return app.set_done(EDGE),
+        },
+        _ => None,
     };
-    match (next(at_across, columns, &across), to_up) {
-        (Some(across), Some(up)) => move_to(app, (across, up)),
-        _ => app.set_done("edge of the map"),
+    move_to(app, (next_across, next_up));
+}
+
+/// Message for a step beyond the map.
+const EDGE: &str = "edge of the map";
+
+/// Why the scene has no mark on the map.
+fn why_no_place(app: &App) -> String {
+    if let Err(why) = Plan::of_map(app.edit.document.scene()) {
+        return why.to_string();
+    }
+    if app.map.shown_study().is_some() {
+        return NO_PLACE.to_owned();
+    }
+    "the scene is still being computed: its κ follows from its profile".to_owned()
+}
+
+/// The value after a number of steps on an axis; `None` beyond its ends.
+fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
+    if steps == 0 {
+        Some(value)
+    } else {
+        axis.next_beyond(value, steps)
     }
 }
 
@@ -108,35 +121,31 @@ const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity 
 
 /// Sets the scene to the values at a place on the map. Successive moves count as one edit.
 pub fn move_to(app: &mut App, place: GridPlace) {
-    let goes_on = app.map.moving;
     match moved_to(app, place) {
-        Ok(document) if goes_on => edit::replace(app, document),
+        Ok(document) if app.map.moving => edit::replace(app, document),
         moved => edit::apply(app, moved),
     }
     app.map.moving = !app.is_refused();
 }
 
 /// The scene moved to a place on the map. A preload in units of E* h L may change with the place.
-fn moved_to(app: &App, (to_across, to_up): GridPlace) -> Result<Document, SceneErrors> {
+fn moved_to(app: &App, place: GridPlace) -> Result<Document, SceneErrors> {
+    let (value_across, value_up) = place;
     let axes = app.map_axes();
-    let (across, up) = axes
-        .as_ref()
-        .map_or((None, None), |(across, up)| (Some(across), up.as_ref()));
-    let values: Vec<(&Axis, f64)> = across
-        .zip(Some(to_across))
-        .into_iter()
-        .chain(up.zip(to_up))
-        .collect();
-    let moved = Axis::set_all(&app.edit.document, &values)?;
-    match app.map.shown_study() {
-        Some(study)
-            if study
-                .study_map
-                .is_of(study.slice, app.edit.document.scene())
-                && !study.study_map.is_of(study.slice, moved.scene()) =>
-        {
-            study.study_map.follow(study.slice, &moved)
+    let mut values: Vec<(&Axis, f64)> = Vec::new();
+    if let Some((across, up)) = &axes {
+        values.push((across, value_across));
+        if let (Some(axis), Some(value)) = (up, value_up) {
+            values.push((axis, value));
         }
-        _ => Ok(moved),
     }
+    let moved = Axis::set_all(&app.edit.document, &values)?;
+    let Some(study) = app.map.shown_study() else {
+        return Ok(moved);
+    };
+    let was_of_study = study.is_of(app.edit.document.scene());
+    if was_of_study && !study.is_of(moved.scene()) {
+        return study.study_map.follow(study.slice, &moved);
+    }
+    Ok(moved)
 }

@@ -2,13 +2,13 @@
 //! parameters.
 
 use super::edit;
-use crate::explorer::action::{Reading, Task};
+use crate::explorer::action::{CurveRequest, Task};
 use crate::explorer::app::App;
+use crate::explorer::curve_options::{CurveOptionRow, OPTIONS};
 use crate::explorer::editor::Edited;
 use crate::explorer::measured::{Fitting, Measured, fitted};
 use crate::explorer::parameters::Setting;
 use crate::explorer::prompt::Purpose;
-use crate::explorer::reading::{OPTIONS, ReadingOption};
 use crate::explorer::studies::Study;
 use asperity_data::{Control, format_rounded, one_unit};
 use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
@@ -66,22 +66,19 @@ pub fn ask_fit(app: &mut App) {
 }
 
 pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
-    let free = typed
-        .split(',')
-        .map(|one| one.trim().parse())
+    let names = typed.split(',');
+    let free = names
+        .map(|name| name.trim().parse())
         .collect::<Result<Vec<Free>, String>>()?;
     if !app.is_current() {
-        return Err("the scene is still being computed".to_owned());
+        return Err(edit::STILL_COMPUTED.to_owned());
     }
-    app.studies.set(
-        app.edit.generation,
-        Fitting {
-            free,
-            evaluations: 0,
-            found: None,
-        },
-        false,
-    );
+    let fitting = Fitting {
+        free,
+        evaluations: 0,
+        found: None,
+    };
+    app.studies.set(app.edit.generation, fitting, false);
     app.effects.push(Task::Study);
     Ok(())
 }
@@ -102,23 +99,30 @@ pub fn found(app: &mut App) {
             Err(why) => app.set_error(why),
         }
     }
-    let is_offset = |one: &&FittedParameter| one.parameter == Parameter::Offset;
-    let offset =
-        fitted(&app.studies).and_then(|fit| Some(fit.parameters.iter().find(is_offset)?.value));
-    if let Some((measured, offset)) = app.edit.measured.as_mut().zip(offset) {
+    if let Some(offset) = fitted_offset(app)
+        && let Some(measured) = &mut app.edit.measured
+    {
         measured.offset = offset;
     }
 }
 
-/// The option of reading in the selected row, with the curve that it belongs to.
-fn selected(app: &App) -> Option<(&'static ReadingOption, &Measured)> {
-    match (app.edit.parameter()?.setting, &app.edit.measured) {
-        (Setting::Reading(index), Some(measured)) => Some((OPTIONS.get(index)?, measured)),
-        _ => None,
-    }
+/// Measured displacement at first touch, m, if a fit has found it.
+fn fitted_offset(app: &App) -> Option<f64> {
+    let fit = fitted(&app.studies)?;
+    let mut parameters = fit.parameters.iter();
+    let offset = parameters.find(|fitted| fitted.parameter == Parameter::Offset)?;
+    Some(offset.value)
 }
 
-/// Returns true if the selected row is an option of reading.
+/// The option in the selected row, with the curve that it belongs to.
+fn selected(app: &App) -> Option<(&'static CurveOptionRow, &Measured)> {
+    let Setting::CurveOption(index) = app.edit.parameter()?.setting else {
+        return None;
+    };
+    Some((OPTIONS.get(index)?, app.edit.measured.as_ref()?))
+}
+
+/// Returns true if the selected row is an option of the measured curve.
 pub fn is_option(app: &App) -> bool {
     selected(app).is_some()
 }
@@ -130,7 +134,7 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     };
     let options = option.with(&measured.options, &option.with_unit(measured, typed))?;
     if options != measured.options {
-        app.effects.push(Task::Read(Reading {
+        app.effects.push(Task::ReadCurve(CurveRequest {
             options,
             typed: Some(typed.to_owned()),
         }));
@@ -144,23 +148,13 @@ pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     let Some((option, measured)) = selected(app) else {
         return;
     };
-    let next = option
-        .next_choice(&measured.options, steps > 0)
-        .map(str::to_owned);
-    let written = || {
-        option
-            .field
-            .stepped(&option.value(&measured.options)?, steps, coarse)
-    };
-    let Some(next) = next.or_else(written) else {
+    let Some(next) = next_value(option, measured, steps, coarse) else {
         let name = option.field.name;
-        return edit::refuse(
-            app,
-            format!("{name}: {}; Enter types a value", option.shown(measured)),
-        );
+        let shown = option.shown(measured);
+        return edit::refuse(app, format!("{name}: {shown}; Enter types a value"));
     };
     match option.with(&measured.options, &next) {
-        Ok(options) => app.effects.push(Task::Read(Reading {
+        Ok(options) => app.effects.push(Task::ReadCurve(CurveRequest {
             options,
             typed: None,
         })),
@@ -168,58 +162,62 @@ pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
+/// The value of an option after a number of steps; `None` if it can only be typed.
+fn next_value(
+    option: &CurveOptionRow,
+    measured: &Measured,
+    steps: i32,
+    coarse: bool,
+) -> Option<String> {
+    if let Some(choice) = option.next_choice(&measured.options, steps > 0) {
+        return Some(choice.to_owned());
+    }
+    let present = option.value(&measured.options)?;
+    option.field.stepped(&present, steps, coarse)
+}
+
 /// Shows the curve as read with other options, in one edit with its loading; or states why it was
 /// not read.
-pub fn read(app: &mut App, reading: &Reading, read: Result<Box<Measured>, String>) {
-    let loaded = |measured: Box<Measured>| {
-        let document = measured.curve.load(&app.edit.document, measured.offset);
-        let document = document.map_err(|errors| errors.to_string())?;
-        Ok(Edited {
-            document,
-            measured: Some(*measured),
-        })
-    };
-    match (read.and_then(loaded), &reading.typed) {
-        (Ok(edited), _) => {
+pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured>, String>) {
+    match read.and_then(|measured| with_loading(app, *measured)) {
+        Ok(edited) => {
             edit::adopt_all(app, edited);
-            let statements = app
-                .edit
-                .measured
-                .as_ref()
-                .map(|measured| measured.curve.statements.join(" "));
-            statements
-                .into_iter()
-                .for_each(|statements| app.set_done(statements));
+            if let Some(measured) = &app.edit.measured {
+                app.set_done(measured.curve.statements.join(" "));
+            }
         }
-        (Err(why), Some(typed)) => app.ask_again(Purpose::Value, typed, &why),
-        (Err(why), None) => edit::refuse(app, why),
+        Err(why) => match &wanted.typed {
+            Some(typed) => app.ask_again(Purpose::Value, typed, &why),
+            None => edit::refuse(app, why),
+        },
     }
+}
+
+/// The present scene with the loading of a measured curve, and the curve.
+fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
+    let document = measured.curve.load(&app.edit.document, measured.offset);
+    Ok(Edited {
+        document: document.map_err(|errors| errors.to_string())?,
+        measured: Some(measured),
+    })
 }
 
 /// The fitted parameters with their intervals, in words; first of all whether the scene does not
 /// describe the curve.
 fn sentence(fit: &FitResult) -> String {
-    let found = |one: &FittedParameter| {
-        let interval = one_unit([one.interval.0, one.interval.1].map(|end| one.text(end)));
-        format!(
-            "{} {} ({interval})",
-            one.parameter.row().symbol,
-            one.text(one.value)
-        )
+    let values: Vec<String> = fit.parameters.iter().map(value_in_words).collect();
+    let values = values.join(", ");
+    let Some(reason) = &fit.reason else {
+        return format!("fit: {values}; u undoes");
     };
-    let found = fit
-        .parameters
-        .iter()
-        .map(found)
-        .collect::<Vec<_>>()
-        .join(", ");
-    match fit.reason {
-        None => format!("fit: {found}; u undoes"),
-        Some(reason) => {
-            let misfit = format_rounded(fit.misfit, 3, "1");
-            format!(
-                "the scene does not describe the curve, misfit {misfit}; {found}; {reason} u undoes"
-            )
-        }
-    }
+    let misfit = format_rounded(fit.misfit, 3, "1");
+    format!("the scene does not describe the curve, misfit {misfit}; {values}; {reason} u undoes")
+}
+
+/// A fitted parameter with its interval.
+fn value_in_words(fitted: &FittedParameter) -> String {
+    let symbol = fitted.parameter.row().symbol;
+    let (low, high) = fitted.interval;
+    let interval = one_unit([fitted.text(low), fitted.text(high)]);
+    format!("{symbol} {} ({interval})", fitted.text(fitted.value))
 }

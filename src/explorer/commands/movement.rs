@@ -4,7 +4,7 @@ use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::request::{Focus, ManualMove};
-use crate::explorer::snapshot::{ContactSnapshot, ManualState};
+use crate::explorer::snapshot::{ContactSnapshot, ManualPath, ManualState};
 use crate::explorer::typed::unit_of_force;
 use asperity_data::{in_unit, parse_quantity};
 use std::sync::Arc;
@@ -12,11 +12,14 @@ use std::time::Duration;
 
 /// Time that the animation takes for one loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
+/// Number of steps of the animation over one loading stage.
 const STEPS: f64 = 120.0;
 /// Share of a loading stage that counts as its start.
 const NEAR_START: f64 = 0.05;
-/// Number of small and of large steps of manual loading over the whole range of indentations.
-const HAND_STEPS: (f64, f64) = (400.0, 40.0);
+/// Number of small steps of manual loading over the whole range of indentations.
+const SMALL_PUSHES: f64 = 400.0;
+/// Number of large steps of manual loading over the whole range of indentations.
+const LARGE_PUSHES: f64 = 40.0;
 /// Largest number of points kept of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
@@ -29,7 +32,8 @@ pub fn toggle_manual(app: &mut App) {
 /// Presses the body by a number of steps of manual loading, or pulls it if negative.
 pub fn push(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = app.indentations().unwrap_or_default();
-    let step = (high - low) / if coarse { HAND_STEPS.1 } else { HAND_STEPS.0 };
+    let steps_over_range = if coarse { LARGE_PUSHES } else { SMALL_PUSHES };
+    let step = (high - low) / steps_over_range;
     take(app, Some(ManualMove::By(f64::from(steps) * step)))
 }
 
@@ -50,28 +54,31 @@ pub fn toggle_play(app: &mut App) {
     }
 }
 
+/// Moves the animation by a number of steps; past the end of a stage it stops at the boundary to
+/// the next one.
 pub fn step(app: &mut App, steps: i32) {
     app.manual = None;
     app.play.playing = false;
-    let share = f64::from(steps) / STEPS;
-    let to = app.play.share(app.legs()) + share;
     let player = app.play;
-    app.play = match player.leg {
-        // Not past the boundary to another stage.
-        leg if to > 1.0 && leg + 1 < app.legs().len() => Player {
-            leg: leg + 1,
+    let share = f64::from(steps) / STEPS;
+    let reached = player.share(app.legs()) + share;
+    app.play = if reached > 1.0 && player.leg + 1 < app.legs().len() {
+        Player {
+            leg: player.leg + 1,
             at: At::Start,
             ..player
-        },
-        leg if to < 0.0 && leg > 0 => Player {
-            leg: leg - 1,
+        }
+    } else if reached < 0.0 && player.leg > 0 {
+        Player {
+            leg: player.leg - 1,
             at: At::End,
             ..player
-        },
-        _ => Player {
+        }
+    } else {
+        Player {
             at: player.advanced(app.legs(), share),
             ..player
-        },
+        }
     };
 }
 
@@ -84,12 +91,10 @@ pub fn restart(app: &mut App) {
 /// first to its own start.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
-    // A playing animation is past the start at once.
-    let back = legs < 0 && app.play.share(app.legs()) > NEAR_START;
-    let leg = app
-        .play
-        .leg
-        .saturating_add_signed(if back { 0 } else { legs as isize });
+    // A playing animation has passed the start by the time of the next key.
+    let is_inside = app.play.share(app.legs()) > NEAR_START;
+    let distance = if legs < 0 && is_inside { 0 } else { legs };
+    let leg = app.play.leg.saturating_add_signed(distance as isize);
     app.play.leg = leg.min(app.legs().len().saturating_sub(1));
     app.play.at = At::Start;
 }
@@ -104,17 +109,21 @@ pub fn go_to_pull_off(app: &mut App) {
         );
         return;
     }
-    (app.play, app.manual) = (rest, None);
+    app.play = rest;
+    app.manual = None;
 }
 
+/// Lets the animation play for a time.
 pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return;
     }
     let legs = app.legs();
-    let (mut player, last) = (app.play, legs.len() - 1);
+    let last = legs.len() - 1;
+    let mut player = app.play;
     let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // The distance does not depend on the frame rate: its rest continues on the next stage.
+    // What a stage leaves of the distance continues on the next stage, so that the frame rate does
+    // not change the speed.
     while player.leg < last && share > 1.0 - player.share(legs) {
         share -= 1.0 - player.share(legs);
         player = Player {
@@ -134,35 +143,46 @@ pub fn elapse(app: &mut App, time: Duration) {
     app.play = player;
 }
 
+/// Shows a snapshot of the solver, and continues the path of manual loading with it.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
-    // Another snapshot may have been on its way when the fragment was requested.
+    // Another snapshot may have been on its way when the patch was requested.
     if snapshot.focus == app.view.close_up.focus && app.view.close_up.focus.is_question() {
         let middle = snapshot.close_up.patch.map(|facts| facts.patch.middle());
         app.view.close_up.focus = middle.map_or(Focus::Summit, Focus::Spring);
     }
-    if let Some((manual, travel)) = app.manual.as_mut().zip(snapshot.manual.as_ref()) {
-        manual
-            .path
-            .extend(travel.path.iter().map(|(_, point)| point));
-        manual
-            .stages
-            .extend(travel.path.iter().map(|(stage, _)| stage));
-        let old = manual.path.len().saturating_sub(PATH_KEPT);
-        manual.path.drain(..old);
-        manual.stages.drain(..old);
-        manual.loading.clone_from(&travel.loading);
-        if !travel.path.is_empty() {
-            manual.changed = travel.changed;
-        }
-        manual.released_energy = travel.released_energy;
-        let typed = std::mem::take(&mut manual.typed);
-        match &travel.refused {
-            Some(why) if typed.is_empty() || app.prompt.is_some() => app.set_error(why.clone()),
-            Some(why) => app.ask_again(Purpose::Force, &typed, why),
-            None => {}
-        }
+    if let Some(travelled) = &snapshot.manual {
+        continue_path(app, travelled);
     }
     app.snapshot = Some(snapshot);
+}
+
+/// Adds what the body has travelled to the path of manual loading, or states why a move was
+/// refused.
+fn continue_path(app: &mut App, travelled: &ManualPath) {
+    let Some(manual) = &mut app.manual else {
+        return;
+    };
+    for (stage, point) in &travelled.path {
+        manual.path.push(*point);
+        manual.stages.push(*stage);
+    }
+    let old = manual.path.len().saturating_sub(PATH_KEPT);
+    manual.path.drain(..old);
+    manual.stages.drain(..old);
+    manual.loading.clone_from(&travelled.loading);
+    if !travelled.path.is_empty() {
+        manual.changed = travelled.changed;
+    }
+    manual.released_energy = travelled.released_energy;
+    let typed = std::mem::take(&mut manual.typed);
+    let Some(why) = &travelled.refused else {
+        return;
+    };
+    if typed.is_empty() || app.prompt.is_some() {
+        app.set_error(why.clone());
+    } else {
+        app.ask_again(Purpose::Force, &typed, why);
+    }
 }
 
 /// Begins manual loading if it has not begun, and moves the body.
@@ -171,32 +191,34 @@ pub fn take(app: &mut App, order: Option<ManualMove>) {
         return;
     }
     if app.manual.is_none() {
-        let Player { leg, at, .. } = app.play;
-        let start = app.present().map(|snapshot| snapshot.point);
-        app.play.playing = false;
-        let at = if at == At::PullOff {
-            At::Indentation(app.indentation())
-        } else {
-            at
-        };
-        let moves = vec![ManualMove::Take { leg, at }];
-        // The start of a stage is the end of the one before, which the path may continue.
-        let stage = if at == At::Start {
-            leg.saturating_sub(1)
-        } else {
-            leg
-        };
-        let (path, stages) = start.map(|point| (point, stage)).into_iter().unzip();
-        app.manual = Some(ManualState {
-            path,
-            stages,
-            moves,
-            ..ManualState::default()
-        });
+        begin_manual(app);
     }
     if let Some(manual) = &mut app.manual {
         manual.moves.extend(order);
     }
+}
+
+/// Begins manual loading at the state that the animation shows.
+fn begin_manual(app: &mut App) {
+    app.play.playing = false;
+    let Player { leg, at, .. } = app.play;
+    let at = match at {
+        At::PullOff => At::Indentation(app.indentation()),
+        at => at,
+    };
+    let mut manual = ManualState {
+        moves: vec![ManualMove::Take { leg, at }],
+        ..ManualState::default()
+    };
+    if let Some(snapshot) = app.present() {
+        manual.path.push(snapshot.point);
+        // The start of a stage is the end of the one before, which the path may continue.
+        manual.stages.push(match at {
+            At::Start => leg.saturating_sub(1),
+            _ => leg,
+        });
+    }
+    app.manual = Some(manual);
 }
 
 pub fn accept_force(app: &mut App, typed: &str) -> Result<(), String> {

@@ -4,7 +4,7 @@ use super::edit;
 use crate::explorer::app::App;
 use crate::explorer::config::Config;
 use crate::explorer::editor::Edited;
-use crate::explorer::map::OpenStudy;
+use crate::explorer::map_state::OpenStudy;
 use crate::explorer::measured::Measured;
 use crate::explorer::opening::{Opened, Opening};
 use crate::explorer::pane::Pane;
@@ -24,9 +24,9 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     } = opening;
     let mut app = App::new(document, size, appearance, config);
     app.ghosts.extend(ghost);
-    study_map
-        .into_iter()
-        .for_each(|study_map| show_study(&mut app, study_map));
+    if let Some(study_map) = study_map {
+        show_study(&mut app, study_map);
+    }
     if let Some(measured) = measured {
         app.edit.begin_with(measured.clone());
         show_measured(&mut app, measured);
@@ -39,15 +39,10 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
-            let Opening {
-                document,
-                study_map,
-                ..
-            } = *opening;
-            edit::open(app, document);
-            study_map
-                .into_iter()
-                .for_each(|study_map| show_study(app, study_map));
+            edit::open(app, opening.document);
+            if let Some(study_map) = opening.study_map {
+                show_study(app, study_map);
+            }
         }
         Opened::Curve(measured) => show_measured(app, *measured),
     }
@@ -63,10 +58,16 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
 /// the same edit.
 fn show_measured(app: &mut App, measured: Measured) {
     let is_new = app.edit.measured.as_ref() != Some(&measured);
-    let (name, present) = (measured.name.clone(), app.edit.document.clone());
-    let (document, wrong) = match measured.curve.load(&present, measured.offset) {
+    let undone = if is_new {
+        "u closes it"
+    } else {
+        "u returns to its own"
+    };
+    let name = measured.name.clone();
+    let loaded = measured.curve.load(&app.edit.document, measured.offset);
+    let (document, wrong) = match loaded {
         Ok(document) => (document, None),
-        Err(errors) => (present, Some(errors)),
+        Err(errors) => (app.edit.document.clone(), Some(errors)),
     };
     edit::adopt_all(
         app,
@@ -75,11 +76,6 @@ fn show_measured(app: &mut App, measured: Measured) {
             measured: Some(measured),
         },
     );
-    let undone = if is_new {
-        "u closes it"
-    } else {
-        "u returns to its own"
-    };
     match wrong {
         None => app.set_done(format!(
             "{name}: the scene has the loading of the measured curve; {undone}"

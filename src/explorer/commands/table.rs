@@ -7,7 +7,7 @@ use super::{
 };
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
-use crate::explorer::keys::bindings::{ANY, Bindings, Command, Context, EXPLORE, MANUAL, Row};
+use crate::explorer::keys::bindings::{ANY, Bindings, Context, EXPLORE, KeyCommand, MANUAL, Row};
 use crate::explorer::keys::key;
 use crate::explorer::pane::Pane;
 use crate::explorer::parameters::Parameter;
@@ -31,19 +31,29 @@ enum Run {
 }
 
 /// Runs a command, which changes the state.
-pub fn run(command: Command, app: &mut App) {
-    let Some(entry) = TABLE
-        .iter()
-        .find(|entry| std::ptr::eq(&entry.row, command.row))
-    else {
+pub fn run(command: KeyCommand, app: &mut App) {
+    let Some(entry) = entry_of(command.row) else {
         return;
     };
-    // A command without a key acts as its first key does.
-    let first = || key::Key::named(command.row.keys.split(' ').next()?).map(|key| key.event());
-    match (entry.run, command.key) {
-        (Do(change), _) => change(app),
-        (Key(change), key) => key.or_else(first).iter().for_each(|key| change(app, key)),
+    match entry.run {
+        Do(change) => change(app),
+        Key(change) => {
+            if let Some(key) = command.key.or_else(|| first_key(command.row)) {
+                change(app, &key);
+            }
+        }
     }
+}
+
+/// The key with which a command acts that is run without a key.
+fn first_key(row: &Row) -> Option<KeyEvent> {
+    let name = row.keys.split(' ').next()?;
+    Some(key::Key::named(name)?.event())
+}
+
+/// The entry of the table that a row is part of.
+fn entry_of(row: &Row) -> Option<&'static Entry> {
+    TABLE.iter().find(|entry| std::ptr::eq(&entry.row, row))
 }
 
 pub fn bindings() -> Bindings {
@@ -53,14 +63,10 @@ pub fn bindings() -> Bindings {
 /// Keys and rows for the footer, the most important first; neighbouring rows with the same label
 /// are one item.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
-    let is_hidden = |row: &Row| {
-        TABLE
-            .iter()
-            .any(|entry| std::ptr::eq(&entry.row, row) && !(entry.is_shown)(app))
-    };
-    app.config
-        .bindings
-        .footer(app.keys(), app.manual.is_some(), is_hidden)
+    let is_manual = app.manual.is_some();
+    app.config.bindings.footer(app.keys(), is_manual, |row| {
+        entry_of(row).is_some_and(|entry| !(entry.is_shown)(app))
+    })
 }
 
 /// Contexts in which arrows select a parameter: not the map and the crosshair, where they move
@@ -102,24 +108,20 @@ const fn row(
     help: &'static str,
     section: &'static str,
 ) -> Entry {
-    let takes_key = matches!(run, Key(_));
-    let (rank, is_listed, merges) = (3, true, false);
-    let words = "";
-    let row = Row {
-        keys,
-        contexts,
-        name,
-        label,
-        help,
-        words,
-        section,
-        rank,
-        is_listed,
-        merges,
-        takes_key,
-    };
     Entry {
-        row,
+        row: Row {
+            keys,
+            contexts,
+            name,
+            label,
+            help,
+            words: "",
+            section,
+            rank: 3,
+            is_listed: true,
+            merges: false,
+            takes_key: matches!(run, Key(_)),
+        },
         run,
         is_shown: always,
     }

@@ -26,20 +26,26 @@ pub struct Sought {
 /// Path of the number that is sought on the row of a parameter: its own, or of the loading the
 /// preload.
 fn sought(parameter: &Parameter) -> Option<&str> {
-    match parameter.setting {
-        _ if parameter.group == "loading" => Some("preload"),
-        Setting::Heading | Setting::Reading(_) => None,
-        _ => Some(parameter.path.as_str()).filter(|_| parameter.takes_number()),
+    if parameter.group == "loading" {
+        return Some("preload");
+    }
+    let is_value = !matches!(
+        parameter.setting,
+        Setting::Heading | Setting::CurveOption(_)
+    );
+    if is_value && parameter.takes_number() {
+        Some(&parameter.path)
+    } else {
+        None
     }
 }
 
 /// Name of the number that is sought on the selected row.
 pub fn name(app: &App) -> String {
-    let parameter = app
-        .edit
-        .parameter()
-        .filter(|parameter| sought(parameter) != Some("preload"));
-    parameter.map_or_else(|| "the preload".to_owned(), Parameter::name)
+    match app.edit.parameter() {
+        Some(parameter) if sought(parameter) != Some("preload") => parameter.name(),
+        _ => "the preload".to_owned(),
+    }
 }
 
 /// Asks for a target of the selected row.
@@ -61,11 +67,11 @@ pub fn ask(app: &mut App) {
 
 /// The condition being typed; `None` without such a prompt.
 fn typed(app: &App) -> Option<&str> {
-    let prompt = app
-        .prompt
-        .as_ref()
-        .filter(|prompt| matches!(prompt.purpose, Purpose::Target))?;
-    Some(prompt.line.text())
+    let prompt = app.prompt.as_ref()?;
+    match prompt.purpose {
+        Purpose::Target => Some(prompt.line.text()),
+        _ => None,
+    }
 }
 
 /// Key of the question for the selected row with this condition.
@@ -105,75 +111,80 @@ pub fn study(app: &App) -> Option<Study> {
 /// The answer to the question with this condition; `None` while it is not known.
 fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     let key = key(app, typed)?;
-    app.studies
-        .value::<Sought>()
-        .filter(|sought| sought.key == key)
-        .map(|sought| &sought.found)
+    let sought = app.studies.value::<Sought>()?;
+    if sought.key == key {
+        Some(&sought.found)
+    } else {
+        None
+    }
 }
 
 /// The answer in words, or what is missing; `None` without a question.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
-    Some(
-        match (Question::parse_condition(typed), found(app, typed)) {
-            (Err(why), _) => why.to_string(),
-            (Ok(_), None) => "finding the value on all profiles…".to_owned(),
-            (Ok(_), Some(Ok(found))) => {
-                let any = found.question.seeks_least_preload()
-                    && found.quantile(0.5) == Some(found.question.searched.0);
-                match value(found) {
-                    Some(_) => found_in_words(found) + " Enter takes the median.",
-                    None if any => {
-                        format!("At any preload on most profiles. {}", found_in_words(found))
-                    }
-                    None => found_in_words(found),
-                }
-            }
-            (Ok(_), Some(Err(why))) => why.clone(),
-        },
-    )
+    if let Err(why) = Question::parse_condition(typed) {
+        return Some(why.to_string());
+    }
+    Some(match found(app, typed) {
+        None => "finding the value on all profiles…".to_owned(),
+        Some(Ok(known)) => answer_in_words(known),
+        Some(Err(why)) => why.clone(),
+    })
 }
 
-/// The value to take: the median over the profiles, if the target needs one.
+fn answer_in_words(found: &Found) -> String {
+    let words = found_in_words(found);
+    if value(found).is_some() {
+        return words + " Enter takes the median.";
+    }
+    let (least, _) = found.question.searched;
+    let is_met_at_any = found.question.seeks_least_preload() && found.quantile(0.5) == Some(least);
+    if is_met_at_any {
+        format!("At any preload on most profiles. {words}")
+    } else {
+        words
+    }
+}
+
+/// The value to take: the median over the profiles. `None` if the target is met at any preload, so
+/// that it needs none.
 fn value(found: &Found) -> Option<f64> {
-    let is_needed =
-        |value: &f64| !found.question.seeks_least_preload() || *value > found.question.searched.0;
-    found.quantile(0.5).filter(is_needed)
+    let median = found.quantile(0.5)?;
+    let (least, _) = found.question.searched;
+    let is_needed = !found.question.seeks_least_preload() || median > least;
+    if is_needed { Some(median) } else { None }
 }
 
 /// Gives the selected row the found value; a preload goes to the stage that presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Question::parse_condition(typed).map_err(|error| error.to_string())?;
-    let found = found(app, typed)
-        .ok_or("the value is still being found")?
-        .as_ref()
-        .map_err(Clone::clone)?;
-    let (value, is_preload) = (
-        value(found).ok_or_else(|| found_in_words(found))?,
-        found.question.is_of_preload(),
-    );
+    let known = match found(app, typed) {
+        Some(Ok(known)) => known,
+        Some(Err(why)) => return Err(why.clone()),
+        None => return Err("the value is still being found".to_owned()),
+    };
+    let median = value(known).ok_or_else(|| found_in_words(known))?;
+    let is_preload = known.question.is_of_preload();
     app.prompt = None;
     if is_preload {
-        let loading = &app.edit.document.scene().loading;
-        let force = |stage: &Move| {
-            if let Move::ToForce(force) = stage {
-                *force
-            } else {
-                f64::NEG_INFINITY
-            }
-        };
-        let most = (0..loading.len())
-            .max_by(|one, other| force(&loading[*one]).total_cmp(&force(&loading[*other])));
-        let stage = most.filter(|stage| force(&loading[*stage]) > 0.0);
-        let stage =
-            stage.ok_or("no loading stage presses to a force; V changes the kind of a stage")?;
-        let row = app
-            .edit
-            .parameters
-            .iter()
-            .position(|one| one.leg == Some(stage));
-        app.edit.select(row.unwrap_or(app.edit.selected));
+        let stage = pressing_stage(&app.edit.document.scene().loading)
+            .ok_or("no loading stage presses to a force; V changes the kind of a stage")?;
+        app.edit.select_stage(stage);
     }
-    edit::set_selected(app, &ron_float(value));
+    edit::set_selected(app, &ron_float(median));
     Ok(())
+}
+
+/// Index of the stage that presses to the largest force, the last one of several.
+fn pressing_stage(loading: &[Move]) -> Option<usize> {
+    let mut pressing: Option<(usize, f64)> = None;
+    for (index, stage) in loading.iter().enumerate() {
+        if let Move::ToForce(force) = stage
+            && *force > 0.0
+            && pressing.is_none_or(|(_, largest)| *force >= largest)
+        {
+            pressing = Some((index, *force));
+        }
+    }
+    pressing.map(|(index, _)| index)
 }

@@ -132,8 +132,9 @@ impl Demo {
             }
             Cue::Select(path) => {
                 let edit = &mut self.explorer.app.edit;
-                let place = edit.parameters.iter().position(|one| one.path == path);
-                edit.select(place.unwrap_or(0));
+                let mut rows = edit.parameters.iter();
+                let row = rows.position(|parameter| parameter.path == path);
+                edit.select(row.unwrap_or(0));
             }
             Cue::Enter(value) => {
                 self.explorer.command("edit-value");

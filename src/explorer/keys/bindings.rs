@@ -48,7 +48,7 @@ pub struct Row {
 
 /// A row of the table as a command, with the pressed key.
 #[derive(Clone, Copy, Debug)]
-pub struct Command {
+pub struct KeyCommand {
     pub row: &'static Row,
     pub key: Option<KeyEvent>,
 }
@@ -73,21 +73,20 @@ impl Row {
     /// Returns true if the configuration may replace the keys of the row. Digits and keys for
     /// prompts are fixed.
     fn is_rebindable(&self) -> bool {
-        !self.takes_key
-            && self
-                .contexts
-                .iter()
-                .all(|context| EXPLORE.contains(context))
+        let is_for_exploring = self
+            .contexts
+            .iter()
+            .all(|context| EXPLORE.contains(context));
+        is_for_exploring && !self.takes_key
     }
 
     /// Returns true if the list of commands has the row. Keys for texts and questions only work in
-    /// a prompt.
+    /// a prompt, and keys of the crosshair only while it is shown.
     fn is_listed(&self) -> bool {
-        self.is_listed
-            && self
-                .contexts
-                .iter()
-                .any(|one| EXPLORE.contains(one) && *one != Context::Crosshair)
+        let mut contexts = self.contexts.iter();
+        let works_without_prompt =
+            contexts.any(|context| EXPLORE.contains(context) && *context != Context::Crosshair);
+        self.is_listed && works_without_prompt
     }
 
     /// Group in the footer: help and quit, which even the smallest window shows; keys of this
@@ -110,12 +109,20 @@ pub struct Binding {
 
 impl Binding {
     pub fn names(&self) -> String {
-        self.keys
-            .iter()
-            .map(|key| key.name.as_str())
-            .collect::<Vec<_>>()
-            .join(" ")
+        names_of(&self.keys)
     }
+
+    /// Keys for the footer. Of keys that do different things, as arrows do, the first two are
+    /// shown, otherwise the first.
+    fn footer_names(&self) -> String {
+        let most = if self.row.takes_key { 2 } else { 1 };
+        names_of(&self.keys[..self.keys.len().min(most)])
+    }
+}
+
+fn names_of(keys: &[Key]) -> String {
+    let names: Vec<&str> = keys.iter().map(|key| key.name.as_str()).collect();
+    names.join(" ")
 }
 
 /// The keys in use: the keys of the table, replaced where the configuration has others.
@@ -125,14 +132,12 @@ pub struct Bindings(Vec<Binding>);
 impl Bindings {
     /// Creates the bindings of these rows with the keys of the table.
     pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
-        let keys = |row: &Row| row.keys.split(' ').filter_map(Key::named).collect();
-        Bindings(
-            rows.map(|row| Binding {
-                row,
-                keys: keys(row),
-            })
-            .collect(),
-        )
+        let mut bindings = Vec::new();
+        for row in rows {
+            let keys = row.keys.split(' ').filter_map(Key::named).collect();
+            bindings.push(Binding { row, keys });
+        }
+        Bindings(bindings)
     }
 
     pub fn rows(&self) -> impl Iterator<Item = &Binding> {
@@ -144,12 +149,11 @@ impl Bindings {
             .filter(move |binding| binding.row.contexts.contains(&context))
     }
 
-    pub fn command(&self, event: &KeyEvent, context: Context) -> Option<Command> {
-        let found = self
-            .valid_in(context)
-            .find(|one| one.keys.iter().any(|key| key.matches(event)))?;
-        Some(Command {
-            row: found.row,
+    pub fn command(&self, event: &KeyEvent, context: Context) -> Option<KeyCommand> {
+        let mut valid = self.valid_in(context);
+        let binding = valid.find(|binding| binding.keys.iter().any(|key| key.matches(event)))?;
+        Some(KeyCommand {
+            row: binding.row,
             key: Some(*event),
         })
     }
@@ -159,15 +163,15 @@ impl Bindings {
     }
 
     /// The command with a name in a context, with a key if the row takes one: `start-value 3`.
-    pub fn named(&self, name: &str, context: Context) -> Option<Command> {
-        let (name, key) = name
-            .split_once(' ')
-            .map_or((name, None), |(name, key)| (name, Key::named(key)));
-        let found = self
-            .valid_in(context)
-            .find(|binding| binding.row.name == name)?;
-        Some(Command {
-            row: found.row,
+    pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
+        let (name, key) = match name.split_once(' ') {
+            Some((name, key)) => (name, Key::named(key)),
+            None => (name, None),
+        };
+        let mut valid = self.valid_in(context);
+        let binding = valid.find(|binding| binding.row.name == name)?;
+        Some(KeyCommand {
+            row: binding.row,
             key: key.map(|key| key.event()),
         })
     }
@@ -180,66 +184,60 @@ impl Bindings {
         is_manual: bool,
         is_hidden: impl Fn(&'static Row) -> bool,
     ) -> Vec<(String, &'static Row)> {
-        let is_shown =
-            |binding: &&Binding| !binding.row.label.is_empty() && !is_hidden(binding.row);
-        let mut rows: Vec<&Binding> = self.valid_in(context).filter(is_shown).collect();
-        rows.sort_by_key(|binding| binding.row.place(is_manual));
-        let items = rows.chunk_by(|one, next| one.row.label == next.row.label);
-        // Of keys that differ in what they do the first two.
-        let first = |binding: &&Binding| {
-            let keys = binding
-                .keys
-                .iter()
-                .take(1 + usize::from(binding.row.takes_key));
-            keys.map(|key| key.name.as_str())
-                .collect::<Vec<_>>()
-                .join(" ")
-        };
+        let mut bindings: Vec<&Binding> = self.valid_in(context).collect();
+        bindings.retain(|binding| !binding.row.label.is_empty() && !is_hidden(binding.row));
+        bindings.sort_by_key(|binding| binding.row.place(is_manual));
+        let mut items = Vec::new();
+        for same in bindings.chunk_by(|binding, next| binding.row.label == next.row.label) {
+            let keys: Vec<String> = same.iter().map(|binding| binding.footer_names()).collect();
+            items.push((keys.join(" "), same[0].row));
+        }
         items
-            .map(|rows| {
-                (
-                    rows.iter().map(first).collect::<Vec<_>>().join(" "),
-                    rows[0].row,
-                )
-            })
-            .collect()
     }
 
     /// Replaces the keys of the function with this name. Ctrl+C always quits.
+    ///
+    /// # Errors
+    /// The wrong member of the setting, and what is wrong with it.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
-        let parsed = keys.iter().map(|name| {
-            let allowed = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
-            Key::named(name).ok_or_else(|| {
-                (
-                    "keys",
-                    format!("{name}: there is no such key; allowed: {allowed}"),
-                )
-            })
-        });
-        let mut parsed = parsed.collect::<Result<Vec<Key>, _>>()?;
-        let rebindable = self
-            .rows()
-            .map(|one| one.row)
-            .filter(|row| row.is_rebindable());
-        let names: Vec<&str> = rebindable.map(|row| row.name).collect();
-        let Some(binding) = self
+        const ALLOWED: &str = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
+        let mut parsed = Vec::new();
+        for name in keys {
+            let key = Key::named(name).ok_or_else(|| {
+                let why = format!("{name}: there is no such key; allowed: {ALLOWED}");
+                ("keys", why)
+            })?;
+            parsed.push(key);
+        }
+        let mut rebindable = self
             .0
             .iter_mut()
-            .find(|one| one.row.is_rebindable() && one.row.name == action)
-        else {
-            let near = nearest(action, names);
-            let near = near.map_or_else(String::new, |near| format!(" did you mean {near}?"));
-            let message =
-                format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all");
-            return Err(("action", message));
+            .filter(|binding| binding.row.is_rebindable());
+        let Some(binding) = rebindable.find(|binding| binding.row.name == action) else {
+            return Err(("action", self.no_such_action(action)));
         };
         if action == "quit" {
-            parsed.extend(
-                Key::named("Ctrl+c").filter(|quit| !parsed.iter().any(|key| key.overlaps(quit))),
-            );
+            let interrupt = Key::named("Ctrl+c");
+            parsed.extend(interrupt.filter(|quit| !parsed.iter().any(|key| key.overlaps(quit))));
         }
         binding.keys = parsed;
         Ok(())
+    }
+
+    fn no_such_action(&self, action: &str) -> String {
+        let mut names = Vec::new();
+        for binding in self.rebindable() {
+            names.push(binding.row.name);
+        }
+        let near = match nearest(action, names) {
+            Some(near) => format!(" did you mean {near}?"),
+            None => String::new(),
+        };
+        format!("{action}: there is no such action;{near} allowed: docs/keys.md lists all")
+    }
+
+    fn rebindable(&self) -> impl Iterator<Item = &Binding> {
+        self.rows().filter(|binding| binding.row.is_rebindable())
     }
 
     /// Lists in Markdown, for docs/keys.md: keys by section, with their functions and names for the
@@ -247,17 +245,14 @@ impl Bindings {
     pub fn markdown(&self) -> String {
         let mut text = String::new();
         let mut section = "";
-        for Binding { row, .. } in self.rows().filter(|one| one.row.is_rebindable()) {
+        for Binding { row, .. } in self.rebindable() {
             if row.section != section {
                 section = row.section;
                 text += &format!("\n**{section}**\n\n");
             }
-            let keys: Vec<String> = row
-                .keys
-                .split(' ')
-                .map(|name| format!("`{name}`"))
-                .collect();
-            text += &format!("* {}: {} (`{}`)\n", keys.join(" "), row.help, row.name);
+            let keys = row.keys.split(' ').map(|name| format!("`{name}`"));
+            let keys = keys.collect::<Vec<_>>().join(" ");
+            text += &format!("* {keys}: {} (`{}`)\n", row.help, row.name);
         }
         text
     }
@@ -265,7 +260,7 @@ impl Bindings {
     /// A key that two functions of one context share, with the names of both; `None` if there is
     /// none.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
-        ANY.iter().find_map(|context| {
+        for context in ANY {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();
             for binding in self.valid_in(*context) {
                 for key in &binding.keys {
@@ -275,8 +270,8 @@ impl Bindings {
                     seen.push((key, binding.row.name));
                 }
             }
-            None
-        })
+        }
+        None
     }
 }
 
@@ -331,7 +326,7 @@ mod tests {
     #[test]
     fn a_command_is_found_by_its_name_where_it_is_valid() {
         let bindings = bindings();
-        let name = |command: Option<Command>| {
+        let name = |command: Option<KeyCommand>| {
             command.map(|command| (command.row.name, command.key.map(|key| key.code)))
         };
         assert_eq!(

@@ -36,35 +36,12 @@ impl Key {
     /// The key with this name: a character or the word on a keyboard, with modifiers: `Up`,
     /// `Ctrl+p`, `Shift+Left`.
     pub fn named(name: &str) -> Option<Key> {
-        fn without<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
-            let named = name.split_at_checked(modifier.len());
-            let rest = named.filter(|(before, _)| before.eq_ignore_ascii_case(modifier));
-            rest.map_or((false, name), |(_, rest)| (true, rest))
-        }
-        let (control, rest) = without(name, "Ctrl+");
-        let (shift, rest) = without(rest, "Shift+");
-        let characters: Vec<char> = rest.chars().collect();
-        let known = NAMES
-            .iter()
-            .find(|(known, _)| *known == rest)
-            .map(|(_, code)| *code);
-        let (first, last) = match (known, &characters[..]) {
-            (Some(KeyCode::Tab), _) if shift => (KeyCode::BackTab, KeyCode::BackTab),
-            (Some(code), _) => (code, code),
-            // Shift is part of a character.
-            (None, &[one]) if !shift && !is_control(one) => {
-                (KeyCode::Char(one), KeyCode::Char(one))
-            }
-            (None, &[first, '–', last]) if !shift => (KeyCode::Char(first), KeyCode::Char(last)),
-            _ => {
-                let number = rest.strip_prefix('F')?.parse().ok();
-                let code = KeyCode::F(number.filter(|number| (1..=12).contains(number))?);
-                (code, code)
-            }
-        };
+        let (has_control, rest) = without_modifier(name, "Ctrl+");
+        let (has_shift, rest) = without_modifier(rest, "Shift+");
+        let (first, last) = codes(rest, has_shift)?;
         let mut modifiers = KeyModifiers::NONE;
-        modifiers.set(KeyModifiers::CONTROL, control);
-        modifiers.set(KeyModifiers::SHIFT, shift && first != KeyCode::BackTab);
+        modifiers.set(KeyModifiers::CONTROL, has_control);
+        modifiers.set(KeyModifiers::SHIFT, has_shift && first != KeyCode::BackTab);
         Some(Key {
             name: name.to_owned(),
             first,
@@ -74,11 +51,54 @@ impl Key {
     }
 }
 
-/// Step of an arrow key or of its letter: columns to the right and rows upwards. The flag marks a
-/// large step. `None` for another key.
-pub fn direction(key: &KeyEvent) -> Option<((i32, i32), bool)> {
-    let is_coarse = key.modifiers.contains(KeyModifiers::SHIFT);
-    let way = match key.code {
+/// Returns true if a name begins with a modifier, and the name without it.
+fn without_modifier<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
+    match name.split_at_checked(modifier.len()) {
+        Some((beginning, rest)) if beginning.eq_ignore_ascii_case(modifier) => (true, rest),
+        _ => (false, name),
+    }
+}
+
+/// First and last code of the key with this name; they differ for a range of characters only. Shift
+/// is part of a character, so `Shift+a` is no key.
+fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
+    if let Some((_, code)) = NAMES.iter().find(|(known, _)| *known == name) {
+        return Some(match code {
+            KeyCode::Tab if has_shift => (KeyCode::BackTab, KeyCode::BackTab),
+            code => (*code, *code),
+        });
+    }
+    let characters: Vec<char> = name.chars().collect();
+    match characters[..] {
+        [character] if !has_shift && !is_control(character) => {
+            Some((KeyCode::Char(character), KeyCode::Char(character)))
+        }
+        [first, '–', last] if !has_shift => Some((KeyCode::Char(first), KeyCode::Char(last))),
+        _ => {
+            let number: u8 = name.strip_prefix('F')?.parse().ok()?;
+            if !(1..=12).contains(&number) {
+                return None;
+            }
+            Some((KeyCode::F(number), KeyCode::F(number)))
+        }
+    }
+}
+
+/// Step of an arrow key or of its letter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeyDirection {
+    /// Columns to the right.
+    pub columns: i32,
+    /// Rows upwards.
+    pub rows: i32,
+    /// True for a large step.
+    pub is_coarse: bool,
+}
+
+/// The step of an arrow key or of its letter; a capital letter or Shift makes it large. `None` for
+/// another key.
+pub fn direction(key: &KeyEvent) -> Option<KeyDirection> {
+    let (columns, rows) = match key.code {
         KeyCode::Left | KeyCode::Char('h' | 'H') => (-1, 0),
         KeyCode::Right | KeyCode::Char('l' | 'L') => (1, 0),
         KeyCode::Up | KeyCode::Char('k' | 'K') => (0, 1),
@@ -86,7 +106,11 @@ pub fn direction(key: &KeyEvent) -> Option<((i32, i32), bool)> {
         _ => return None,
     };
     let is_capital = matches!(key.code, KeyCode::Char(letter) if letter.is_uppercase());
-    Some((way, is_coarse || is_capital))
+    Some(KeyDirection {
+        columns,
+        rows,
+        is_coarse: is_capital || key.modifiers.contains(KeyModifiers::SHIFT),
+    })
 }
 
 const NAMES: [(&str, KeyCode); 19] = [

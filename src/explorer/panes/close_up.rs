@@ -33,12 +33,9 @@ fn panel(app: &App, size: Size) -> Panel {
         return Panel::of_text("Contact patch".to_owned(), "");
     };
     let section = &snapshot.close_up.section;
+    let patches = snapshot.point.fragments;
     let title = match snapshot.close_up.patch {
-        Some(patch) => format!(
-            "Patch {} of {} ·",
-            patch.number + 1,
-            snapshot.point.fragments
-        ),
+        Some(patch) => format!("Patch {} of {patches} ·", patch.number + 1),
         None => "Nothing in contact ·".to_owned(),
     };
     let mut panel = section::panel(
@@ -46,9 +43,12 @@ fn panel(app: &App, size: Size) -> Panel {
         snapshot,
         section,
         heights(section),
-        (app.view.appearance, size.width),
+        app.view.appearance,
+        size.width,
     );
-    if let (Some(patch), None) = (snapshot.close_up.patch, snapshot.probe) {
+    if let Some(patch) = snapshot.close_up.patch
+        && snapshot.probe.is_none()
+    {
         panel
             .edge
             .extend(describe(app, patch).map(|text| vec![Text::raw(text)]));
@@ -56,10 +56,9 @@ fn panel(app: &App, size: Size) -> Panel {
     if let Body::Chart(plot) = &mut panel.body {
         if size.width < WITH_NAMES {
             // The profile beside it has the same colours.
-            plot.chart
-                .layers
-                .iter_mut()
-                .for_each(|layer| layer.name = Label::default());
+            for layer in &mut plot.chart.layers {
+                layer.name = Label::default();
+            }
         }
         plot.chart.layers.push(Layer {
             name: Label::default(),
@@ -71,15 +70,12 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// The signs at the ends of the contact patches.
 fn ends(snapshot: &ContactSnapshot) -> Layer {
-    let ends = snapshot.close_up.boundaries.iter();
-    let ends = ends
-        .map(|&(spring, height)| (section::position(snapshot.line, spring), height))
-        .collect();
-    Layer::new(
-        "patch end".into(),
-        Ink::Contact,
-        Shape::signs(ends, Sign::Ring),
-    )
+    let mut points = Vec::new();
+    for (spring, height) in &snapshot.close_up.boundaries {
+        points.push((section::position(snapshot.line, *spring), *height));
+    }
+    let signs = Shape::signs(points, Sign::Ring);
+    Layer::new("patch end".into(), Ink::Contact, signs)
 }
 
 /// Chart of the springs in the pane, for a file.
@@ -95,27 +91,29 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
-    Span::around(
-        [low, high, section.level.clamp(low - room, high + room)].into_iter(),
-        0.05,
-    )
+    let level = section.level.clamp(low - room, high + room);
+    Span::around([low, high, level].into_iter(), 0.05)
 }
 
 /// Share of a stretch below which a difference counts as rounding.
 const ROUNDING: f64 = 1e-13;
 
 /// Length and force of a contact patch, and the stretch of its most stretched spring.
-fn describe(app: &App, PatchFacts { patch, state, .. }: PatchFacts) -> [String; 4] {
-    let (largest, stretch) = (state.largest_stretch, state.most_stretched.max(0.0));
-    let is_at_limit = stretch > 0.0 && largest - stretch <= ROUNDING * largest;
-    let stretch = match format_rounded(largest, 3, "m") {
-        limit if is_at_limit => format!("stretch {limit}, its limit"),
-        limit => format!("stretch {} of {limit}", format_rounded(stretch, 3, "m")),
+fn describe(app: &App, facts: PatchFacts) -> [String; 4] {
+    let state = facts.state;
+    let limit = state.largest_stretch;
+    let stretch = state.most_stretched.max(0.0);
+    let is_at_limit = stretch > 0.0 && limit - stretch <= ROUNDING * limit;
+    let limit = format_rounded(limit, 3, "m");
+    let stretch = if is_at_limit {
+        format!("stretch {limit}, its limit")
+    } else {
+        format!("stretch {} of {limit}", format_rounded(stretch, 3, "m"))
     };
     [
         format!("δx {}", format_rounded(state.length, 3, "m")),
         app.force_in_words(app.without_rounding(state.force)),
         stretch,
-        counted(patch.springs().len() as u64, "spring"),
+        counted(facts.patch.springs().len() as u64, "spring"),
     ]
 }

@@ -7,6 +7,8 @@ use crate::explorer::caption::caption;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
+use crate::explorer::snapshot::ManualState;
+use crate::explorer::text::Part;
 use crate::explorer::theme::Meaning;
 use asperity_contact::{CurvePoint, Direction, Mark};
 use asperity_data::{AxisScale, format_rounded, grouped, quantile};
@@ -15,8 +17,9 @@ use asperity_report::{
     FitReport, ForceLoop, LoopQuantities, LoopUnits, Report, counted, force_figure, letter,
     loop_chart,
 };
-use asperity_scene::Governing;
+
 use asperity_scene::text::quoted;
+use asperity_scene::{Governing, Outcome};
 use asperity_study::half_space::SquareLoops;
 use ratatui::layout::Size;
 use ratatui::text::{Line, Span as Text};
@@ -49,11 +52,12 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     })
 }
 
-/// The curves of the kept scenes and of the present one, by their titles, or by what differs where
-/// it is the same scene or the titles are the same.
+/// The curves of the kept scenes and of the present one. A kept scene is named by its title, or by
+/// its differences if it is a variant of the present scene or both have the same title.
 fn compared(app: &App) -> Option<Figure> {
     let present = &app.edit.document;
     let mut names: Vec<String> = Vec::new();
+    let mut outcomes: Vec<&Outcome> = Vec::new();
     for ghost in &app.ghosts {
         let kept = &ghost.document;
         let is_same = kept.name() == present.name() || kept.title() == present.title();
@@ -62,31 +66,23 @@ fn compared(app: &App) -> Option<Figure> {
         } else {
             kept.title().to_owned()
         });
+        outcomes.push(&ghost.outcome);
     }
     names.push(present.title().to_owned());
-    let outcomes = app
-        .ghosts
-        .iter()
-        .map(|ghost| &*ghost.outcome)
-        .chain([&app.current()?.outcome]);
-    Some(force_figure(
-        &names
-            .iter()
-            .map(String::as_str)
-            .zip(outcomes)
-            .collect::<Vec<_>>(),
-        units(app),
-    ))
+    outcomes.push(&app.current()?.outcome);
+    let curves: Vec<(&str, &Outcome)> = names.iter().map(String::as_str).zip(outcomes).collect();
+    Some(force_figure(&curves, units(app)))
 }
 
 /// The report of the measured curve, with the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
-    let (report, options) = (fit_report(app)?, &app.edit.measured.as_ref()?.options);
-    let names: Vec<_> = report
+    let report = fit_report(app)?;
+    let options = &app.edit.measured.as_ref()?.options;
+    let names: Vec<&str> = report
         .fit
         .parameters
         .iter()
-        .map(|one| one.parameter.name())
+        .map(|fitted| fitted.parameter.name())
         .collect();
     let command = format!(
         "asperity fit {}{options} --free={}",
@@ -108,86 +104,119 @@ fn panel(app: &App, size: Size) -> Panel {
         };
         return Panel::of_text(title(app, None), reason);
     };
-    let (theme, units) = (app.view.appearance.theme, units(app));
-    let (mut head, mut names) = (Vec::new(), Vec::new());
+    let mut names = Vec::new();
     if app.is_current() {
-        let mut marks = Mark::all(app.legs());
-        marks.retain(|(mark, _)| units.shows(*mark));
-        // The most important first.
-        marks.sort_by_key(|(mark, _)| {
-            [Mark::PullOff, Mark::Preload, Mark::JumpIn]
-                .iter()
-                .position(|one| one == mark)
-                .unwrap_or(3)
-        });
-        for (mark, point) in marks {
-            let (name, force) = (
-                mark.name(),
-                units.force_in_words(app.without_rounding(point.force)),
-            );
-            let texts = vec![format!("{name} {force}"), force, name.to_owned()];
-            names.push(Name {
-                at: vec![units.place(&point)],
-                texts,
-                ink: Ink::Text,
-            });
-        }
+        names.extend(names_of_marks(app));
     }
-    for (number, ghost) in app.ghosts.iter().enumerate().rev() {
-        let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
-        let ink = Ink::Compared(number);
-        let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
-        // The curve keeps the larger part of the pane.
-        if size.height >= WITH_GHOSTS && head.len() < usize::from(size.height / 4) {
-            head.push(Line::styled(line, theme.style(meaning(ink))));
-        }
-        let at = marked(ghost).iter().map(|at| units.place(at)).collect();
-        names.push(Name {
-            at,
-            texts: vec![letter(number)],
-            ink,
-        });
-    }
+    names.extend(letters_of_ghosts(app));
     let below = residuals(app, &chart.x);
-    let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
-    let share = app
-        .adhesion_share_in_words()
-        .map(|share| vec![Text::raw(share)]);
-    let edge = state(app).into_iter().enumerate().map(|(number, text)| {
-        let sign = (number == 0).then(|| sign.clone());
-        sign.into_iter().chain([Text::raw(text)]).collect()
-    });
     let mut panel = Panel {
-        head,
-        edge: share.into_iter().chain(edge).collect(),
+        head: lines_of_ghosts(app, size),
+        edge: edge(app),
         ..Panel::of_chart(title(app, Some(&chart.y)), chart)
     };
     if let Body::Chart(plot) = &mut panel.body {
-        (plot.names, plot.below) = (names, below);
+        plot.names = names;
+        plot.below = below;
     }
     panel
+}
+
+/// Names and forces of the marked points of the present curve, the most important first.
+fn names_of_marks(app: &App) -> Vec<Name> {
+    const BY_IMPORTANCE: [Mark; 3] = [Mark::PullOff, Mark::Preload, Mark::JumpIn];
+    let units = units(app);
+    let mut marks = Mark::all(app.legs());
+    marks.retain(|(mark, _)| units.shows(*mark));
+    marks.sort_by_key(|(mark, _)| {
+        let place = BY_IMPORTANCE.iter().position(|listed| listed == mark);
+        place.unwrap_or(BY_IMPORTANCE.len())
+    });
+    let mut names = Vec::new();
+    for (mark, point) in marks {
+        let name = mark.name();
+        let force = units.force_in_words(app.without_rounding(point.force));
+        names.push(Name {
+            at: vec![units.place(&point)],
+            texts: vec![format!("{name} {force}"), force, name.to_owned()],
+            ink: Ink::Text,
+        });
+    }
+    names
+}
+
+/// The letters of the kept scenes, for places beside their curves, the newest first.
+fn letters_of_ghosts(app: &App) -> Vec<Name> {
+    let units = units(app);
+    let mut names = Vec::new();
+    for (number, ghost) in app.ghosts.iter().enumerate().rev() {
+        let places = places_of_letter(ghost);
+        names.push(Name {
+            at: places.iter().map(|point| units.place(point)).collect(),
+            texts: vec![letter(number)],
+            ink: Ink::Compared(number),
+        });
+    }
+    names
+}
+
+/// Lines above the chart that describe the kept scenes, the newest first. The chart keeps the
+/// larger part of the pane.
+fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
+    let mut lines = Vec::new();
+    if size.height < WITH_GHOSTS {
+        return lines;
+    }
+    let most = usize::from(size.height / 4);
+    for (number, ghost) in app.ghosts.iter().enumerate().rev().take(most) {
+        let force = adhesion(app, ghost).map_or_else(String::new, |force| format!(" {force} ·"));
+        let line = format!("{}:{force} {}", letter(number), differences(app, ghost));
+        let style = app
+            .view
+            .appearance
+            .theme
+            .style(meaning(Ink::Compared(number)));
+        lines.push(Line::styled(line, style));
+    }
+    lines
+}
+
+/// Texts on the right of the title: F_a/F_a,max, and the shown state after its sign.
+fn edge(app: &App) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    if let Some(share) = app.adhesion_share_in_words() {
+        parts.push(vec![Text::raw(share)]);
+    }
+    let cursor = app.view.appearance.theme.style(Meaning::Cursor);
+    for (number, text) in state(app).into_iter().enumerate() {
+        let mut part = Vec::new();
+        if number == 0 {
+            part.push(Text::styled("◆ ", cursor));
+        }
+        part.push(Text::raw(text));
+        parts.push(part);
+    }
+    parts
 }
 
 /// The shown state in words, the most important first: indentation, force and contact, and under
 /// manual loading what the last move changed. E* l is the stiffness with fixed edges (Popov and
 /// Filippov 2012, eq. (1)), p_m the mean pressure on a circle with the radius of the contact.
 fn state(app: &App) -> Vec<String> {
-    let (Some(snapshot), Some(computed)) = (app.present(), app.solved.as_ref()) else {
+    let (Some(snapshot), Some(outcome)) = (app.present(), app.outcome()) else {
         return Vec::new();
     };
-    let (outcome, point, units) = (&computed.outcome, snapshot.point, units(app));
+    let point = snapshot.point;
     let force = app.without_rounding(point.force);
     let mut parts = vec![
         format!("d {}", format_rounded(point.indentation, 3, "m")),
-        format!("F {}", units.force_in_words(force)),
+        format!("F {}", units(app).force_in_words(force)),
     ];
     match &app.manual {
-        Some(state) => {
-            parts.push(format!("{} changed", counted(state.changed, "spring")));
-            parts.push(format!(
-                "released {}",
-                format_rounded(state.released_energy, 2, "J")
-            ));
+        Some(manual) => {
+            let released = format_rounded(manual.released_energy, 2, "J");
+            parts.push(format!("{} changed", counted(manual.changed, "spring")));
+            parts.push(format!("released {released}"));
         }
         None => {
             let percent = 100.0 * point.contact_length / outcome.line.length;
@@ -204,53 +233,29 @@ fn state(app: &App) -> Vec<String> {
     parts.push(format!("E*l {}", format_rounded(stiffness, 2, "N/m")));
     let radius = snapshot.contact_radius;
     if radius > 0.0 {
-        parts.push(format!(
-            "p_m {}",
-            format_rounded(force / (PI * radius * radius), 2, "Pa")
-        ));
+        let pressure = force / (PI * radius * radius);
+        parts.push(format!("p_m {}", format_rounded(pressure, 2, "Pa")));
     }
     parts
 }
 
-/// Name of the vertical quantity with its unit, and the event at the shown state.
+/// Name of the vertical quantity with its unit, the dissipated energy if its area is shaded, and
+/// the event at the shown state.
 fn title(app: &App, y: Option<&ChartAxis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
         LoopQuantities::LengthForce => "Contact length",
         LoopQuantities::FragmentsIndentation => "Contact patches",
     };
-    let name = y.map_or_else(
-        || name.to_owned(),
-        |y| format!("{name} {}", y.symbol_with_unit()),
-    );
-    let loss =
-        if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
-            match app
-                .solved
-                .as_ref()
-                .and_then(|computed| computed.outcome.figures.dissipated_energy)
-            {
-                Some(energy) => {
-                    let number = app
-                        .solved
-                        .as_ref()
-                        .and_then(|computed| computed.outcome.tabor_number);
-                    let number = number.map_or_else(String::new, |number| {
-                        let is_low = number < Governing::LEAST_TABOR_NUMBER;
-                        let low = if is_low {
-                            format!(" < {}", Governing::LEAST_TABOR_NUMBER)
-                        } else {
-                            String::new()
-                        };
-                        format!(", Tabor μ {}{low}", format_rounded(number, 3, "1"))
-                    });
-                    format!(" · ΔW {}{number}", format_rounded(energy, 3, "J"))
-                }
-                None => " · ΔW open".to_owned(),
-            }
-        } else {
-            String::new()
-        };
+    let name = match y {
+        Some(axis) => format!("{name} {}", axis.symbol_with_unit()),
+        None => name.to_owned(),
+    };
+    let loss = if shows_loss(app) {
+        format!(" · {}", loss(app))
+    } else {
+        String::new()
+    };
     let event = match caption(app) {
         _ if app.is_computing() => " · computing".to_owned(),
         Some(event) => format!(" · {event}"),
@@ -259,12 +264,37 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
     format!("{name}{loss}{event}")
 }
 
+/// Returns true if the area of the dissipated energy is shaded; only the force over the
+/// indentation has this area.
+fn shows_loss(app: &App) -> bool {
+    app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation
+}
+
+/// The dissipated energy in words, with the Tabor number on which its size depends.
+fn loss(app: &App) -> String {
+    let Some(outcome) = app.outcome() else {
+        return "ΔW open".to_owned();
+    };
+    let Some(energy) = outcome.figures.dissipated_energy else {
+        return "ΔW open".to_owned();
+    };
+    let energy = format_rounded(energy, 3, "J");
+    let Some(tabor_number) = outcome.tabor_number else {
+        return format!("ΔW {energy}");
+    };
+    let low = if tabor_number < Governing::LEAST_TABOR_NUMBER {
+        format!(" < {}", Governing::LEAST_TABOR_NUMBER)
+    } else {
+        String::new()
+    };
+    let tabor_number = format_rounded(tabor_number, 3, "1");
+    format!("ΔW {energy}, Tabor μ {tabor_number}{low}")
+}
+
 fn units(app: &App) -> LoopUnits {
     let quantities = app.view.curve.quantities;
-    match app.solved.as_ref() {
-        Some(computed) => {
-            LoopUnits::of_scene(quantities, &computed.outcome, app.view.curve.normalised)
-        }
+    match app.outcome() {
+        Some(outcome) => LoopUnits::of_scene(quantities, outcome, app.view.curve.normalised),
         None => LoopUnits::si(quantities),
     }
 }
@@ -277,36 +307,34 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// The residuals of the measured curve over this horizontal axis, in units of the noise; without
-/// points until they are computed, and `None` without a curve or an axis of the force.
+/// The residuals of the measured curve over this horizontal axis, in units of the noise. The chart
+/// has no points until they are computed; there is none without a curve or an axis of the force.
 fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let units = units(app);
-    let measured = app.edit.measured.as_ref().filter(|_| units.shows_force())?;
-    let fit = fitted(&app.studies).filter(|_| app.is_current());
-    let residuals: Vec<f64> = fit.map_or_else(Vec::new, |fit| measured.residuals(&fit.model));
-    let points = measured.points(stiffness(app)?);
-    let points: Vec<_> = points
-        .iter()
-        .zip(&residuals)
-        .map(|(point, residual)| (units.place(point).0, *residual))
-        .collect();
+    if !units.shows_force() {
+        return None;
+    }
+    let measured = app.edit.measured.as_ref()?;
+    let residuals = match fitted(&app.studies) {
+        Some(fit) if app.is_current() => measured.residuals(&fit.model),
+        _ => Vec::new(),
+    };
+    let measured_points = measured.points(stiffness(app)?);
+    let mut points = Vec::new();
+    for (point, residual) in measured_points.iter().zip(&residuals) {
+        points.push((units.place(point).0, *residual));
+    }
     let half = half_range(residuals);
-    let y = ChartAxis::new(
-        AxisScale::Linear,
-        Span {
-            low: -half,
-            high: half,
-        },
-        "residual over noise",
-        "",
-        "1",
-    );
-    let dots = Layer::unnamed(Ink::Kept, Shape::signs(points, Sign::Point));
-    Some(Chart::new(
-        x.clone(),
-        y,
-        vec![Layer::unnamed(Ink::Quiet, Shape::Level(0.0)), dots],
-    ))
+    let span = Span {
+        low: -half,
+        high: half,
+    };
+    let y = ChartAxis::new(AxisScale::Linear, span, "residual over noise", "", "1");
+    let layers = vec![
+        Layer::unnamed(Ink::Quiet, Shape::Level(0.0)),
+        Layer::unnamed(Ink::Kept, Shape::signs(points, Sign::Point)),
+    ];
+    Some(Chart::new(x.clone(), y, layers))
 }
 
 /// Share of the residuals in the range of their strip; the few others, as at a jump of the contact,
@@ -314,164 +342,201 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
 const IN_RANGE: f64 = 0.98;
 
 /// The smallest of 5, 10, 20, 50 and so on that is as large as nearly all residuals.
-fn half_range(mut residuals: Vec<f64>) -> f64 {
-    residuals
-        .iter_mut()
-        .for_each(|residual| *residual = residual.abs());
-    residuals.sort_by(f64::total_cmp);
-    let most = quantile(&residuals, IN_RANGE).unwrap_or(0.0);
-    let steps = (0..12).flat_map(|power| [5.0, 10.0, 20.0].map(|step| step * 10_f64.powi(power)));
-    steps.into_iter().find(|step| *step >= most).unwrap_or(most)
+fn half_range(residuals: Vec<f64>) -> f64 {
+    let mut sizes: Vec<f64> = residuals.into_iter().map(f64::abs).collect();
+    sizes.sort_by(f64::total_cmp);
+    let most = quantile(&sizes, IN_RANGE).unwrap_or(0.0);
+    for power in 0..12 {
+        for step in [5.0, 10.0, 20.0] {
+            let half = step * 10_f64.powi(power);
+            if half >= most {
+                return half;
+            }
+        }
+    }
+    most
 }
 
 /// Stiffness of the instrument of the shown scene, N/m; `None` before a scene is computed.
 fn stiffness(app: &App) -> Option<f64> {
-    let outcome = &app.solved.as_ref()?.outcome;
-    Some(
-        outcome
-            .instrument
-            .map_or(f64::INFINITY, |instrument| instrument.stiffness),
-    )
+    match app.outcome()?.instrument {
+        Some(instrument) => Some(instrument.stiffness),
+        None => Some(f64::INFINITY),
+    }
 }
 
-/// The chart without the names that the pane writes elsewhere: of marks, kept scenes and axes.
+/// The chart with the mark of the shown state, and without the names that the pane writes
+/// elsewhere: of marks, kept scenes and axes.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     if let Some(snapshot) = app.present() {
         let (x, y) = units(app).place(&snapshot.point);
-        let at = (
-            x.clamp(chart.x.span.low, chart.x.span.high),
-            y.clamp(chart.y.span.low, chart.y.span.high),
-        );
-        chart.layers.push(Layer::unnamed(
-            Ink::Cursor,
-            Shape::signs(vec![at], Sign::Diamond),
-        ));
+        let x = x.clamp(chart.x.span.low, chart.x.span.high);
+        let y = y.clamp(chart.y.span.low, chart.y.span.high);
+        let mark = Shape::signs(vec![(x, y)], Sign::Diamond);
+        chart.layers.push(Layer::unnamed(Ink::Cursor, mark));
     }
-    for layer in chart
-        .layers
-        .iter_mut()
-        .filter(|layer| matches!(layer.ink, Ink::Text | Ink::Compared(_)))
-    {
-        layer.name = Label::default();
+    for layer in &mut chart.layers {
+        if matches!(layer.ink, Ink::Text | Ink::Compared(_)) {
+            layer.name = Label::default();
+        }
     }
     Some(chart)
 }
 
-/// The loop, curves compared with it, the path of manual loading, and marks.
+/// The loop, curves compared with it, the path of manual loading, and marks. Later curves are drawn
+/// over earlier ones.
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
-    let unmarked = |outcome| ForceLoop {
+    let measured = measured_points(app);
+    let bands = bands_of_squares(app);
+    let mut loops = Vec::new();
+    loops.extend(measured.as_deref().map(measured_loop));
+    loops.extend(bands.iter().flat_map(loops_of_band));
+    for (number, ghost) in app.ghosts.iter().enumerate() {
+        loops.push(ghost_loop(app, number, ghost));
+    }
+    loops.extend(app.tried_outcome().map(preview_loop));
+    loops.push(present_loop(app, app.outcome()?, measured.is_some()));
+    loops.extend(app.manual.as_ref().map(manual_loop));
+    let mut chart = loop_chart(&loops, units);
+    for layer in &mut chart.layers {
+        if layer.name.to_string() == MEASURED {
+            layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
+        }
+    }
+    // Areas are drawn below the curves, so that no curve is interrupted.
+    for [lower, _, upper] in &bands {
+        let border = lower.iter().chain(upper.iter().rev());
+        insert_area(&mut chart, units, border);
+    }
+    if shows_loss(app) {
+        let border = app.legs().iter().flat_map(|leg| &leg.curve);
+        insert_area(&mut chart, units, border);
+    }
+    Some(chart)
+}
+
+/// Inserts the area inside a closed border of points, below the curves of a chart.
+fn insert_area<'a>(
+    chart: &mut Chart,
+    units: LoopUnits,
+    border: impl Iterator<Item = &'a CurvePoint>,
+) {
+    let border = border.map(|point| units.place(point)).collect();
+    let area = Layer::unnamed(Ink::Kept, Shape::Inside(border));
+    chart.layers.insert(1, area);
+}
+
+/// The points of the measured curve; `None` without a curve, an axis of the force or a computed
+/// scene.
+fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
+    if !units(app).shows_force() {
+        return None;
+    }
+    let measured = app.edit.measured.as_ref()?;
+    Some(measured.points(stiffness(app)?))
+}
+
+/// Mean and scatter of the loops of random squares, if they are shown: for each direction three
+/// curves, the lower end, the mean and the upper end.
+fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
+    if !app.view.squares || !units(app).shows_force() {
+        return Vec::new();
+    }
+    match app.studies.value::<SquareLoops>() {
+        Some(loops) => loops.bands(),
+        None => Vec::new(),
+    }
+}
+
+/// A single curve that is no loop of a scene.
+fn curve_alone(points: &[CurvePoint]) -> ForceLoop<'_> {
+    ForceLoop {
+        curves: vec![(Direction::Unloading, points)],
+        ..ForceLoop::new(&[])
+    }
+}
+
+/// The loop of an outcome without its marked points.
+fn unmarked_loop(outcome: &Outcome) -> ForceLoop<'_> {
+    ForceLoop {
         marks: Vec::new(),
         ..ForceLoop::of_outcome(outcome)
-    };
-    let ghosts = app
-        .ghosts
-        .iter()
-        .enumerate()
-        .map(|(number, ghost)| ForceLoop {
-            name: Some(Label::plain(&format!(
-                "{}: {}",
-                letter(number),
-                differences(app, ghost)
-            ))),
-            ink: Some(Ink::Compared(number)),
-            stroke: Some(Stroke::Sparse),
-            ..unmarked(&ghost.outcome)
-        });
-    let squares = app
-        .studies
-        .value::<SquareLoops>()
-        .filter(|_| app.view.squares && units.shows_force());
-    let bands = squares.map_or_else(Vec::new, SquareLoops::bands);
-    let edges = bands.iter().flat_map(|band| {
-        band.iter()
-            .zip([Stroke::Sparse, Stroke::Solid, Stroke::Sparse])
-    });
-    let squares = edges.map(|(curve, stroke)| ForceLoop {
-        curves: vec![(Direction::Unloading, curve)],
+    }
+}
+
+fn measured_loop(points: &[CurvePoint]) -> ForceLoop<'_> {
+    ForceLoop {
+        name: Some(MEASURED.into()),
+        ink: Some(Ink::Kept),
+        ..curve_alone(points)
+    }
+}
+
+fn loops_of_band(band: &[Vec<CurvePoint>; 3]) -> [ForceLoop<'_>; 3] {
+    let [lower, mean, upper] = band;
+    let curves = [
+        (lower, Stroke::Sparse),
+        (mean, Stroke::Solid),
+        (upper, Stroke::Sparse),
+    ];
+    curves.map(|(points, stroke)| ForceLoop {
         ink: Some(Ink::Kept),
         stroke: Some(stroke),
-        ..ForceLoop::new(&[])
-    });
-    let tried = app.tried_outcome().map(|outcome| ForceLoop {
+        ..curve_alone(points)
+    })
+}
+
+fn ghost_loop<'a>(app: &App, number: usize, ghost: &'a Ghost) -> ForceLoop<'a> {
+    let name = format!("{}: {}", letter(number), differences(app, ghost));
+    ForceLoop {
+        name: Some(Label::plain(&name)),
+        ink: Some(Ink::Compared(number)),
+        stroke: Some(Stroke::Sparse),
+        ..unmarked_loop(&ghost.outcome)
+    }
+}
+
+fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
+    ForceLoop {
         name: Some("preview".into()),
         ink: Some(Ink::Kept),
         stroke: Some(Stroke::Dashed),
-        ..unmarked(outcome)
-    });
-    let outcome = &app.solved.as_ref()?.outcome;
-    let points = app.edit.measured.as_ref().filter(|_| units.shows_force());
-    let points = points
-        .zip(stiffness(app))
-        .map(|(measured, stiffness)| measured.points(stiffness));
-    // Over dots a line without gaps is legible.
-    let stroke = points.is_some().then_some(Stroke::Solid);
-    // A curve of a scene changed since stays in the background until the new one is there.
-    let present = match app.is_current() {
-        true => ForceLoop {
+        ..unmarked_loop(outcome)
+    }
+}
+
+/// The loop of the shown scene. If the scene has changed since, its curve stays in the background
+/// until the new one is computed. Over measured points only a line without gaps can be seen.
+fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> ForceLoop<'a> {
+    let stroke = if is_over_points {
+        Some(Stroke::Solid)
+    } else {
+        None
+    };
+    if app.is_current() {
+        ForceLoop {
             stroke,
             ..ForceLoop::of_outcome(outcome)
-        },
-        false => ForceLoop {
+        }
+    } else {
+        ForceLoop {
             ink: Some(Ink::Quiet),
             stroke,
-            ..unmarked(outcome)
-        },
-    };
-    let manual = app.manual.as_ref().map(|manual| ForceLoop {
-        curves: vec![(Direction::Unloading, &manual.path)],
+            ..unmarked_loop(outcome)
+        }
+    }
+}
+
+fn manual_loop(manual: &ManualState) -> ForceLoop<'_> {
+    ForceLoop {
         name: Some("manual".into()),
         ink: Some(Ink::Manual),
         stroke: Some(Stroke::Dashed),
-        ..ForceLoop::new(&[])
-    });
-    let data = points.as_ref().map(|points| ForceLoop {
-        curves: vec![(Direction::Unloading, points)],
-        name: Some(MEASURED.into()),
-        ink: Some(Ink::Kept),
-        ..ForceLoop::new(&[])
-    });
-    let loops: Vec<ForceLoop<'_>> = data
-        .into_iter()
-        .chain(squares)
-        .chain(ghosts)
-        .chain(tried)
-        .chain([present])
-        .chain(manual)
-        .collect();
-    let mut chart = loop_chart(&loops, units);
-    for layer in chart
-        .layers
-        .iter_mut()
-        .filter(|layer| layer.name.to_string() == MEASURED)
-    {
-        layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
+        ..curve_alone(&manual.path)
     }
-    // Below the curves, which stay whole.
-    for [lower, _, upper] in &bands {
-        let border = lower
-            .iter()
-            .chain(upper.iter().rev())
-            .map(|point| units.place(point))
-            .collect();
-        chart
-            .layers
-            .insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
-    }
-    if app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation {
-        let border = app
-            .legs()
-            .iter()
-            .flat_map(|leg| &leg.curve)
-            .map(|point| units.place(point))
-            .collect();
-        chart
-            .layers
-            .insert(1, Layer::unnamed(Ink::Kept, Shape::Inside(border)));
-    }
-    Some(chart)
 }
 
 /// Values of a kept scene that differ from the present scene, in words.
@@ -481,43 +546,37 @@ fn differences(app: &App, ghost: &Ghost) -> String {
     })
 }
 
-/// Number of points of each loading stage of a kept scene beside which its letter may stand.
+/// Number of points on the curve of each loading stage beside which the letter of a kept scene may
+/// be written.
 const PLACES: usize = 8;
 
-/// Points beside which the letter of a kept scene may stand: its marks, the pull-off first, and
-/// some of its curve.
-fn marked(ghost: &Ghost) -> Vec<CurvePoint> {
+/// Points beside which the letter of a kept scene may be written: its marks, the pull-off first,
+/// and some points of its curve, the last stage first.
+fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
     let mut marks = Mark::all(legs);
     marks.retain(|(mark, _)| *mark != Mark::JumpOut);
-    let curves = legs.iter().rev().map(|leg| &leg.curve);
-    let some =
-        curves.flat_map(|curve| curve.iter().step_by((curve.len() / PLACES).max(1)).copied());
-    marks
-        .into_iter()
-        .rev()
-        .map(|(_, point)| point)
-        .chain(some)
-        .collect()
+    let mut places: Vec<CurvePoint> = marks.into_iter().rev().map(|(_, point)| point).collect();
+    for leg in legs.iter().rev() {
+        let step = (leg.curve.len() / PLACES).max(1);
+        places.extend(leg.curve.iter().step_by(step).copied());
+    }
+    places
 }
 
 /// Adhesion force of a kept scene, and how much more or less the present scene has:
 /// `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
-    let force = ghost.outcome.figures.adhesion_force?;
+    let kept = ghost.outcome.figures.adhesion_force?;
+    let kept_in_words = units.force_in_words(kept);
     let present = app
         .current()
-        .and_then(|one| one.outcome.figures.adhesion_force);
-    let difference =
-        present
-            .filter(|present| *present != force)
-            .map_or_else(String::new, |present| {
-                let more = if present > force { "more" } else { "less" };
-                format!(
-                    ", now {} {more}",
-                    units.force_in_words((present - force).abs())
-                )
-            });
-    Some(format!("F_a {}{difference}", units.force_in_words(force)))
+        .and_then(|computed| computed.outcome.figures.adhesion_force);
+    let Some(present) = present.filter(|present| *present != kept) else {
+        return Some(format!("F_a {kept_in_words}"));
+    };
+    let more = if present > kept { "more" } else { "less" };
+    let difference = units.force_in_words((present - kept).abs());
+    Some(format!("F_a {kept_in_words}, now {difference} {more}"))
 }

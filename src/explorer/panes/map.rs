@@ -3,7 +3,7 @@
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
-use crate::explorer::map::{Live, OpenStudy};
+use crate::explorer::map_state::{Live, OpenStudy};
 use crate::explorer::panel::{Panel, entries, in_theme, shades};
 use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
@@ -93,42 +93,42 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Map of the regimes or of a quantity over two axes; `None` for a grid along one axis.
+/// Map of the regimes or of a quantity over two axes; `None` for a grid along one axis. The shades
+/// show the regimes, so no cell has a letter, and in a map of another quantity letters would hide
+/// the boundary.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
     if let Some(map) = chart.map_mut() {
-        // The shades show the regimes; in a map of another quantity letters would hide the
-        // boundary.
-        map.contour = map.contour.take().filter(|_| !mapped.is_regime());
-        map.class_names
-            .iter_mut()
-            .for_each(|class| class.letter = None);
+        if mapped.is_regime() {
+            map.contour = None;
+        }
+        for class in &mut map.class_names {
+            class.letter = None;
+        }
     }
     Some(chart)
 }
 
 /// Curves over the only axis of a map, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
-    let quantities = shown_quantities(app.mapped(), grid);
-    let curves = quantities
-        .into_iter()
-        .filter(|quantity| !quantity.is_regime());
-    let mark = app.place().map(|(across, _)| across);
-    let chart = |quantity| {
-        let mut chart = study_curves(grid, quantity).into_iter().next()?;
-        if let Some(mark) = mark {
-            let top = chart.y.scale.number(chart.y.span.high);
-            chart
-                .layers
-                .push(Layer::unnamed(Ink::Cursor, Shape::Upright(mark)));
-            chart.layers.push(Layer::unnamed(
-                Ink::Cursor,
-                Shape::signs(vec![(mark, top)], Sign::Diamond),
-            ));
+    let mut charts = Vec::new();
+    for quantity in shown_quantities(app.mapped(), grid) {
+        if quantity.is_regime() {
+            continue;
         }
-        Some(chart)
-    };
-    curves.filter_map(chart).collect()
+        let Some(mut chart) = study_curves(grid, quantity).into_iter().next() else {
+            continue;
+        };
+        if let Some((mark, _)) = app.place() {
+            let top = chart.y.scale.number(chart.y.span.high);
+            let sign = Shape::signs(vec![(mark, top)], Sign::Diamond);
+            let upright = Shape::Upright(mark);
+            chart.layers.push(Layer::unnamed(Ink::Cursor, upright));
+            chart.layers.push(Layer::unnamed(Ink::Cursor, sign));
+        }
+        charts.push(chart);
+    }
+    charts
 }
 
 /// Figure of the pane: the map, together with the quantities that decide the regimes if these are
@@ -136,17 +136,15 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
-        Some(_) => {
-            let shown = shown_quantities(app.mapped(), grid).into_iter();
-            shown
-                .filter_map(|quantity| study_map(grid, quantity, false))
-                .collect()
-        }
+        Some(_) => shown_quantities(app.mapped(), grid)
+            .into_iter()
+            .filter_map(|quantity| study_map(grid, quantity, false))
+            .collect(),
     };
-    let study = app.map.shown_study();
-    let title = study.map_or(&app.edit.document.scene().title, |study| {
-        &study.study_map.plan().title
-    });
+    let title = match app.map.shown_study() {
+        Some(study) => &study.study_map.plan().title,
+        None => &app.edit.document.scene().title,
+    };
     study_figure(title, grid, charts)
 }
 
@@ -155,33 +153,35 @@ fn title(app: &App) -> String {
     let Some((across, up)) = app.map_axes() else {
         return "Map".to_owned();
     };
-    let over = [Some(&across), up.as_ref()]
-        .into_iter()
-        .flatten()
-        .map(Axis::symbol_or_name);
-    let over = over.collect::<Vec<_>>().join(", ");
-    let mapped = app
-        .grid()
-        .map_or_else(|| "regime".to_owned(), |grid| name_of(grid, app.mapped()));
-    let (name, lines) = match app.map.shown_study() {
+    let mut over = across.symbol_or_name().to_owned();
+    if let Some(up) = &up {
+        over = format!("{over}, {}", up.symbol_or_name());
+    }
+    let mapped = match app.grid() {
+        Some(grid) => name_of(grid, app.mapped()),
+        None => "regime".to_owned(),
+    };
+    let (name, profiles) = match app.map.shown_study() {
         Some(OpenStudy { study_map, .. }) => (
             format!("Study {}: {mapped}", study_map.name()),
             study_map.plan().lines,
         ),
-        None => {
-            let lines = app
-                .studies
-                .value::<Live>()
-                .map_or(Plan::PROFILES_OF_MAP, |live| live.map.plan().lines);
-            (format!("Map of {mapped}"), lines)
-        }
+        None => (format!("Map of {mapped}"), profiles_of_live_map(app)),
     };
-    let profiles = if lines == 1 {
+    let profiles = if profiles == 1 {
         "1 profile".to_owned()
     } else {
-        format!("{} profiles", grouped(lines))
+        format!("{} profiles", grouped(profiles))
     };
     format!("{name} over {over}, {profiles}")
+}
+
+/// Number of random profiles in each cell of the live map.
+fn profiles_of_live_map(app: &App) -> u64 {
+    match app.studies.value::<Live>() {
+        Some(live) => live.map.plan().lines,
+        None => Plan::PROFILES_OF_MAP,
+    }
 }
 
 fn nothing_yet(app: &App) -> String {
@@ -207,12 +207,8 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
         return format!("regime ({})", quantity.short_protocol());
     }
     let symbol = quantity.symbol();
-    let is_only = grid
-        .layers
-        .iter()
-        .filter(|layer| layer.quantity.symbol() == symbol)
-        .count()
-        == 1;
+    let symbols = grid.layers.iter().map(|layer| layer.quantity.symbol());
+    let is_only = symbols.filter(|other| *other == symbol).count() == 1;
     if is_only && !symbol.is_empty() {
         symbol.to_owned()
     } else {
@@ -220,127 +216,138 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
     }
 }
 
-/// Legend: label of the vertical axis, shades with their meaning, classes, and which map of the
-/// study is shown.
+/// Legend: which map of the study is shown, label of the vertical axis, shades with their meaning,
+/// and classes.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
+    let Some(grid) = app.grid() else {
+        return Vec::new();
+    };
+    let mut lines = match app.map.shown_study() {
+        Some(study) => filled(parts_of_slice(app, study, grid), "  ", width),
+        None => Vec::new(),
+    };
+    lines.extend(filled(parts_of_shades(app, chart, width), "  ", width));
+    lines
+}
+
+/// Label of the vertical axis, and the shades with their meaning: regimes, or numbers and the
+/// boundary.
+fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else {
         return Vec::new();
     };
     let look = app.view.appearance;
-    let title = |text: String| Text::styled(text, look.theme.style(Meaning::Title));
     let mut parts = shades(chart, look, width);
-    if app.mapped().is_regime() {
-        parts.truncate(1);
-        // From the densest: the regimes, and cells whose profiles are in one and the next.
-        for (class, shade) in map.class_names.iter().zip(SHADES.iter().rev().step_by(2)) {
-            let shade = Text::styled(*shade, in_theme(look, |style| (style.ink)(class.ink)));
-            parts.push(vec![shade, Text::raw(format!(" {}", class.name))]);
-        }
-        if grid.is_split(app.mapped()) {
-            parts.push(vec![Text::raw(format!(
-                "{} {} profiles disagree",
-                SHADES[3], SHADES[1]
-            ))]);
-        }
-    } else {
+    if !app.mapped().is_regime() {
         // The last name belongs to the boundary.
-        parts.extend(entries(chart, look).pop().filter(|_| map.contour.is_some()));
+        let boundary = entries(chart, look).pop();
+        if map.contour.is_some() {
+            parts.extend(boundary);
+        }
+        return parts;
     }
-    let Some(study) = app.map.shown_study() else {
-        return filled(parts, "  ", width);
-    };
-    let slices = study.study_map.slices();
-    let mut slice: Vec<Part> = grid
-        .fixed
-        .iter()
-        .map(|at| vec![title(at.clone())])
-        .collect();
-    if slices > 1 {
-        let which = format!(
-            "{} of {}, P: the next",
-            grouped(study.slice + 1),
-            grouped(slices)
-        );
-        slice.push(vec![Text::styled(which, look.theme.style(Meaning::Key))]);
+    parts.truncate(1);
+    // Every second shade is of a regime, the densest first. The shades between them are of cells
+    // whose profiles are in this regime and in the next one.
+    let shades_of_regimes = SHADES.iter().rev().step_by(2);
+    for (class, shade) in map.class_names.iter().zip(shades_of_regimes) {
+        let style = in_theme(look, |style| (style.ink)(class.ink));
+        let name = Text::raw(format!(" {}", class.name));
+        parts.push(vec![Text::styled(*shade, style), name]);
     }
-    let mut lines = filled(slice, "  ", width);
-    lines.extend(filled(parts, "  ", width));
-    lines
+    if grid.is_split(app.mapped()) {
+        let text = format!("{} {} profiles disagree", SHADES[3], SHADES[1]);
+        parts.push(vec![Text::raw(text)]);
+    }
+    parts
 }
 
-fn on_axes(grid: &Grid, (across, up): GridPlace) -> String {
-    let on_axis = |axis: &Axis, value| {
-        format!(
-            "{} {}",
-            axis.symbol_or_name(),
-            format_rounded(value, 3, axis.unit)
-        )
-    };
-    let up = grid
-        .up
-        .as_ref()
-        .zip(up)
-        .map(|(axis, value)| on_axis(axis, value));
-    let parts: Vec<String> = [on_axis(&grid.across, across)]
-        .into_iter()
-        .chain(up)
-        .collect();
-    parts.join(", ")
+/// The values of the further axes at the shown map of a study, and its number among the maps.
+fn parts_of_slice(app: &App, study: &OpenStudy, grid: &Grid) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for value in &grid.fixed {
+        parts.push(vec![Text::styled(value.clone(), app.style(Meaning::Title))]);
+    }
+    let slices = study.study_map.slices();
+    if slices > 1 {
+        let number = grouped(study.slice + 1);
+        let text = format!("{number} of {}, P: the next", grouped(slices));
+        parts.push(vec![Text::styled(text, app.style(Meaning::Key))]);
+    }
+    parts
+}
+
+/// A place in words: `H 0.8, κ 1.5`.
+fn on_axes(grid: &Grid, place: GridPlace) -> String {
+    let (across, up) = place;
+    let mut text = on_axis(&grid.across, across);
+    if let Some(axis) = &grid.up
+        && let Some(value) = up
+    {
+        text = format!("{text}, {}", on_axis(axis, value));
+    }
+    text
+}
+
+fn on_axis(axis: &Axis, value: f64) -> String {
+    let value = format_rounded(value, 3, axis.unit);
+    format!("{} {value}", axis.symbol_or_name())
 }
 
 /// Lines below the map: the position of the scene with the values of the nearest cell, and why the
 /// map is incomplete or not that of the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
-    let study = app.map.shown_study();
-    let is_of_scene = study.is_none_or(|study| {
-        study
-            .study_map
-            .is_of(study.slice, app.edit.document.scene())
-    });
-    let mark = match app.place() {
-        Some(place) => {
-            let outside = if grid.contains(place) {
-                ""
-            } else {
-                ", outside the map"
-            };
-            let cell = grid.nearest(place).map_or_else(
-                || "not computed".to_owned(),
-                |near| cell_values(app, grid, place, near),
-            );
-            format!("◆ {}{outside}: {cell}", on_axes(grid, place))
-        }
-        None => "no mark: the scene lacks a quantity of the axes".to_owned(),
-    };
-    let missing = match (study, app.studies.failure::<Live>()) {
-        _ if !is_of_scene => Some(
-            "the scene no longer belongs to the study: it differs in more than the quantities of the axes"
-                .to_owned(),
-        ),
-        (None, Some(why)) => Some(format!("map incomplete: {why}")),
-        (None, None) if app.studies.value::<Live>().is_some_and(|live| !live.map.is_whole()) => {
-            Some("computing further cells…".to_owned())
-        }
-        _ => None,
-    };
-    let key = app.view.appearance.theme.style(Meaning::Key);
-    let lines = [
-        Some(Line::raw(mark)),
-        missing.map(|missing| Line::styled(missing, key)),
-    ];
+    let mut lines = wrapped(&Line::raw(mark_in_words(app, grid)), width);
+    if let Some(missing) = missing(app) {
+        let missing = Line::styled(missing, app.style(Meaning::Key));
+        lines.extend(wrapped(&missing, width));
+    }
     lines
-        .into_iter()
-        .flatten()
-        .flat_map(|line| wrapped(&line, width))
-        .collect()
 }
 
+/// The position of the scene with the values of the nearest cell.
+fn mark_in_words(app: &App, grid: &Grid) -> String {
+    let Some(place) = app.place() else {
+        return "no mark: the scene lacks a quantity of the axes".to_owned();
+    };
+    let outside = if grid.contains(place) {
+        ""
+    } else {
+        ", outside the map"
+    };
+    let values = cell_values(app, grid, place).unwrap_or_else(|| "not computed".to_owned());
+    format!("◆ {}{outside}: {values}", on_axes(grid, place))
+}
+
+/// Why the map is incomplete or not that of the scene, if it is so.
+fn missing(app: &App) -> Option<String> {
+    if let Some(study) = app.map.shown_study() {
+        let scene = app.edit.document.scene();
+        if study.is_of(scene) {
+            return None;
+        }
+        let why = "the scene no longer belongs to the study: it differs in more than the quantities of the axes";
+        return Some(why.to_owned());
+    }
+    if let Some(why) = app.studies.failure::<Live>() {
+        return Some(format!("map incomplete: {why}"));
+    }
+    let live = app.studies.value::<Live>()?;
+    if live.map.is_whole() {
+        return None;
+    }
+    Some("computing further cells…".to_owned())
+}
+
+/// The quantities that decide a regime.
 fn deciding(regime: Quantity) -> [Quantity; 2] {
-    let after_zero_force = usize::from(regime == Quantity::RegimeAfterZeroForce);
-    [
-        Quantity::ADHESION_SHARES[after_zero_force],
-        Quantity::AdhesionCoefficient,
-    ]
+    let [share, share_after_zero_force] = Quantity::ADHESION_SHARES;
+    let share = if regime == Quantity::RegimeAfterZeroForce {
+        share_after_zero_force
+    } else {
+        share
+    };
+    [share, Quantity::AdhesionCoefficient]
 }
 
 /// Quantities that are shown together: with a regime the quantities that decide it, if there are
@@ -349,88 +356,77 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];
     }
-    let both: Vec<_> = deciding(mapped)
-        .into_iter()
-        .filter(|one| grid.layer(*one).is_some())
-        .collect();
-    let first = || grid.quantities().into_iter().find(|one| !one.is_regime());
-    if both.is_empty() {
-        vec![first().unwrap_or(mapped)]
-    } else {
-        both
+    let mut shown = deciding(mapped).to_vec();
+    shown.retain(|quantity| grid.layer(*quantity).is_some());
+    if shown.is_empty() {
+        let mut quantities = grid.quantities().into_iter();
+        let first = quantities.find(|quantity| !quantity.is_regime());
+        shown.push(first.unwrap_or(mapped));
     }
+    shown
 }
 
-/// Values of the cell nearest to the mark, and its position unless the mark is there.
-fn cell_values(
-    app: &App,
-    grid: &Grid,
-    mark: GridPlace,
-    (cell, column, row): (&Result<GridCell, String>, usize, usize),
-) -> String {
-    let place = (
-        grid.across.values[column],
-        grid.up.as_ref().map(|up| up.values[row]),
-    );
-    let at = on_axes(grid, place);
-    let at = if at == on_axes(grid, mark) {
+/// Values of the cell nearest to the mark, and its position unless the mark is there; `None` if no
+/// cell is computed.
+fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
+    let (cell, column, row) = grid.nearest(mark)?;
+    let across = grid.across.values[column];
+    let up = grid.up.as_ref().map(|up| up.values[row]);
+    let place = on_axes(grid, (across, up));
+    let place = if place == on_axes(grid, mark) {
         String::new()
     } else {
-        format!("at {at} ")
+        format!("at {place} ")
     };
     let cell = match cell {
         Ok(cell) => cell,
-        Err(why) => return format!("{at}{why}"),
+        Err(why) => return Some(format!("{place}{why}")),
     };
-    // Quantities of a regime are shown together, so that the map keeps its place.
     let mapped = app.mapped();
-    let regime = Quantity::REGIMES
-        .into_iter()
-        .find(|regime| deciding(*regime).contains(&mapped));
-    let mapped = regime.unwrap_or(mapped);
-    let regimes = cell.regimes_of(mapped);
-    let regime = regimes.most().map(|(regime, count)| {
-        let lines = regimes.profiles() as u64;
-        let share = if lines == 1 {
-            String::new()
-        } else {
-            format!(
-                " ({} of {} profiles)",
-                grouped(count as u64),
-                grouped(lines)
-            )
-        };
-        format!("{} {}{share}", regime.name(), mapped.protocol())
-    });
+    // Quantities that decide a regime are shown together with it, so that the map keeps its place
+    // when another of them is mapped.
+    let mut regimes = Quantity::REGIMES.into_iter();
+    let decided = regimes.find(|regime| deciding(*regime).contains(&mapped));
+    let mapped = decided.unwrap_or(mapped);
+    let mut parts = Vec::new();
+    parts.extend(regime_in_words(cell, mapped));
     let shown = shown_quantities(mapped, grid);
-    let known = grid
-        .layers
-        .iter()
-        .zip(&cell.statistics)
-        .filter(|(layer, _)| shown.contains(&layer.quantity));
-    let values = known.filter_map(|(layer, all)| {
-        let quantity = layer.quantity;
-        Some(format!(
-            "{} {}",
-            name_of(grid, quantity),
-            value((*all)?, quantity.unit())
-        ))
-    });
-    format!(
-        "{at}{}",
-        regime
-            .into_iter()
-            .chain(values)
-            .collect::<Vec<_>>()
-            .join(", ")
-    )
+    for (layer, statistics) in grid.layers.iter().zip(&cell.statistics) {
+        if let Some(statistics) = statistics
+            && shown.contains(&layer.quantity)
+        {
+            let name = name_of(grid, layer.quantity);
+            let value = value(*statistics, layer.quantity.unit());
+            parts.push(format!("{name} {value}"));
+        }
+    }
+    Some(format!("{place}{}", parts.join(", ")))
+}
+
+/// The regime of most profiles of a cell, and of how many of them.
+fn regime_in_words(cell: &GridCell, mapped: Quantity) -> Option<String> {
+    let regimes = cell.regimes_of(mapped);
+    let (regime, count) = regimes.most()?;
+    let words = format!("{} {}", regime.name(), mapped.protocol());
+    let profiles = regimes.profiles() as u64;
+    if profiles == 1 {
+        return Some(words);
+    }
+    let count = grouped(count as u64);
+    Some(format!(
+        "{words} ({count} of {} profiles)",
+        grouped(profiles)
+    ))
 }
 
 /// A mean in words, with median and range if the profiles differ.
-fn value(all: Statistics, unit: &str) -> String {
-    let [mean, median] = [all.mean, all.quartiles[1]].map(|value| format_rounded(value, 2, unit));
-    match all.range {
-        (least, most) if least == most => mean,
-        range => format!("{mean} (median {median}, {})", format_range(range, 2, unit)),
+fn value(statistics: Statistics, unit: &str) -> String {
+    let mean = format_rounded(statistics.mean, 2, unit);
+    let (least, most) = statistics.range;
+    if least == most {
+        return mean;
     }
+    let median = format_rounded(statistics.quartiles[1], 2, unit);
+    let range = format_range((least, most), 2, unit);
+    format!("{mean} (median {median}, {range})")
 }

@@ -46,10 +46,10 @@ pub fn row(pane: Pane) -> &'static PaneRow {
 /// Panel of a pane, with the crosshair, for an area of this size inside the frame.
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
-    // The crosshair of profile and close-up is at a spring.
-    let is_chart =
+    // On profile and close-up the crosshair is at a spring, and they draw it themselves.
+    let draws_crosshair =
         pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
-    if let Some(position) = app.view.crosshair.filter(|_| is_chart) {
+    if draws_crosshair && let Some(position) = app.view.crosshair {
         panel.read_at(position, app.view.appearance, size.width);
     }
     panel
@@ -57,23 +57,16 @@ pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
 
 /// Figure of a pane for a file; `None` if it has no chart.
 pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
-    (row(pane).figure)(app, &(row(pane).panel)(app, EXPORTED))
+    let properties = row(pane);
+    let content = (properties.panel)(app, EXPORTED);
+    (properties.figure)(app, &content)
 }
 
 /// Returns the pane at a cell of the screen and what it shows there.
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
-    let layout = Layout::of(app);
-    let (pane, area) = layout
-        .panes
-        .into_iter()
-        .find(|(_, area)| area.contains(cell))?;
-    Some((
-        pane,
-        panel::under(
-            &panel(app, pane, inside(area).as_size()),
-            area,
-            app.view.appearance,
-            cell,
-        ),
-    ))
+    let mut panes = Layout::of(app).panes.into_iter();
+    let (pane, area) = panes.find(|(_, area)| area.contains(cell))?;
+    let content = panel(app, pane, inside(area).as_size());
+    let under = panel::under(&content, area, app.view.appearance, cell);
+    Some((pane, under))
 }

@@ -18,8 +18,12 @@ use std::sync::Arc;
 pub static ROW: PaneRow = PaneRow {
     panel,
     figure: |app, _| {
-        let (chart, beside) = charts(app, app.studies.value()?);
-        Some(preload_figure(app.edit.document.title(), chart, beside))
+        let charts = Charts::new(app, app.studies.value()?);
+        Some(preload_figure(
+            app.edit.document.title(),
+            charts.curves,
+            charts.distribution,
+        ))
     },
     report,
     studies: |app, computed| {
@@ -53,27 +57,27 @@ pub static ROW: PaneRow = PaneRow {
 /// The drawn curves, with the command that computes them as a table.
 fn report(app: &App) -> Exported<'_> {
     let curve = app.studies.value::<PreloadCurve>()?;
-    let (axis, lines) = (&curve.axis, curve.results.plan().lines);
-    let (from, to) = (axis.values.first()?, axis.values.last()?);
+    let axis = &curve.axis;
+    let from = axis.values.first()?;
+    let to = axis.values.last()?;
     let scale = if axis.scale() == AxisScale::Logarithmic {
         ":log"
     } else {
         ""
     };
-    let lines = if lines > 1 {
-        format!(" --profiles {lines}")
+    let profiles = curve.results.plan().lines;
+    let profiles = if profiles > 1 {
+        format!(" --profiles {profiles}")
     } else {
         String::new()
     };
-    let command = format!(
-        "asperity run --preloads={from:?}..{to:?}:{}{scale}{lines} --curves",
-        axis.count()
-    );
-    let (title, results) = (app.edit.document.title(), &curve.results);
+    let count = axis.count();
+    let command =
+        format!("asperity run --preloads={from:?}..{to:?}:{count}{scale}{profiles} --curves");
     let report = PreloadReport {
-        title,
+        title: app.edit.document.title(),
         choice: None,
-        results,
+        results: &curve.results,
         staircase: Some(&curve.staircase),
         curves: true,
     };
@@ -83,70 +87,66 @@ fn report(app: &App) -> Exported<'_> {
 fn panel(app: &App, size: Size) -> Panel {
     let name = "Adhesion force";
     let Some(curve) = app.studies.value::<PreloadCurve>() else {
-        return Panel::of_text(
-            name.to_owned(),
-            app.studies
-                .failure::<PreloadCurve>()
-                .unwrap_or("computing …"),
-        );
+        let failure = app.studies.failure::<PreloadCurve>();
+        return Panel::of_text(name.to_owned(), failure.unwrap_or("computing …"));
     };
-    let look = app.view.appearance;
-    let (chart, beside) = charts(app, curve);
-    let chart = chart.with_symbols();
+    let charts = Charts::new(app, curve);
+    let chart = charts.curves.with_symbols();
     let title = format!("{name} {}", chart.y.symbol_with_unit());
-    let is_begun = !curve.is_whole() && curve.profiles() >= 1;
-    let progress = is_begun.then(|| {
-        vec![Text::raw(format!(
-            "{} of {} profiles",
-            curve.profiles(),
-            PreloadCurve::PROFILES
-        ))]
-    });
+    let mut edge = Vec::new();
+    let computed = curve.profiles();
+    if !curve.is_whole() && computed >= 1 {
+        let progress = format!("{computed} of {} profiles", PreloadCurve::PROFILES);
+        edge.push(vec![Text::raw(progress)]);
+    }
     let warning = warning(&curve.results.spread_of_adhesion()).unwrap_or_default();
-    let foot = wrapped(
-        &Line::styled(warning, look.theme.style(Meaning::Key)),
-        size.width,
-    );
-    let edge = progress.into_iter().collect();
+    let warning = Line::styled(warning, app.style(Meaning::Key));
     let mut panel = Panel {
         edge,
-        foot,
+        foot: wrapped(&warning, size.width),
         ..Panel::of_chart(title, chart)
     };
     if let Body::Chart(plot) = &mut panel.body {
-        plot.beside = beside.map(Chart::with_symbols);
+        plot.beside = charts.distribution.map(Chart::with_symbols);
     }
     panel
 }
 
-/// The curves with the preload of the scene, and the distribution over the profiles at the
-/// crosshair or at the preload of the scene.
-fn charts(app: &App, curve: &PreloadCurve) -> (Chart, Option<Chart>) {
-    let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
-    let mut chart = preload_chart(
-        &curve.staircase,
-        &curve.results.spread_of_adhesion(),
-        ideal.is_none(),
-    );
-    let figures = app.current().map(|one| one.outcome.figures);
-    let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
-    if let Some((preload, force)) = present {
-        let shape = Shape::signs(vec![(preload, force)], Sign::Diamond);
-        chart
-            .layers
-            .push(Layer::new("present preload".into(), Ink::Cursor, shape));
+/// The charts of the pane.
+struct Charts {
+    /// Adhesion force against preload, with the preload of the scene.
+    curves: Chart,
+    /// Distribution over the profiles at the crosshair or at the preload of the scene.
+    distribution: Option<Chart>,
+}
+
+impl Charts {
+    fn new(app: &App, curve: &PreloadCurve) -> Self {
+        let ideal = app.ideal_adhesion_force().filter(|_| app.is_normalised());
+        let spread = curve.results.spread_of_adhesion();
+        let mut curves = preload_chart(&curve.staircase, &spread, ideal.is_none());
+        let figures = app.current().map(|solved| solved.outcome.figures);
+        let present = figures.and_then(|figures| figures.preload.zip(figures.adhesion_force));
+        if let Some((preload, force)) = present {
+            let sign = Shape::signs(vec![(preload, force)], Sign::Diamond);
+            let layer = Layer::new("present preload".into(), Ink::Cursor, sign);
+            curves.layers.push(layer);
+        }
+        // The crosshair is a share of the axis, so it stays at its place when the unit changes.
+        let axis = &curves.x;
+        let read = match app.view.crosshair {
+            Some(share) => {
+                let coordinate = axis.span.low + share * axis.span.width();
+                Some(axis.scale.number(coordinate))
+            }
+            None => present.map(|(preload, _)| preload),
+        };
+        let distribution =
+            read.and_then(|preload| distribution(&curve.results, preload, Some(&curves.y)));
+        let unit = ideal.map(|ideal| (ideal, "F_a,max"));
+        Charts {
+            curves: curves.over(unit, unit),
+            distribution: distribution.map(|chart| chart.over(None, unit)),
+        }
     }
-    let x = &chart.x;
-    // At the same place whatever the unit.
-    let crosshair = app
-        .view
-        .crosshair
-        .map(|share| x.scale.number(x.span.low + share * x.span.width()));
-    let read = crosshair.or(present.map(|(preload, _)| preload));
-    let beside = read.and_then(|preload| distribution(&curve.results, preload, Some(&chart.y)));
-    let unit = ideal.map(|ideal| (ideal, "F_a,max"));
-    (
-        chart.over(unit, unit),
-        beside.map(|beside| beside.over(None, unit)),
-    )
 }

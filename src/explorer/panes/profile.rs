@@ -8,10 +8,10 @@ use crate::explorer::layout::Layout;
 use crate::explorer::pane::Pane;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::snapshot::ContactSnapshot;
-use crate::explorer::theme::Appearance;
+
 use asperity_data::{AxisScale, format_quantity};
 use asperity_plot::{Chart, ChartAxis, Ink, Layer, Shape, Span, Stroke, prefixed};
-use asperity_report::Part as LinePart;
+use asperity_report::{Part as LinePart, Section};
 use asperity_surface::lines::Histogram;
 use std::f64::consts::TAU;
 
@@ -20,25 +20,7 @@ pub static ROW: PaneRow = PaneRow {
         let Some(snapshot) = app.snapshot.as_deref() else {
             return Panel::of_text(title(app), "…");
         };
-        let histogram = app
-            .solved
-            .as_ref()
-            .and_then(|computed| computed.outcome.histogram.as_ref());
-        let z = section::heights(app, snapshot);
-        let mut panel = of_scene(
-            &title(app),
-            snapshot,
-            histogram,
-            z,
-            (app.view.appearance, size.width),
-        );
-        let is_marked = Layout::of(app).pane(Pane::CloseUp).is_some();
-        if let (Body::Chart(plot), true) = (&mut panel.body, is_marked) {
-            let (part, shown) = (&snapshot.close_up.section, &snapshot.profile);
-            let share = |spring: usize| (spring as f64 - shown.first as f64) / shown.springs as f64;
-            plot.contact.marked = Some((share(part.first), share(part.first + part.springs)));
-        }
-        panel
+        with_profile(app, snapshot, size.width)
     },
     figure: |app, _| {
         let chart = of_springs(app, LinePart::drawn)?;
@@ -65,109 +47,142 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
 }
 
 fn title(app: &App) -> String {
-    let Some(snapshot) = app
-        .snapshot
-        .as_ref()
-        .filter(|_| app.view.profile.share < 1.0)
-    else {
+    let is_whole = app.view.profile.share >= 1.0;
+    let Some(snapshot) = app.snapshot.as_ref().filter(|_| !is_whole) else {
         return "Profile".to_owned();
     };
-    let length = |springs: f64| format_quantity(springs * snapshot.line.spacing, "m");
-    let share = format!(
-        "{} of {}",
-        length(snapshot.profile.springs as f64),
-        length(snapshot.line.points as f64)
-    );
-    format!("Profile, {share},")
+    let spacing = snapshot.line.spacing;
+    let shown = format_quantity(snapshot.profile.springs as f64 * spacing, "m");
+    let whole = format_quantity(snapshot.line.points as f64 * spacing, "m");
+    format!("Profile, {shown} of {whole},")
 }
 
-/// Panel of the profile and the distribution of heights of a scene in one state; `z` is the range
-/// of heights, m.
-fn of_scene(
-    title: &str,
-    snapshot: &ContactSnapshot,
-    histogram: Option<&Histogram>,
-    z: Span,
-    look: (Appearance, u16),
-) -> Panel {
-    let mut panel = section::panel(title, snapshot, &snapshot.profile, z, look);
-    if let Body::Chart(plot) = &mut panel.body {
-        plot.beside = Some(distribution(histogram, plot.chart.y.clone()));
-        plot.contact.springs = snapshot
-            .profile
-            .columns
-            .iter()
-            .map(|column| column.contact.is_some())
-            .collect();
+/// Panel of the profile in one state, with the distribution of heights, in a pane of this width.
+fn with_profile(app: &App, snapshot: &ContactSnapshot, width: u16) -> Panel {
+    let z = section::heights(app, snapshot);
+    let look = app.view.appearance;
+    let mut panel = section::panel(&title(app), snapshot, &snapshot.profile, z, look, width);
+    let Body::Chart(plot) = &mut panel.body else {
+        return panel;
+    };
+    let histogram = app.outcome().and_then(|outcome| outcome.histogram.as_ref());
+    plot.beside = Some(distribution(histogram, plot.chart.y.clone()));
+    for column in &snapshot.profile.columns {
+        plot.contact.springs.push(column.contact.is_some());
+    }
+    let has_close_up = Layout::of(app).pane(Pane::CloseUp).is_some();
+    if has_close_up {
+        let part = &snapshot.close_up.section;
+        let from = share_of_section(&snapshot.profile, part.first);
+        let to = share_of_section(&snapshot.profile, part.first + part.springs);
+        plot.contact.marked = Some((from, to));
     }
     panel
 }
 
+/// Position of a spring as a share of a section, below 0 or above 1 if the spring is outside.
+fn share_of_section(section: &Section, spring: usize) -> f64 {
+    (spring as f64 - section.first as f64) / section.springs as f64
+}
+
+/// Number of points of the curve of a normal distribution.
 const POINTS: usize = 65;
 
 /// Density of heights in the bins of a histogram, and the normal distribution with the same mean
 /// and rms height.
 fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
-        return Chart::new(
-            ChartAxis::new(
-                AxisScale::Linear,
-                Span {
-                    low: 0.0,
-                    high: 1.0,
-                },
-                "",
-                "",
-                "1",
-            ),
-            z,
-            Vec::new(),
-        );
+        let span = Span {
+            low: 0.0,
+            high: 1.0,
+        };
+        let density = ChartAxis::new(AxisScale::Linear, span, "", "", "1");
+        return Chart::new(density, z, Vec::new());
     };
-    let count: u64 = histogram.counts.iter().sum();
-    let width = (histogram.high - histogram.low) / histogram.counts.len() as f64;
-    let bins = histogram.counts.iter().enumerate().map(|(index, &bin)| {
-        let low = histogram.low + width * index as f64;
-        (low, bin as f64 / count as f64)
-    });
-    let bins: Vec<(f64, f64)> = bins.collect();
-    let mean: f64 = bins
-        .iter()
-        .map(|(low, share)| (low + 0.5 * width) * share)
-        .sum();
-    let square = |(low, share): &(f64, f64)| (low + 0.5 * width - mean).powi(2) * share;
-    let rms = bins.iter().map(square).sum::<f64>().sqrt();
-    let normal = |at: f64| (-0.5 * ((at - mean) / rms).powi(2)).exp() / (rms * TAU.sqrt());
-    let most = bins
-        .iter()
-        .map(|(_, share)| share / width)
-        .chain([normal(mean)])
+    let bins = Bins::new(histogram);
+    let densities = bins.shares.iter().map(|share| share / bins.width);
+    let most = densities
+        .chain([bins.normal_density(bins.mean)])
         .fold(0.0, f64::max);
     // A unit of length that makes the largest density a number of few digits.
     let (divisor, unit) = prefixed("m", 1e3 / most);
-    let boxes = bins
-        .iter()
-        .map(|(low, share)| ((0.0, divisor * share / width), (*low, low + width)));
+    let mut boxes = Vec::new();
+    for (index, share) in bins.shares.iter().enumerate() {
+        let low = bins.low(index);
+        let density = divisor * share / bins.width;
+        boxes.push(((0.0, density), (low, low + bins.width)));
+    }
     let step = z.span.width() / (POINTS - 1) as f64;
-    let heights = (0..POINTS).map(|index| z.span.low + step * index as f64);
-    let points = heights.map(|at| (divisor * normal(at), at)).collect();
+    let mut points = Vec::new();
+    for index in 0..POINTS {
+        let height = z.span.low + step * index as f64;
+        points.push((divisor * bins.normal_density(height), height));
+    }
     let layers = vec![
         Layer::new(
             "normal".into(),
             Ink::Surface,
             Shape::line(points, Stroke::Dotted),
         ),
-        Layer::unnamed(Ink::Profile, Shape::Boxes(boxes.collect())),
+        Layer::unnamed(Ink::Profile, Shape::Boxes(boxes)),
     ];
     let span = Span {
         low: 0.0,
         high: 1.05 * divisor * most,
     };
-    Chart::new(
-        ChartAxis::new(AxisScale::Linear, span, &format!("1/{unit}"), "", "1"),
-        z,
-        layers,
-    )
+    let density = ChartAxis::new(AxisScale::Linear, span, &format!("1/{unit}"), "", "1");
+    Chart::new(density, z, layers)
+}
+
+/// Bins of a histogram of heights, with the moments of their middles.
+struct Bins {
+    /// Lower end of the first bin, m.
+    lowest: f64,
+    /// Width of a bin, m.
+    width: f64,
+    /// Share of the springs in each bin.
+    shares: Vec<f64>,
+    /// Mean height, m.
+    mean: f64,
+    /// Rms height about the mean, m.
+    rms: f64,
+}
+
+impl Bins {
+    fn new(histogram: &Histogram) -> Self {
+        let count: u64 = histogram.counts.iter().sum();
+        let mut bins = Bins {
+            lowest: histogram.low,
+            width: (histogram.high - histogram.low) / histogram.counts.len() as f64,
+            shares: Vec::new(),
+            mean: 0.0,
+            rms: 0.0,
+        };
+        for bin in &histogram.counts {
+            bins.shares.push(*bin as f64 / count as f64);
+        }
+        let heights = (0..bins.shares.len()).map(|index| bins.low(index) + 0.5 * bins.width);
+        let heights: Vec<f64> = heights.collect();
+        let moments = heights.iter().zip(&bins.shares);
+        bins.mean = moments.map(|(height, share)| height * share).sum();
+        let moments = heights.iter().zip(&bins.shares);
+        let square: f64 = moments
+            .map(|(height, share)| (height - bins.mean).powi(2) * share)
+            .sum();
+        bins.rms = square.sqrt();
+        bins
+    }
+
+    /// Lower end of a bin, m.
+    fn low(&self, index: usize) -> f64 {
+        self.lowest + self.width * index as f64
+    }
+
+    /// Density of the normal distribution at a height, 1/m.
+    fn normal_density(&self, height: f64) -> f64 {
+        let deviation = (height - self.mean) / self.rms;
+        (-0.5 * deviation.powi(2)).exp() / (self.rms * TAU.sqrt())
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
-use crate::explorer::snapshot::{ManualState, SolvedScene};
+use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use asperity_plot::Figure;
 use asperity_report::{PathReport, Report, RunReport};
@@ -51,36 +51,25 @@ pub const OPEN_COMMAND: &str = "asperity";
 /// Report of the pane's result: the path of manual loading, or else the outcome of the scene with
 /// its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
-    let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
-    if let Some(ManualState {
-        loading,
-        path,
-        stages,
-        ..
-    }) = &app.manual
-    {
-        return Some((
-            OPEN_COMMAND.into(),
-            Box::new(PathReport {
-                scene,
-                loading,
-                path,
-                stages,
-            }),
-        ));
+    let scene = app.edit.document.scene();
+    if let Some(manual) = &app.manual {
+        let report = PathReport {
+            scene,
+            loading: &manual.loading,
+            path: &manual.path,
+            stages: &manual.stages,
+        };
+        return Some((OPEN_COMMAND.into(), Box::new(report)));
     }
-    let outcome = &app.current()?.outcome;
+    let measured = app.studies.value::<MeasuredAdhesion>();
     let report = RunReport {
-        title,
+        title: app.edit.document.title(),
         scene,
-        outcome,
+        outcome: &app.current()?.outcome,
         choice: None,
         estimate: app.studies.value(),
         ensemble: app.studies.value(),
-        deviation: app
-            .studies
-            .value::<MeasuredAdhesion>()
-            .and_then(MeasuredAdhesion::fit_deviation),
+        deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
     };
     Some(("asperity run".into(), Box::new(report)))
 }

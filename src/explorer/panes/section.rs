@@ -4,7 +4,7 @@
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
-use crate::explorer::snapshot::ContactSnapshot;
+use crate::explorer::snapshot::{ContactSnapshot, Probe};
 use crate::explorer::text::Part;
 use crate::explorer::theme::{Appearance, Meaning};
 use asperity_data::format_quantity;
@@ -13,14 +13,15 @@ use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Panel of a section over the position; `z` is the range of heights, m. Beside its title are the
-/// readings of the crosshair.
+/// Panel of a section over the position, in a pane of this width; `z` is the range of heights, m.
+/// Beside its title are the readings of the crosshair.
 pub fn panel(
     title: &str,
     snapshot: &ContactSnapshot,
     section: &Section,
     z: Span,
-    (look, width): (Appearance, u16),
+    look: Appearance,
+    width: u16,
 ) -> Panel {
     let mut chart = section.chart(snapshot.line, z).with_symbols();
     // Without colours the stroke separates the surface from the profile.
@@ -28,19 +29,21 @@ pub fn panel(
         surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
     }
     if let Some(probe) = snapshot.probe {
-        let lines = [
-            Shape::Upright(position(snapshot.line, probe.spring)),
-            Shape::Level(probe.height),
-        ];
-        // Below the curves, which remain complete.
-        chart
-            .layers
-            .splice(0..0, lines.map(|line| Layer::unnamed(Ink::Cursor, line)));
+        // The lines are drawn first, so that no curve is interrupted.
+        let upright = Shape::Upright(position(snapshot.line, probe.spring));
+        let level = Shape::Level(probe.height);
+        let lines = [upright, level].map(|line| Layer::unnamed(Ink::Cursor, line));
+        chart.layers.splice(0..0, lines);
     }
     let title = format!("{title} {}", chart.y.symbol_with_unit());
     let mut panel = Panel::of_chart(title, chart);
-    if snapshot.probe.is_some() {
-        panel.show(reading(snapshot, look), width);
+    if let Some(probe) = snapshot.probe {
+        let style = look.theme.style(Meaning::Cursor);
+        let mut parts: Vec<Part> = Vec::new();
+        for text in at_crosshair(snapshot, probe) {
+            parts.push(vec![Text::styled(text, style)]);
+        }
+        panel.show(parts, width);
     }
     panel
 }
@@ -53,11 +56,9 @@ pub fn of_springs(
     z: Span,
     part: fn(usize, usize) -> LinePart,
 ) -> Option<Chart> {
-    Some(
-        snapshot
-            .section(part(section.first, section.springs))?
-            .chart(snapshot.line, z),
-    )
+    let part = part(section.first, section.springs);
+    let whole = snapshot.section(part)?;
+    Some(whole.chart(snapshot.line, z))
 }
 
 /// Figure of a chart of springs, with indentation and force.
@@ -74,30 +75,24 @@ pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
 
 /// Table of the curves in a chart of springs; `None` while the scene is not computed.
 pub fn table(app: &App, chart: Chart) -> Exported<'static> {
-    app.is_current().then(|| {
-        (
-            OPEN_COMMAND.into(),
-            Box::new(Figure::of_chart("", chart)) as Box<dyn Report>,
-        )
-    })
+    if !app.is_current() {
+        return None;
+    }
+    let figure: Box<dyn Report> = Box::new(Figure::of_chart("", chart));
+    Some((OPEN_COMMAND.into(), figure))
 }
 
 /// Range of heights, m: the profile, and over the whole loop the surface, unless it is far above.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);
-    let now = snapshot.point.indentation;
-    let indentations = app
-        .indentations()
-        .map_or([now; 2], |(low, high)| [low, high]);
-    let level = |indentation: f64| (snapshot.profile.level + now - indentation).min(far);
-    let ends = [
-        low,
-        high,
-        level(now),
-        level(indentations[0]),
-        level(indentations[1]),
-    ];
+    let present = snapshot.point.indentation;
+    let (least, most) = app.indentations().unwrap_or((present, present));
+    let mut ends = vec![low, high];
+    for indentation in [present, least, most] {
+        let level = snapshot.profile.level + present - indentation;
+        ends.push(level.min(far));
+    }
     Span::around(ends.into_iter(), 0.05)
 }
 
@@ -106,29 +101,22 @@ pub fn position(line: LineFacts, spring: usize) -> f64 {
     (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }
 
-/// Readings of the crosshair: position, height, and gap or stretch of the spring.
-fn reading(snapshot: &ContactSnapshot, look: Appearance) -> Vec<Part> {
-    let Some(probe) = snapshot.probe else {
-        return Vec::new();
-    };
-    let length = |value: f64| format_quantity(value, "m");
-    let part = |text: String| vec![Text::styled(text, look.theme.style(Meaning::Cursor))];
+/// Values at the crosshair: position, height, and gap or stretch of the spring.
+fn at_crosshair(snapshot: &ContactSnapshot, probe: Probe) -> Vec<String> {
+    let x = format_quantity(position(snapshot.line, probe.spring), "m");
+    let z = format_quantity(probe.height, "m");
+    let mut texts = vec![format!("x {x}"), format!("z {z}")];
     let distance = probe.level - probe.height;
-    let state = match probe.patch {
-        None => format!("gap {}", length(distance)),
-        Some(_) if distance > 0.0 => format!("stretched {}", length(distance)),
-        Some(_) => format!("compressed {}", length(-distance)),
+    let Some(patch) = probe.patch else {
+        texts.push(format!("gap {}", format_quantity(distance, "m")));
+        return texts;
     };
-    let patch = probe
-        .patch
-        .map(|number| format!("patch {} of {}", number + 1, snapshot.point.fragments));
-    let at = [
-        format!("x {}", length(position(snapshot.line, probe.spring))),
-        format!("z {}", length(probe.height)),
-    ];
-    at.into_iter()
-        .chain([state])
-        .chain(patch)
-        .map(part)
-        .collect()
+    texts.push(if distance > 0.0 {
+        format!("stretched {}", format_quantity(distance, "m"))
+    } else {
+        format!("compressed {}", format_quantity(-distance, "m"))
+    });
+    let patches = snapshot.point.fragments;
+    texts.push(format!("patch {} of {patches}", patch + 1));
+    texts
 }

@@ -5,7 +5,7 @@ use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
-use crate::explorer::text::filled;
+use crate::explorer::text::{Part, filled};
 use asperity_data::parallel::threads;
 use asperity_plot::{Figure, Label};
 use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
@@ -50,86 +50,93 @@ pub static ROW: PaneRow = PaneRow {
 };
 
 fn report(app: &App) -> Exported<'_> {
-    let (title, scene) = (app.edit.document.title(), app.edit.document.scene());
-    let sensitivity = app
-        .studies
-        .value()
-        .filter(|_| app.studies.is_done::<Sensitivity>())?;
+    if !app.studies.is_done::<Sensitivity>() {
+        return None;
+    }
     let report = SensitivityReport {
-        title,
-        scene,
-        sensitivity,
+        title: app.edit.document.title(),
+        scene: app.edit.document.scene(),
+        sensitivity: app.studies.value()?,
     };
     Some(("asperity sensitivity".into(), Box::new(report)))
 }
 
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Sensitivity: each number ±10 %".to_owned();
-    let Some(found) = app.studies.value::<Sensitivity>() else {
-        return Panel::of_text(
-            title,
-            app.studies
-                .failure::<Sensitivity>()
-                .unwrap_or("computing …"),
-        );
+    let Some(sensitivity) = app.studies.value::<Sensitivity>() else {
+        let failure = app.studies.failure::<Sensitivity>();
+        return Panel::of_text(title, failure.unwrap_or("computing …"));
     };
-    if let Some(missing) = found.missing() {
+    if let Some(missing) = sensitivity.missing() {
         return Panel::of_text(title, missing);
     }
+    // Each number has two bars, for its decrease and its increase, and each bar a row.
     let bars = usize::from(size.height.saturating_sub(BESIDE));
-    let most = (bars / 2).saturating_sub(found.range.iter().len()).max(1);
-    let mut rows = sensitivity_table(found, most);
+    let of_range = sensitivity.range.iter().len();
+    let most = (bars / 2).saturating_sub(of_range).max(1);
+    let mut rows = sensitivity_table(sensitivity, most);
     let present = rows.remove(1);
-    let fits =
-        |labels: &Vec<String>| labels[0].chars().count() + 2 <= usize::from(3 * size.width / 4);
-    let labels = (1..=3)
-        .rev()
-        .map(|results| labels(&rows, results))
-        .find(fits);
-    let mut chart = sensitivity_chart(found, 0, most);
-    let present = [3, 5, 6].map(|result| {
-        vec![Span::raw(format!(
-            "{} {}",
-            rows[0][result], present[result]
-        ))]
-    });
-    let mut head = filled(present.to_vec(), "  ", size.width.into());
-    if let Some(labels) = labels {
+    let mut head = filled(results(&rows[0], &present), "  ", size.width.into());
+    let mut chart = sensitivity_chart(sensitivity, 0, most);
+    if let Some(labels) = labels_within(&rows, usize::from(3 * size.width / 4)) {
         head.push(Line::raw(labels[0].clone()));
-        chart.y.names = labels[1..]
-            .iter()
-            .rev()
-            .map(|label| Label::plain(label))
-            .collect();
+        let names = labels[1..].iter().rev();
+        chart.y.names = names.map(|label| Label::plain(label)).collect();
     }
-    // A row of the screen for each bar.
     chart.y.span.low -= bars.saturating_sub(chart.y.names.len()) as f64;
-    let hidden = found.influences.len().saturating_sub(most);
-    let edge =
-        (hidden > 0).then(|| vec![Span::raw(format!("and {hidden} numbers of less influence"))]);
+    let mut edge = Vec::new();
+    let hidden = sensitivity.influences.len().saturating_sub(most);
+    if hidden > 0 {
+        let text = format!("and {hidden} numbers of less influence");
+        edge.push(vec![Span::raw(text)]);
+    }
     Panel {
         head,
-        edge: edge.into_iter().collect(),
+        edge,
         ..Panel::of_chart(title, chart)
     }
+}
+
+/// Columns of the table with results: F_a, and two further ones.
+const RESULTS: [usize; 3] = [3, 5, 6];
+
+/// The results of the unchanged scene, each after its name in the heading of the table.
+fn results(heading: &[String; 7], present: &[String; 7]) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for column in RESULTS {
+        let text = format!("{} {}", heading[column], present[column]);
+        parts.push(vec![Span::raw(text)]);
+    }
+    parts
+}
+
+/// Labels of the rows with as many results as there is room for; `None` if not even the first
+/// result fits into this number of columns.
+fn labels_within(rows: &[[String; 7]], columns: usize) -> Option<Vec<String>> {
+    for results in (1..=RESULTS.len()).rev() {
+        let labels = labels(rows, results);
+        if labels[0].chars().count() + 2 <= columns {
+            return Some(labels);
+        }
+    }
+    None
 }
 
 /// Rows of the table, padded to one width: name, change of the number, and changes of the first
 /// `results` results.
 fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
-    let length = |text: &String| text.chars().count();
-    let line = |row: &[String; 7]| {
-        let columns = [0, 2, 3, 5, 6].into_iter().take(2 + results);
-        let cell = |at: usize| {
-            format!(
-                "{:width$}  ",
-                row[at],
-                width = rows.iter().map(|row| length(&row[at])).max().unwrap_or(0)
-            )
-        };
-        columns.map(cell).collect::<String>().trim_end().to_owned()
-    };
-    let lines: Vec<String> = rows.iter().map(line).collect();
-    let widest = lines.iter().map(length).max().unwrap_or(0);
+    let mut columns = vec![0, 2];
+    columns.extend(&RESULTS[..results]);
+    let mut lines = vec![String::new(); rows.len()];
+    for column in columns {
+        let lengths = rows.iter().map(|row| row[column].chars().count());
+        let width = lengths.max().unwrap_or(0);
+        for (line, row) in lines.iter_mut().zip(rows) {
+            *line += &format!("{:width$}  ", row[column]);
+        }
+    }
+    let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
+    let lengths = lines.iter().map(|line| line.chars().count());
+    let widest = lengths.max().unwrap_or(0);
     lines.iter().map(|line| format!("{line:widest$}")).collect()
 }

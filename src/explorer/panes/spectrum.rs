@@ -9,10 +9,10 @@ use crate::explorer::text::wrapped;
 use crate::explorer::theme::Meaning;
 use asperity_data::{format_quantity, per_cent};
 use asperity_report::{SceneSpectra, measured_adhesion_text};
-use asperity_scene::{Roughness, RunError, Scene, Solver};
+use asperity_scene::{Governing, Roughness, RunError, Scene, Solver};
 use asperity_study::trust::{MeasuredAdhesion, ProfileAdhesion};
 use asperity_surface::lines::read_faces;
-use asperity_surface::{EquivalentLine, Moment};
+use asperity_surface::{EquivalentLine, LineMoments, Moment};
 use ratatui::layout::Size;
 use ratatui::text::Line;
 use std::path::Path;
@@ -40,24 +40,22 @@ pub static ROW: PaneRow = PaneRow {
 fn panel(app: &App, size: Size) -> Panel {
     let title = "Spectrum".to_owned();
     let shown = app.studies.value::<SceneSpectra>();
-    let quiet = app.view.appearance.theme.style(Meaning::Quiet);
-    let words = words(app, shown).into_iter();
-    let words = words
-        .flat_map(|text| wrapped(&Line::styled(text, quiet), size.width))
-        .collect();
-    let chart = shown
-        .map(|shown| shown.spectra.chart())
-        .filter(|chart| !chart.layers.is_empty());
-    let Some(mut chart) = chart else {
+    let mut lines = Vec::new();
+    for text in words(app, shown) {
+        let line = Line::styled(text, app.style(Meaning::Quiet));
+        lines.extend(wrapped(&line, size.width));
+    }
+    let chart = shown.map(|shown| shown.spectra.chart());
+    let Some(mut chart) = chart.filter(|chart| !chart.layers.is_empty()) else {
         return Panel {
-            head: words,
+            head: lines,
             ..Panel::of_text(title, "")
         };
     };
     chart.y.name.clear();
     let title = format!("{title} {}, log–log", chart.y.symbol_with_unit());
     Panel {
-        foot: words,
+        foot: lines,
         ..Panel::of_chart(title, chart)
     }
 }
@@ -65,48 +63,51 @@ fn panel(app: &App, size: Size) -> Panel {
 /// Text below the chart: moments with their errors, or the reason why there is no chart.
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
-        let text = if app.is_current() {
+        let text = if let Some(why) = app.studies.failure::<SceneSpectra>() {
+            why
+        } else if app.is_current() {
             "the spectrum is being computed"
         } else {
             "no spectrum yet"
         };
-        return vec![
-            app.studies
-                .failure::<SceneSpectra>()
-                .unwrap_or(text)
-                .to_owned(),
-        ];
+        return vec![text.to_owned()];
     };
-    let mut words: Vec<String> = shown.missing.clone().into_iter().collect();
-    let governing = app.governing();
-    if let (Some(moments), Some(governing)) = (shown.moments, governing) {
-        let percent = |moment: Moment| per_cent(moment.error / moment.value);
-        let mut parts = vec![
-            format!("fit: h ± {}", percent(moments.rms_height)),
-            format!("⟨∇z⟩ ± {}", percent(moments.rms_gradient)),
-        ];
-        if let Some(kappa) = governing.kappa {
-            // κ² is proportional to h⟨∇z⟩.
-            let error =
-                per_cent(0.5 * moments.height_gradient.error / moments.height_gradient.value);
-            parts.push(format!("κ = {} ± {error}", format_quantity(kappa, "1")));
+    let mut words = Vec::new();
+    words.extend(shown.missing.clone());
+    if let Some(moments) = &shown.moments {
+        if let Some(governing) = app.governing() {
+            words.push(moments_in_words(moments, &governing));
         }
-        if let Some(ratio) = governing.elastic_energy_ratio {
-            let error = percent(moments.energy_per_modulus);
-            parts.push(format!(
-                "e_el/γ = {} ± {error}",
-                format_quantity(ratio, "1")
-            ));
-        }
-        words.push(parts.join(" · "));
-    }
-    if shown.moments.is_some() {
         words.extend(adhesion(app));
     }
     if words.is_empty() && shown.spectra == asperity_report::Spectra::default() {
         words.push("the profile has no roughness and no spectrum".to_owned());
     }
     words
+}
+
+/// The fitted moments and the parameters that follow from them, with their standard errors.
+fn moments_in_words(moments: &LineMoments, governing: &Governing) -> String {
+    let mut parts = vec![
+        format!("fit: h ± {}", relative_error(moments.rms_height)),
+        format!("⟨∇z⟩ ± {}", relative_error(moments.rms_gradient)),
+    ];
+    if let Some(kappa) = governing.kappa {
+        // κ² is proportional to h⟨∇z⟩.
+        let error = 0.5 * moments.height_gradient.error / moments.height_gradient.value;
+        let kappa = format_quantity(kappa, "1");
+        parts.push(format!("κ = {kappa} ± {}", per_cent(error)));
+    }
+    if let Some(ratio) = governing.elastic_energy_ratio {
+        let error = relative_error(moments.energy_per_modulus);
+        let ratio = format_quantity(ratio, "1");
+        parts.push(format!("e_el/γ = {ratio} ± {error}"));
+    }
+    parts.join(" · ")
+}
+
+fn relative_error(moment: Moment) -> String {
+    per_cent(moment.error / moment.value)
 }
 
 /// Adhesion force with its spread over random profiles and with the spread due to the fit, as far
@@ -118,15 +119,16 @@ fn adhesion(app: &App) -> Option<String> {
     if let Some(why) = app.studies.failure::<MeasuredAdhesion>() {
         return Some(why.to_owned());
     }
-    let found = app.studies.value::<MeasuredAdhesion>();
-    let goes_on = match found.map_or(0, |found| found.profiles.len()) {
-        PROFILES => String::new(),
-        count => format!(" · {count} of {PROFILES} profiles"),
+    let sampled = app.studies.value::<MeasuredAdhesion>();
+    let count = sampled.map_or(0, |sampled| sampled.profiles.len());
+    let progress = if count == PROFILES {
+        String::new()
+    } else {
+        format!(" · {count} of {PROFILES} profiles")
     };
-    let force = found
-        .and_then(measured_adhesion_text)
-        .unwrap_or_else(|| "profiles: …".to_owned());
-    Some(format!("F_a of {force}{goes_on}"))
+    let force = sampled.and_then(measured_adhesion_text);
+    let force = force.unwrap_or_else(|| "profiles: …".to_owned());
+    Some(format!("F_a of {force}{progress}"))
 }
 
 pub const PROFILES: usize = 16;
@@ -134,8 +136,8 @@ pub const PROFILES: usize = 16;
 /// Returns true if the profile of a scene is an equivalent line with adhesion.
 fn is_sampled(scene: &Scene) -> bool {
     let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
-    let adheres = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
-    is_measured && adheres && !scene.measured_as_line()
+    let is_adhesive = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
+    is_measured && is_adhesive && !scene.measured_as_line()
 }
 
 /// Computes the adhesion force of the random profiles that are not computed yet.

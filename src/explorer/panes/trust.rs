@@ -12,7 +12,7 @@ use asperity_data::{format_rounded, grouped, per_cent};
 use asperity_plot::{Chart, Ink, Layer, Shape, Sign, Span};
 use asperity_report::{CostReport, error_rows, theory_rows, work_precision};
 use asperity_scene::Estimate;
-use asperity_scene::discretisation::{CostTable, Knob, Progress, measure};
+use asperity_scene::discretisation::{CostTable, Knob, Progress, Row as CostRow, measure};
 use asperity_study::Ensemble;
 use asperity_study::half_space::{Reference, SquareLoops};
 use asperity_study::trust::{Budget, MeasuredAdhesion};
@@ -66,19 +66,10 @@ fn study(computed: &SolvedScene) -> Study {
 }
 
 fn report(app: &App) -> Exported<'_> {
-    let (document, table) = (
-        &app.edit.document,
-        app.studies.value::<Costs>()?.table.as_ref()?,
-    );
-    Some((
-        "asperity cost".into(),
-        Box::new(CostReport::new(
-            document.title(),
-            document.scene(),
-            table,
-            reference(app),
-        )),
-    ))
+    let document = &app.edit.document;
+    let table = app.studies.value::<Costs>()?.table.as_ref()?;
+    let report = CostReport::new(document.title(), document.scene(), table, reference(app));
+    Some(("asperity cost".into(), Box::new(report)))
 }
 
 /// The comparison with three dimensions, if it is computed.
@@ -96,46 +87,29 @@ const LEAST_CHART: usize = 6;
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
-    let theme = app.view.appearance.theme;
-    let style = theme.style(Meaning::Error);
-    let warnings = app.warnings().into_iter();
-    let head: Vec<_> = warnings
-        .flat_map(|text| wrapped(&Line::styled(text, style), size.width))
-        .collect();
+    let mut head = Vec::new();
+    for warning in app.warnings() {
+        let line = Line::styled(warning, app.style(Meaning::Error));
+        head.extend(wrapped(&line, size.width));
+    }
     let room = usize::from(size.height).saturating_sub(head.len());
-    let table = app
-        .studies
-        .value::<Costs>()
-        .and_then(|costs| costs.table.as_ref());
-    let cost = filled(sentence(app, table), "  ", size.width.into());
-    let words = Words {
-        cost,
-        ..words(app, size.width)
-    };
-    let chart = table.and_then(|table| {
-        let chart = work_precision("", table, reference(app)).charts.pop()?;
-        (!chart.layers.is_empty()).then(|| with_scene(chart, app, table))
-    });
-    let Some(chart) = chart else {
-        let title = "Trust: errors of F_a".to_owned();
+    let words = words(app, size.width);
+    let Some(chart) = chart(app) else {
         let nothing = nothing_yet(app);
         let body = wrapped(&Line::raw(nothing.clone()), size.width).len();
-        let foot = words.within(room.saturating_sub(body), app);
         return Panel {
             head,
-            foot,
-            ..Panel::of_text(title, &nothing)
+            foot: words.within(room.saturating_sub(body), app),
+            ..Panel::of_text("Trust: errors of F_a".to_owned(), &nothing)
         };
     };
-    let legend = filled(
-        entries(&chart, app.view.appearance),
-        "  ",
-        size.width.into(),
-    );
+    let entries = entries(&chart, app.view.appearance);
+    let legend = filled(entries, "  ", size.width.into());
     let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
     // In a small window other theories are left out before the chart, and the chart before the
     // errors.
-    if beside_chart < words.cost.len() + words.errors.len() + 1 && beside_chart < words.count() {
+    let needed = words.cost.len() + words.errors.len() + 1;
+    if beside_chart < needed && beside_chart < words.count() {
         let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
         return Panel {
             head,
@@ -149,6 +123,21 @@ fn panel(app: &App, size: Size) -> Panel {
         foot: words.within(beside_chart, app),
         ..Panel::of_chart(title, chart)
     }
+}
+
+/// The measured costs, as far as they are measured.
+fn cost_table(app: &App) -> Option<&CostTable> {
+    app.studies.value::<Costs>()?.table.as_ref()
+}
+
+/// The chart of errors over times; `None` until it has a curve.
+fn chart(app: &App) -> Option<Chart> {
+    let table = cost_table(app)?;
+    let chart = work_precision("", table, reference(app)).charts.pop()?;
+    if chart.layers.is_empty() {
+        return None;
+    }
+    Some(with_scene(chart, app, table))
 }
 
 /// The words beside the chart, the most important first.
@@ -169,91 +158,109 @@ impl Words {
 
     /// The words in at most this number of rows; the last one says what is left out.
     fn within(self, rows: usize, app: &App) -> Vec<Line<'static>> {
-        let mut lines: Vec<Line<'static>> = [self.cost, self.errors, self.theories].concat();
-        if lines.len() > rows {
-            let shown = rows.saturating_sub(1);
-            let left_out = lines.len() - shown;
-            lines.truncate(shown);
-            let way = if app.view.zoomed { "" } else { "z or " };
-            let note = format!("… {left_out} more rows: {way}a larger window");
-            lines.push(Line::styled(
-                note,
-                app.view.appearance.theme.style(Meaning::Quiet),
-            ));
-            lines.truncate(rows);
+        let mut lines = [self.cost, self.errors, self.theories].concat();
+        if lines.len() <= rows {
+            return lines;
         }
+        let shown = rows.saturating_sub(1);
+        let left_out = lines.len() - shown;
+        lines.truncate(shown);
+        let way = if app.view.zoomed { "" } else { "z or " };
+        let note = format!("… {left_out} more rows: {way}a larger window");
+        lines.push(Line::styled(note, app.style(Meaning::Quiet)));
+        lines.truncate(rows);
         lines
     }
 }
 
-/// Errors of the adhesion force by their sources, and the criteria of other theories.
+/// Cost, errors by their sources, and criteria of other theories, in lines of this width.
 fn words(app: &App, width: u16) -> Words {
+    let cost = filled(sentence(app), "  ", width.into());
     let Some(computed) = app.current() else {
-        return Words::default();
+        return Words {
+            cost,
+            ..Words::default()
+        };
     };
-    let (scene, outcome) = (&computed.scene, &computed.outcome);
-    let (estimate, ensemble) = (
-        app.studies.value::<Estimate>(),
-        app.studies.value::<Ensemble>(),
-    );
-    let deviation = app
-        .studies
-        .value::<MeasuredAdhesion>()
-        .and_then(MeasuredAdhesion::fit_deviation);
-    let budget =
-        Budget::of(outcome, estimate, ensemble, deviation).map(|budget| match reference(app) {
-            Some(reference) => budget.with_model(reference.budget.model),
-            None => budget,
-        });
-    let mut errors = budget.map_or_else(Vec::new, |budget| {
-        error_rows(scene, outcome, estimate, &budget, ensemble, reference(app))
-    });
+    let ensemble = app.studies.value::<Ensemble>();
+    let mut errors = errors(app, computed);
+    // The last row is the largest of the errors.
     let first = errors.len().min(1);
     errors.rotate_right(first);
-    let theories = theory_rows(scene, outcome, ensemble);
-    let names = errors
-        .iter()
-        .chain(&theories)
-        .map(|(name, _)| name.chars().count())
-        .max()
-        .unwrap_or(0);
-    let title = app.view.appearance.theme.style(Meaning::Title);
-    let lines = |(name, words): (&str, String)| {
-        let words = wrapped(&Line::raw(words), width.saturating_sub(names as u16 + 2));
-        let name = |number| {
-            if number == 0 {
-                name.to_owned()
-            } else {
-                String::new()
-            }
-        };
-        let line = move |(number, words): (usize, Line<'static>)| {
-            let name = Text::styled(format!("{:names$}  ", name(number)), title);
-            Line::from_iter([name].into_iter().chain(words.spans))
-        };
-        words.into_iter().enumerate().map(line).collect::<Vec<_>>()
-    };
+    let theories = theory_rows(&computed.scene, &computed.outcome, ensemble);
+    let names = errors.iter().chain(&theories).map(|(name, _)| *name);
+    let name_width = names.map(|name| name.chars().count()).max().unwrap_or(0);
     Words {
-        cost: Vec::new(),
-        errors: errors.into_iter().flat_map(lines).collect(),
-        theories: theories.into_iter().flat_map(lines).collect(),
+        cost,
+        errors: lines_of_rows(app, &errors, name_width, width),
+        theories: lines_of_rows(app, &theories, name_width, width),
     }
 }
 
-fn nothing_yet(app: &App) -> String {
-    match app.studies.failure::<Costs>() {
-        _ if app.is_computing() => "the scene is still being computed…".to_owned(),
-        _ if !app.is_current() => "the scene has no curve to estimate an error of".to_owned(),
-        Some(why) => format!("nothing is measured: {why}"),
-        None if app.studies.is_done::<Costs>() => {
-            "nothing to show: no force in this scene whose error depends on springs or steps"
-                .to_owned()
-        }
-        None if !app.view.shows_times => {
-            "times are not measured here: they differ from run to run".to_owned()
-        }
-        None => "measuring: each setting from coarse to fine, as often as 10 s allow…".to_owned(),
+/// Errors of the adhesion force by their sources, each a name and words.
+fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
+    let outcome = &computed.outcome;
+    let estimate = app.studies.value::<Estimate>();
+    let ensemble = app.studies.value::<Ensemble>();
+    let measured = app.studies.value::<MeasuredAdhesion>();
+    let deviation = measured.and_then(MeasuredAdhesion::fit_deviation);
+    let Some(mut budget) = Budget::of(outcome, estimate, ensemble, deviation) else {
+        return Vec::new();
+    };
+    let reference = reference(app);
+    if let Some(reference) = reference {
+        budget = budget.with_model(reference.budget.model);
     }
+    error_rows(
+        &computed.scene,
+        outcome,
+        estimate,
+        &budget,
+        ensemble,
+        reference,
+    )
+}
+
+/// Rows of a name and words, as lines of this width. Names have a column of their own, and words
+/// that need several lines are all beside it.
+fn lines_of_rows(
+    app: &App,
+    rows: &[(&str, String)],
+    name_width: usize,
+    width: u16,
+) -> Vec<Line<'static>> {
+    let title = app.style(Meaning::Title);
+    let room = width.saturating_sub(name_width as u16 + 2);
+    let mut lines = Vec::new();
+    for (name, words) in rows {
+        let words = wrapped(&Line::raw(words.as_str()), room);
+        for (number, text) in words.into_iter().enumerate() {
+            let name_beside = if number == 0 { *name } else { "" };
+            let name_beside = format!("{name_beside:name_width$}  ");
+            let mut line = Line::from(Text::styled(name_beside, title));
+            line.spans.extend(text.spans);
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// Text in place of the chart.
+fn nothing_yet(app: &App) -> String {
+    let text = if app.is_computing() {
+        "the scene is still being computed…"
+    } else if !app.is_current() {
+        "the scene has no curve to estimate an error of"
+    } else if let Some(why) = app.studies.failure::<Costs>() {
+        return format!("nothing is measured: {why}");
+    } else if app.studies.is_done::<Costs>() {
+        "nothing to show: no force in this scene whose error depends on springs or steps"
+    } else if !app.view.shows_times {
+        "times are not measured here: they differ from run to run"
+    } else {
+        "measuring: each setting from coarse to fine, as often as 10 s allow…"
+    };
+    text.to_owned()
 }
 
 /// The chart with the target errors and the scene itself, and errors down to the smallest one of
@@ -267,9 +274,9 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let lowest = 10_f64.powf(chart.y.span.low);
     for layer in &mut chart.layers {
         if let Shape::Curve { points, .. } = &mut layer.shape {
-            points
-                .iter_mut()
-                .for_each(|point| point.1 = point.1.max(lowest));
+            for point in points {
+                point.1 = point.1.max(lowest);
+            }
         }
     }
     let targets = TARGETS.map(|target| Layer::unnamed(Ink::Quiet, Shape::Level(target)));
@@ -277,74 +284,69 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     if let Some((seconds, error)) = table.between_rows(&app.edit.document.scene().numerics) {
         let points = vec![(seconds, error.max(lowest))];
         let shape = Shape::signs(points, Sign::Diamond);
-        chart
-            .layers
-            .push(Layer::new("this scene".into(), Ink::Cursor, shape));
+        let layer = Layer::new("this scene".into(), Ink::Cursor, shape);
+        chart.layers.push(layer);
     }
     chart
 }
 
 /// Error and time of the scene, springs and time of the fastest setting for each target, and the
 /// setting that is tried now.
-fn sentence(app: &App, table: Option<&CostTable>) -> Vec<Part> {
-    let theme = app.view.appearance.theme;
-    let mut parts = Vec::new();
+fn sentence(app: &App) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
     if app.is_current() {
-        let error = match app.studies.value::<Estimate>() {
-            None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
-            None => "error …".to_owned(),
-            Some(Estimate {
-                near_step: true, ..
-            }) => "near a step of F_a(F_n)".to_owned(),
-            Some(estimate) => format!("error {}", per_cent(estimate.error)),
-        };
-        let present =
-            table.and_then(|table| table.between_rows(&app.edit.document.scene().numerics));
-        let time = present.map_or_else(String::new, |(seconds, _)| {
-            format!(" in {}", time_of(seconds))
-        });
-        let sign = Text::styled("◆ ", theme.style(Meaning::Cursor));
-        let over_loads = table.filter(|table| table.is_over_loads(app.edit.document.scene()));
-        match present.filter(|_| over_loads.is_some()) {
-            Some((_, largest)) => {
-                let largest = per_cent(largest);
-                parts.push(vec![
-                    sign,
-                    Text::raw(format!("{error} at this load{time}")),
-                ]);
-                parts.push(vec![Text::raw(format!(
-                    "up to {largest} at half to twice the load"
-                ))]);
+        for text in present_in_words(app) {
+            parts.push(vec![Text::raw(text)]);
+        }
+        parts[0].insert(0, Text::styled("◆ ", app.style(Meaning::Cursor)));
+    }
+    if let Some(table) = cost_table(app) {
+        let is_finished = app.studies.is_done::<Costs>();
+        for target in TARGETS {
+            if let Some(answer) = answer(table, target, is_finished) {
+                let heading = format!("{} %: ", 100.0 * target);
+                let heading = Text::styled(heading, app.style(Meaning::Title));
+                parts.push(vec![heading, Text::raw(answer)]);
             }
-            None => parts.push(vec![sign, Text::raw(format!("{error}{time}"))]),
         }
     }
-    let answers = table.into_iter().flat_map(|table| {
-        TARGETS.map(|target| {
-            Some((
-                target,
-                answer(table, target, app.studies.is_done::<Costs>())?,
-            ))
-        })
-    });
-    parts.extend(answers.flatten().map(|(target, answer)| {
-        let target = Text::styled(
-            format!("{} %: ", 100.0 * target),
-            theme.style(Meaning::Title),
-        );
-        vec![target, Text::raw(answer)]
-    }));
     if let Some(Costs {
         trying: Some(trying),
         ..
     }) = app.studies.value()
     {
-        parts.push(vec![Text::styled(
-            format!("trying {trying}…"),
-            theme.style(Meaning::Key),
-        )]);
+        let text = format!("trying {trying}…");
+        parts.push(vec![Text::styled(text, app.style(Meaning::Key))]);
     }
     parts
+}
+
+/// Error and computing time of the scene, and its largest error at other loads. The texts are
+/// short, since a text that is wider than the pane is left out.
+fn present_in_words(app: &App) -> Vec<String> {
+    let error = match app.studies.value::<Estimate>() {
+        None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
+        None => "error …".to_owned(),
+        Some(Estimate {
+            near_step: true, ..
+        }) => "near a step of F_a(F_n)".to_owned(),
+        Some(estimate) => format!("error {}", per_cent(estimate.error)),
+    };
+    let scene = app.edit.document.scene();
+    let Some(table) = cost_table(app) else {
+        return vec![error];
+    };
+    let Some((seconds, largest)) = table.between_rows(&scene.numerics) else {
+        return vec![error];
+    };
+    let time = time_of(seconds);
+    if !table.is_over_loads(scene) {
+        return vec![format!("{error} in {time}")];
+    }
+    vec![
+        format!("{error} at this load in {time}"),
+        format!("up to {} at half to twice the load", per_cent(largest)),
+    ]
 }
 
 fn time_of(seconds: f64) -> String {
@@ -354,25 +356,28 @@ fn time_of(seconds: f64) -> String {
 /// Springs and time of the fastest setting with an error within a bound; `None` while there is none
 /// yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
-    let rows =
-        [Knob::SubCellSprings, Knob::GridSprings].map(|knob| table.first_row_within(knob, bound));
-    let timed = rows
-        .into_iter()
-        .flatten()
-        .filter_map(|row| Some((row.seconds?.minimum, row)));
-    match timed.min_by(|one, other| one.0.total_cmp(&other.0)) {
-        Some((seconds, row)) => {
-            let whole = if row.knob == Knob::GridSprings {
-                "whole "
-            } else {
-                ""
-            };
-            Some(format!(
-                "{} {whole}springs, {}",
-                grouped(row.springs),
-                time_of(seconds)
-            ))
+    let mut fastest: Option<(f64, &CostRow)> = None;
+    for knob in [Knob::SubCellSprings, Knob::GridSprings] {
+        let Some(row) = table.first_row_within(knob, bound) else {
+            continue;
+        };
+        let Some(seconds) = &row.seconds else {
+            continue;
+        };
+        let seconds = seconds.minimum;
+        // Of two settings with the same time the first one is shown.
+        if fastest.is_none_or(|(least, _)| seconds.total_cmp(&least).is_lt()) {
+            fastest = Some((seconds, row));
         }
-        None => is_finished.then(|| "not reached".to_owned()),
     }
+    let Some((seconds, row)) = fastest else {
+        return is_finished.then(|| "not reached".to_owned());
+    };
+    let whole = if row.knob == Knob::GridSprings {
+        "whole "
+    } else {
+        ""
+    };
+    let springs = grouped(row.springs);
+    Some(format!("{springs} {whole}springs, {}", time_of(seconds)))
 }

@@ -5,17 +5,17 @@ use crate::explorer::app::{App, Message};
 use crate::explorer::commands::accuracy::Choosing;
 use crate::explorer::commands::table::footer as footer_keys;
 use crate::explorer::commands::target;
-use crate::explorer::keys::bindings::Row;
+
 use crate::explorer::measured;
 use crate::explorer::measured::Fitting;
 use crate::explorer::prompt::{Prompt, Purpose};
-use crate::explorer::text::{filled, wrapped_within};
-use crate::explorer::theme::{Meaning, Theme};
+use crate::explorer::text::{Part, filled, on_one_line, wrapped_within};
+use crate::explorer::theme::Meaning;
 use crate::explorer::typed;
 use asperity_data::{format_quantity, format_range, format_rounded, grouped};
-use asperity_experiment::FitResult;
+
 use asperity_report::square_loops_words;
-use asperity_scene::Estimate;
+use asperity_scene::{Estimate, Outcome};
 use asperity_study::half_space::SquareLoops;
 use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
@@ -24,32 +24,23 @@ use std::path::is_separator;
 /// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer
 /// hold for a changed scene.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
-    let (scene, theme) = (app.edit.document.scene(), app.view.appearance.theme);
-    let has_title = !scene.title.is_empty() && !app.edit.document.is_changed_built_in();
+    let document = &app.edit.document;
+    let scene = document.scene();
+    let has_title = !scene.title.is_empty() && !document.is_changed_built_in();
     let name = if has_title {
         &scene.title
     } else {
-        app.edit.document.name()
+        document.name()
     };
-    let mut spans = vec![Span::styled(name.to_owned(), theme.style(Meaning::Title))];
-    let saved = app
-        .edit
-        .saved
-        .get(app.edit.document.name())
-        .map(|saved| &saved.scene().notice);
+    let mut spans = vec![Span::styled(name.to_owned(), app.style(Meaning::Title))];
     if app.edit.is_unsaved() {
-        spans.push(Span::styled(" [changed]", theme.style(Meaning::Title)));
+        spans.push(Span::styled(" [changed]", app.style(Meaning::Title)));
     }
-    if !app.edit.is_unsaved() || saved != Some(&scene.notice) {
-        let notice = scene
-            .notice
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" ");
-        spans.push(Span::styled(
-            format!("  {notice}"),
-            theme.style(Meaning::Quiet),
-        ));
+    let saved = app.edit.saved.get(document.name());
+    let is_saved_notice = saved.is_some_and(|saved| saved.scene().notice == scene.notice);
+    if !app.edit.is_unsaved() || !is_saved_notice {
+        let notice = format!("  {}", on_one_line(&scene.notice));
+        spans.push(Span::styled(notice, app.style(Meaning::Quiet)));
     }
     wrapped_within(&Line::from(spans), width, rows)
 }
@@ -57,99 +48,116 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
 /// Status lines: the headline figures, a question, an error, or the typed text, in at most this
 /// number of rows.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
-    let theme = app.view.appearance.theme;
-    let error = |text: String| Line::styled(text, theme.style(Meaning::Error));
-    let refusal = |why: &str, rows| {
-        wrapped_within(
-            &error(format!("! {}", why.replace('\n', " · "))),
-            width,
-            rows,
-        )
-    };
-    let line = match (
-        app.prompt.as_ref().map(|prompt| (prompt, &prompt.purpose)),
-        &app.message,
-    ) {
-        (Some((prompt, purpose)), _)
-            if prompt.refused.is_some() || prompt.line.left_out().is_some() =>
-        {
-            let why = prompt
-                .refused
-                .as_deref()
-                .or(prompt.line.left_out())
-                .unwrap_or_default();
-            // A value is typed in its row of the parameters.
-            let typed = (rows > 1 && !matches!(purpose, Purpose::Value))
-                .then(|| prompted(app, prompt, width));
-            let mut lines = refusal(why, rows - u16::from(typed.is_some()));
-            lines.extend(typed);
-            return lines;
+    if let Some(prompt) = &app.prompt
+        && let Some(lines) = status_of_prompt(app, prompt, width, rows)
+    {
+        return lines;
+    }
+    match &app.message {
+        Some(Message::Error(why) | Message::Refused(why)) => refusal(app, why, width, rows),
+        Some(Message::Done(text)) => done(app, text, width, rows),
+        None if app.prompt.is_none() => match searching(app) {
+            Some(progress) => vec![Line::raw(progress)],
+            None => vec![headline(app, width.into())],
+        },
+        None => vec![headline(app, width.into())],
+    }
+}
+
+/// Status lines of a prompt; `None` for a prompt that leaves these lines to the headline figures
+/// and messages.
+fn status_of_prompt(
+    app: &App,
+    prompt: &Prompt,
+    width: u16,
+    rows: u16,
+) -> Option<Vec<Line<'static>>> {
+    if let Some(why) = prompt.refused.as_deref().or(prompt.line.left_out()) {
+        return Some(status_of_refused(app, prompt, why, width, rows));
+    }
+    match &prompt.purpose {
+        // A value is typed in its row of the parameters, and the help is only read.
+        Purpose::Value
+        | Purpose::Topics {
+            is_typed: false, ..
+        } => None,
+        Purpose::Overwrite(file) => {
+            let question = format!("{} exists. Overwrite it?", file.path.display());
+            Some(vec![Line::styled(question, app.style(Meaning::Error))])
         }
-        (Some((_, Purpose::Overwrite(file))), _) => {
-            error(format!("{} exists. Overwrite it?", file.path.display()))
+        Purpose::Leave => {
+            let question = question_before_leaving(app);
+            Some(vec![Line::styled(question, app.style(Meaning::Error))])
         }
-        (Some((_, Purpose::Leave)), _) => error(match app.edit.unsaved()[..] {
-            [] | [_] => "The scene has unsaved changes. Leave?".to_owned(),
-            ref several => {
-                let names: Vec<&str> = several.iter().map(|document| document.name()).collect();
-                format!(
-                    "{} scenes have unsaved changes: {}. Leave?",
-                    several.len(),
-                    names.join(", ")
-                )
-            }
-        }),
-        (Some((prompt, purpose)), _)
-            if !matches!(
-                purpose,
-                Purpose::Value
-                    | Purpose::Topics {
-                        is_typed: false,
-                        ..
-                    }
-            ) =>
-        {
+        _ => {
             let mut lines = vec![prompted(app, prompt, width)];
-            let answer =
-                target::answer(app).map(|answer| Line::styled(answer, theme.style(Meaning::Title)));
-            lines.extend(
-                answer
-                    .into_iter()
-                    .flat_map(|answer| wrapped_within(&answer, width, rows - 1)),
-            );
-            return lines;
+            if let Some(answer) = target::answer(app) {
+                let answer = Line::styled(answer, app.style(Meaning::Title));
+                lines.extend(wrapped_within(&answer, width, rows - 1));
+            }
+            Some(lines)
         }
-        (_, Some(Message::Error(why) | Message::Refused(why))) => return refusal(why, rows),
-        (_, Some(Message::Done(text))) if Span::raw(text.as_str()).width() + 2 > width.into() => {
-            return wrapped_within(&Line::raw(text.clone()), width, rows);
-        }
-        (_, Some(Message::Done(text))) => {
-            let mut line = Line::raw(format!("{text}  "));
-            line.extend(headline(
-                app,
-                usize::from(width).saturating_sub(line.width()),
-            ));
-            line
-        }
-        (None, None) => searching(app).map_or_else(|| headline(app, width.into()), Line::raw),
-        _ => headline(app, width.into()),
-    };
+    }
+}
+
+/// Reason why a typed text is refused, and below it the text if there is room. A value is typed in
+/// its row of the parameters.
+fn status_of_refused(
+    app: &App,
+    prompt: &Prompt,
+    why: &str,
+    width: u16,
+    rows: u16,
+) -> Vec<Line<'static>> {
+    let has_room = rows > 1 && !matches!(prompt.purpose, Purpose::Value);
+    if !has_room {
+        return refusal(app, why, width, rows);
+    }
+    let mut lines = refusal(app, why, width, rows - 1);
+    lines.push(prompted(app, prompt, width));
+    lines
+}
+
+fn refusal(app: &App, why: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
+    let text = format!("! {}", why.replace('\n', " · "));
+    let line = Line::styled(text, app.style(Meaning::Error));
+    wrapped_within(&line, width, rows)
+}
+
+fn question_before_leaving(app: &App) -> String {
+    let unsaved = app.edit.unsaved();
+    if unsaved.len() <= 1 {
+        return "The scene has unsaved changes. Leave?".to_owned();
+    }
+    let names: Vec<&str> = unsaved.iter().map(|document| document.name()).collect();
+    format!(
+        "{} scenes have unsaved changes: {}. Leave?",
+        names.len(),
+        names.join(", ")
+    )
+}
+
+/// What was done, and after it as much of the headline as there is room for.
+fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
+    if Span::raw(text).width() + 2 > width.into() {
+        return wrapped_within(&Line::raw(text.to_owned()), width, rows);
+    }
+    let mut line = Line::raw(format!("{text}  "));
+    let room = usize::from(width).saturating_sub(line.width());
+    line.extend(headline(app, room));
     vec![line]
 }
 
-/// A line being typed, after its label and before what it will be read as.
+/// A line being typed, after its label and before what it means.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
-    let theme = app.view.appearance.theme;
     let label = Span::raw(label(app, prompt, width));
-    let reading = typed::reading(app).map_or_else(String::new, |reading| format!("→ {reading}"));
-    let reading = Span::styled(reading, theme.style(Meaning::Title));
-    let room = usize::from(width).saturating_sub(label.width() + reading.width());
-    Line::from_iter(
-        [label]
-            .into_iter()
-            .chain(prompt.line.spans(room, theme))
-            .chain([reading]),
-    )
+    let meaning = typed::understood(app).map_or_else(String::new, |text| format!("→ {text}"));
+    let meaning = Span::styled(meaning, app.style(Meaning::Title));
+    let room = usize::from(width).saturating_sub(label.width() + meaning.width());
+    let mut spans = vec![label];
+    spans.extend(prompt.line.spans(room, app.view.appearance.theme));
+    spans.push(meaning);
+    Line::from(spans)
 }
 
 /// Label of a prompt; shortened if the typed text would otherwise be out of sight.
@@ -184,24 +192,10 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     if app.solved.is_none() {
         return Line::raw("computing…");
     }
-    let theme = app.view.appearance.theme;
-    let line = |is_short: bool| {
-        let short = |text: String| {
-            if is_short {
-                text.replace("pressure-", "")
-            } else {
-                text
-            }
-        };
-        let facts = facts(app, width).into_iter();
-        let part = |(text, meaning)| vec![Span::styled(short(text), theme.style(meaning))];
-        filled(facts.map(part).collect(), " · ", width)
-            .into_iter()
-            .next()
-            .unwrap_or_default()
-    };
+    let facts = facts(app, width);
+    let full = line_of_facts(app, &facts, width, str::to_owned);
     // Short names of regimes leave room for further facts.
-    let (full, short) = (line(false), line(true));
+    let short = line_of_facts(app, &facts, width, |text| text.replace("pressure-", ""));
     if short.spans.len() > full.spans.len() {
         short
     } else {
@@ -209,94 +203,155 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     }
 }
 
+/// The first facts, as far as they fit into a line of this width, in a given wording.
+fn line_of_facts(
+    app: &App,
+    facts: &[Fact],
+    width: usize,
+    wording: fn(&str) -> String,
+) -> Line<'static> {
+    let mut parts = Vec::new();
+    for fact in facts {
+        let text = wording(&fact.text);
+        parts.push(vec![Span::styled(text, app.style(fact.meaning))]);
+    }
+    first_line(parts, " · ", width)
+}
+
+/// The first of the lines that parts fill.
+fn first_line(parts: Vec<Part>, between: &'static str, width: usize) -> Line<'static> {
+    let lines = filled(parts, between, width);
+    lines.into_iter().next().unwrap_or_default()
+}
+
+/// A fact about the loop, for the headline.
+struct Fact {
+    text: String,
+    meaning: Meaning,
+}
+
+impl Fact {
+    fn new(text: impl Into<String>, meaning: Meaning) -> Self {
+        Fact {
+            text: text.into(),
+            meaning,
+        }
+    }
+}
+
 /// Facts about the loop for a line of this width, the most important first.
-fn facts(app: &App, width: usize) -> Vec<(String, Meaning)> {
-    let is_wide = width >= WITH_ERROR;
-    let Some(outcome) = app.solved.as_ref().map(|solved| &solved.outcome) else {
+fn facts(app: &App, width: usize) -> Vec<Fact> {
+    let Some(outcome) = app.outcome() else {
         return Vec::new();
     };
-    let figures = &outcome.figures;
-    let regime = outcome.regime.map(|regime| {
-        (
-            regime.by_protocols(outcome.regime_after_zero_force),
-            Meaning::Title,
-        )
-    });
-    let force = |value| format_quantity(value, "N");
-    let error = error(app).filter(|_| is_wide);
-    let mut facts = Vec::new();
-    if let Some(tried) = app.tried_outcome().filter(|_| app.is_typing_value()) {
-        let shown = match tried.figures.adhesion_force {
-            _ if !app.is_tried() => "computing…".to_owned(),
-            None => "F_a none".to_owned(),
-            Some(adhesion) => format!("F_a {}", app.force_in_words(adhesion)),
-        };
-        facts.push((format!("preview: {shown}"), Meaning::Title));
-        facts.push(("Enter accepts".to_owned(), Meaning::Quiet));
-    }
+    let mut facts = facts_of_preview(app);
     if app.is_computing() {
-        let (stage, stages) = (
-            app.progress.unwrap_or(0) + 1,
-            app.edit.document.scene().loading.len(),
-        );
-        facts.push((
-            format!("computing, stage {stage} of {stages}"),
-            Meaning::Quiet,
-        ));
+        let stage = app.progress.unwrap_or(0) + 1;
+        let stages = app.edit.document.scene().loading.len();
+        let text = format!("computing, stage {stage} of {stages}");
+        facts.push(Fact::new(text, Meaning::Quiet));
     }
-    facts.extend(app.view.squares.then(|| squares(app, width)));
-    if let Some(adhesion) = figures.adhesion_force.filter(|force| *force != 0.0) {
-        let is_fixed = Ensemble::profiles_of(app.edit.document.scene()) == 1;
-        let profiles = profiles(app, is_wide);
-        let this = if profiles.is_some() {
-            "this profile"
-        } else {
-            "F_a"
-        };
-        let fixed = if is_fixed && is_wide {
-            ", fixed profile"
-        } else {
-            ""
-        };
-        let error = error.filter(|_| profiles.is_none() || width >= WITH_BOTH);
-        let error = error.map_or_else(String::new, |error| format!(", {error}"));
-        facts.extend(profiles);
-        facts.push((
-            format!("{this} {}{error}{fixed}", app.force_in_words(adhesion)),
-            Meaning::Text,
-        ));
-    } else if let Some(largest) = figures.preload.filter(|force| *force != 0.0) {
-        // Without tensile force.
-        let error = error.map_or_else(String::new, |error| format!(", {error}"));
-        facts.push((format!("F_max {}{error}", force(largest)), Meaning::Title));
+    if app.view.squares {
+        facts.push(fact_of_squares(app, width));
     }
+    facts.extend(facts_of_force(app, outcome, width));
     if let Some(measured) = &app.edit.measured {
-        let misfit = |fit: &FitResult| format!("misfit {}", format_rounded(fit.misfit, 3, "1"));
-        let state = match measured::failure(&app.studies) {
-            Some(why) => why.to_owned(),
-            None => measured::fitted(&app.studies).map_or_else(|| "misfit …".to_owned(), misfit),
-        };
-        facts.push((format!("{}: {state}", measured.name), Meaning::Title));
+        let text = format!("{}: {}", measured.name, misfit(app));
+        facts.push(Fact::new(text, Meaning::Title));
     }
     add_warning(&mut facts, &app.warnings(), width);
-    facts.extend(regime);
+    if let Some(regime) = outcome.regime {
+        let regime = regime.by_protocols(outcome.regime_after_zero_force);
+        facts.push(Fact::new(regime, Meaning::Title));
+    }
     let share = app
         .median_share_in_words()
         .or_else(|| app.adhesion_share_in_words());
-    facts.extend(share.map(|share| (share, Meaning::Title)));
-    if let Some(coefficient) = figures.adhesion_coefficient {
-        facts.push((
-            format!("F_a/F_n {}", format_quantity(coefficient, "1")),
-            Meaning::Title,
-        ));
+    if let Some(share) = share {
+        facts.push(Fact::new(share, Meaning::Title));
     }
-    if let Some(energy) = figures.dissipated_energy.filter(|_| app.snapshot.is_some()) {
-        facts.push((
-            format!("ΔW {}", format_rounded(energy, 2, "J")),
-            Meaning::Text,
-        ));
+    if let Some(coefficient) = outcome.figures.adhesion_coefficient {
+        let text = format!("F_a/F_n {}", format_quantity(coefficient, "1"));
+        facts.push(Fact::new(text, Meaning::Title));
+    }
+    if let Some(energy) = outcome.figures.dissipated_energy
+        && app.snapshot.is_some()
+    {
+        let text = format!("ΔW {}", format_rounded(energy, 2, "J"));
+        facts.push(Fact::new(text, Meaning::Text));
     }
     facts
+}
+
+/// The adhesion force for the value being typed.
+fn facts_of_preview(app: &App) -> Vec<Fact> {
+    if !app.is_typing_value() {
+        return Vec::new();
+    }
+    let Some(tried) = app.tried_outcome() else {
+        return Vec::new();
+    };
+    let shown = match tried.figures.adhesion_force {
+        _ if !app.is_tried() => "computing…".to_owned(),
+        None => "F_a none".to_owned(),
+        Some(adhesion) => format!("F_a {}", app.force_in_words(adhesion)),
+    };
+    vec![
+        Fact::new(format!("preview: {shown}"), Meaning::Title),
+        Fact::new("Enter accepts", Meaning::Quiet),
+    ]
+}
+
+/// The adhesion force over random profiles and of the shown profile, with its error; without
+/// tensile force the largest force.
+fn facts_of_force(app: &App, outcome: &Outcome, width: usize) -> Vec<Fact> {
+    let is_wide = width >= WITH_ERROR;
+    let error = if is_wide { error(app) } else { None };
+    let adhesion = outcome.figures.adhesion_force;
+    let Some(adhesion) = adhesion.filter(|force| *force != 0.0) else {
+        let largest = outcome.figures.preload;
+        let Some(largest) = largest.filter(|force| *force != 0.0) else {
+            return Vec::new();
+        };
+        let largest = format_quantity(largest, "N");
+        let text = format!("F_max {largest}{}", after_comma(error));
+        return vec![Fact::new(text, Meaning::Title)];
+    };
+    let mut facts = Vec::new();
+    let over_profiles = fact_of_profiles(app, is_wide);
+    let name = if over_profiles.is_some() {
+        "this profile"
+    } else {
+        "F_a"
+    };
+    let has_room = over_profiles.is_none() || width >= WITH_BOTH;
+    let error = if has_room { error } else { None };
+    let is_fixed = Ensemble::profiles_of(app.edit.document.scene()) == 1;
+    let fixed = if is_fixed && is_wide {
+        ", fixed profile"
+    } else {
+        ""
+    };
+    facts.extend(over_profiles);
+    let force = app.force_in_words(adhesion);
+    let text = format!("{name} {force}{}{fixed}", after_comma(error));
+    facts.push(Fact::new(text, Meaning::Text));
+    facts
+}
+
+fn after_comma(text: Option<String>) -> String {
+    text.map_or_else(String::new, |text| format!(", {text}"))
+}
+
+/// How well the scene describes the measured curve, in words.
+fn misfit(app: &App) -> String {
+    if let Some(why) = measured::failure(&app.studies) {
+        return why.to_owned();
+    }
+    match measured::fitted(&app.studies) {
+        Some(fit) => format!("misfit {}", format_rounded(fit.misfit, 3, "1")),
+        None => "misfit …".to_owned(),
+    }
 }
 
 /// Smallest width, columns, in which the beginning of a warning can be understood.
@@ -304,13 +359,13 @@ const LEAST_WARNING: usize = 30;
 
 /// Adds the number of warnings and the first of them, as far as there is room; without room, the
 /// number alone after the first fact.
-fn add_warning(facts: &mut Vec<(String, Meaning)>, warnings: &[String], width: usize) {
+fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     let Some(first) = warnings.first() else {
         return;
     };
     let before: usize = facts
         .iter()
-        .map(|(text, _)| text.chars().count() + " · ".len())
+        .map(|fact| fact.text.chars().count() + " · ".len())
         .sum();
     let room = width.saturating_sub(before);
     let count = warnings.len();
@@ -320,89 +375,79 @@ fn add_warning(facts: &mut Vec<(String, Meaning)>, warnings: &[String], width: u
         format!("! 1 of {count} (A): {first}")
     };
     if text.chars().count() <= room {
-        facts.push((text, Meaning::Error));
+        facts.push(Fact::new(text, Meaning::Error));
     } else if room >= LEAST_WARNING {
         let beginning: String = text.chars().take(room - 1).collect();
-        facts.push((format!("{}…", beginning.trim_end()), Meaning::Error));
+        let text = format!("{}…", beginning.trim_end());
+        facts.push(Fact::new(text, Meaning::Error));
     } else {
         let number = if count == 1 {
             "! 1 warning (A)".to_owned()
         } else {
             format!("! {count} warnings (A)")
         };
-        facts.insert(facts.len().min(1), (number, Meaning::Error));
+        let place = facts.len().min(1);
+        facts.insert(place, Fact::new(number, Meaning::Error));
     }
 }
 
 /// What is known of the loops of random squares in three dimensions, and their difference from the
-/// line.
-fn squares(app: &App, width: usize) -> (String, Meaning) {
-    match app.studies.failure::<SquareLoops>() {
-        // The reason is whole where there is room, and its beginning elsewhere.
-        Some(why) => (
-            format!("three dimensions: {why}")
-                .chars()
-                .take(width)
-                .collect(),
-            Meaning::Error,
-        ),
-        None => {
-            let (loops, is_adhesive) = (app.studies.value(), app.edit.scene.adhesion.is_some());
-            (
-                square_loops_words(loops.unwrap_or(&SquareLoops::default()), is_adhesive),
-                Meaning::Title,
-            )
-        }
+/// line. Where there is no room for the whole reason of a failure, its beginning is shown.
+fn fact_of_squares(app: &App, width: usize) -> Fact {
+    if let Some(why) = app.studies.failure::<SquareLoops>() {
+        let text = format!("three dimensions: {why}");
+        let beginning: String = text.chars().take(width).collect();
+        return Fact::new(beginning, Meaning::Error);
     }
+    let is_adhesive = app.edit.scene.adhesion.is_some();
+    let text = match app.studies.value() {
+        Some(loops) => square_loops_words(loops, is_adhesive),
+        None => square_loops_words(&SquareLoops::default(), is_adhesive),
+    };
+    Fact::new(text, Meaning::Title)
 }
 
 /// Median and quartiles of the adhesion force over the random profiles computed so far, and with
 /// room their number.
-fn profiles(app: &App, is_wide: bool) -> Option<(String, Meaning)> {
+fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     let ensemble = app.studies.value::<Ensemble>()?;
-    let is_share = app.is_normalised();
-    let quantity = if is_share {
-        Quantity::AdhesionShare
+    let (quantity, symbol, unit) = if app.is_normalised() {
+        (Quantity::AdhesionShare, "F_a/F_a,max", "1")
     } else {
-        Quantity::AdhesionForce
+        (Quantity::AdhesionForce, "F_a", "N")
     };
     let [lower, median, upper] = ensemble.statistics(quantity)?.quartiles;
-    let unit = if is_share { "1" } else { "N" };
-    let (median, quartiles) = (
-        format_rounded(median, 3, unit),
-        format_range((lower, upper), 2, unit),
-    );
-    let count = match (ensemble.computed(), ensemble.profiles()) {
-        _ if !is_wide => String::new(),
-        (computed, all) if computed < all => format!(", {computed} of {all} profiles"),
-        (_, all) => format!(", {all} profiles"),
+    let median = format_rounded(median, 3, unit);
+    let quartiles = format_range((lower, upper), 2, unit);
+    let computed = ensemble.computed();
+    let all = ensemble.profiles();
+    let count = if !is_wide {
+        String::new()
+    } else if computed < all {
+        format!(", {computed} of {all} profiles")
+    } else {
+        format!(", {all} profiles")
     };
-    let symbol = if is_share { "F_a/F_a,max" } else { "F_a" };
-    Some((
-        format!("{symbol} median {median} ({quartiles}{count})"),
-        Meaning::Title,
-    ))
+    let text = format!("{symbol} median {median} ({quartiles}{count})");
+    Some(Fact::new(text, Meaning::Title))
 }
 
 /// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an
 /// estimate.
 fn error(app: &App) -> Option<String> {
-    match app.studies.value::<Estimate>() {
-        Some(estimate) => Some(estimate.words()),
-        None if app.studies.failure::<Estimate>().is_none() => {
-            app.view.shows_times.then(|| "± …".to_owned())
-        }
-        None => {
-            let pulls = app
-                .solved
-                .as_ref()?
-                .outcome
-                .figures
-                .adhesion_force
-                .is_some();
-            pulls.then(|| "error unknown".to_owned())
-        }
+    if let Some(estimate) = app.studies.value::<Estimate>() {
+        return Some(estimate.words());
     }
+    let has_failed = app.studies.failure::<Estimate>().is_some();
+    let text = if has_failed {
+        app.outcome()?.figures.adhesion_force?;
+        "error unknown"
+    } else if app.view.shows_times {
+        "± …"
+    } else {
+        return None;
+    };
+    Some(text.to_owned())
 }
 
 /// Progress of the search of springs for a tolerance, or of parameters for the measured curve;
@@ -412,58 +457,50 @@ fn searching(app: &App) -> Option<String> {
         tolerance, tried, ..
     }) = app.studies.value()
     {
-        let tried = tried.map_or_else(String::new, |points| {
-            format!(": {} springs", grouped(points))
-        });
+        let tried = match tried {
+            Some(springs) => format!(": {} springs", grouped(*springs)),
+            None => String::new(),
+        };
         return Some(format!("trying for {tolerance:e}{tried}…"));
     }
     let Fitting { evaluations, .. } = app.studies.value()?;
-    Some(format!(
-        "fitting, {} curves computed…",
-        grouped(*evaluations)
-    ))
+    let curves = grouped(*evaluations);
+    Some(format!("fitting, {curves} curves computed…"))
 }
 
 /// The valid keys, as a line.
 pub fn footer(app: &App, width: u16) -> Line<'static> {
-    let theme = app.view.appearance.theme;
     if let Some(note) = app.view.demo {
-        return Line::styled(note, theme.style(Meaning::Quiet));
+        return Line::styled(note, app.style(Meaning::Quiet));
     }
-    if let Some(prompt) = app
-        .prompt
-        .as_ref()
-        .filter(|prompt| !prompt.paths.is_empty())
+    if let Some(prompt) = &app.prompt
+        && !prompt.paths.is_empty()
     {
-        return candidates(&prompt.paths, width, theme);
+        return candidates(app, &prompt.paths, width);
     }
-    let item = |(keys, row): (String, &Row)| {
-        vec![
-            Span::styled(keys, theme.style(Meaning::Key)),
+    let mut items = Vec::new();
+    for (keys, row) in footer_keys(app) {
+        items.push(vec![
+            Span::styled(keys, app.style(Meaning::Key)),
             Span::raw(format!(" {}", row.label)),
-        ]
-    };
-    let items = footer_keys(app).into_iter().map(item).collect();
-    filled(items, "  ", width.into())
-        .into_iter()
-        .next()
-        .unwrap_or_default()
+        ]);
+    }
+    first_line(items, "  ", width.into())
 }
 
 /// Names of paths, without their folders, as a line.
-fn candidates(paths: &[String], width: u16, theme: Theme) -> Line<'static> {
-    let name = |path: &String| {
-        let from = path
-            .trim_end_matches(is_separator)
-            .rfind(is_separator)
-            .map_or(0, |at| at + 1);
-        vec![Span::styled(
-            path[from..].to_owned(),
-            theme.style(Meaning::Quiet),
-        )]
-    };
-    filled(paths.iter().map(name).collect(), "  ", width.into())
-        .into_iter()
-        .next()
-        .unwrap_or_default()
+fn candidates(app: &App, paths: &[String], width: u16) -> Line<'static> {
+    let mut names = Vec::new();
+    for path in paths {
+        let separator = path.trim_end_matches(is_separator).rfind(is_separator);
+        let name = match separator {
+            Some(place) => &path[place + 1..],
+            None => path,
+        };
+        names.push(vec![Span::styled(
+            name.to_owned(),
+            app.style(Meaning::Quiet),
+        )]);
+    }
+    first_line(names, "  ", width.into())
 }

@@ -5,44 +5,54 @@ use crate::explorer::layout::inside;
 use crate::explorer::panel;
 use crate::explorer::panel::{Body, Panel};
 use crate::explorer::prompt::{Prompt, Topic};
-use crate::explorer::text::{fitted, wrapped};
+use crate::explorer::text::{fitted, on_one_line, wrapped};
 use crate::explorer::theme::{Appearance, Meaning, Theme};
 use asperity_scene::library::{Entry, Source};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-/// Width of the names beside their texts, columns, and the width of a window from which on names
-/// are beside and not above.
+/// Width of the names beside their texts, columns.
 const NAMES: usize = 20;
+/// Smallest width of a window with names beside their texts, columns; in others they are above.
 const BESIDE_FROM: u16 = 56;
 /// Indentation of a text below its name, columns.
 const INDENT: usize = 4;
 /// Smallest width with the selected scene beside the list, columns.
 const WITH_SCENE: u16 = 62;
 
-/// Panel of a list of this name and length with these rows; `none` is its text without rows.
-fn list(
-    prompt: &Prompt,
-    (name, length, none): (&str, usize, &str),
-    (rows, selected): Rows,
-) -> Panel {
-    let corrected = prompt
-        .corrected
-        .as_ref()
-        .map_or_else(String::new, |other| format!(", for {other}"));
-    let title = format!("{name}, {} of {length}{corrected}", prompt.found.len());
-    if rows.is_empty() {
-        return Panel::of_text(title, none);
-    }
-    Panel {
-        body: Body::Rows { rows, selected },
-        ..Panel::of_text(title, "")
-    }
+/// A list in place of the panes.
+struct List<'a> {
+    name: &'a str,
+    /// Number of all entries, shown or not.
+    length: usize,
+    /// Text in place of the rows if no entry fits what is typed.
+    none: &'a str,
+    rows: Vec<Line<'static>>,
+    /// Index of the selected row.
+    selected: usize,
 }
 
-/// Lines of a list, and the index of the selected line.
-type Rows = (Vec<Line<'static>>, usize);
+impl List<'_> {
+    fn panel(self, prompt: &Prompt) -> Panel {
+        let corrected = match &prompt.corrected {
+            Some(words) => format!(", for {words}"),
+            None => String::new(),
+        };
+        let found = prompt.found.len();
+        let title = format!("{}, {found} of {}{corrected}", self.name, self.length);
+        if self.rows.is_empty() {
+            return Panel::of_text(title, self.none);
+        }
+        Panel {
+            body: Body::Rows {
+                rows: self.rows,
+                selected: self.selected,
+            },
+            ..Panel::of_text(title, "")
+        }
+    }
+}
 
 /// Draws the help or the list of commands: the topics that match what is typed, in sections while
 /// nothing is typed.
@@ -54,69 +64,62 @@ pub fn draw_topics(
     topics: &[Topic],
     buffer: &mut Buffer,
 ) {
-    let (theme, width) = (look.theme, inside(area).width);
-    let (mut rows, mut selected, mut section) = (Vec::new(), 0, "");
-    for (place, topic) in prompt
-        .found
-        .iter()
-        .filter_map(|index| topics.get(*index))
-        .enumerate()
-    {
+    let width = inside(area).width;
+    let mut list = List {
+        name,
+        length: topics.len(),
+        none: "nothing fits",
+        rows: Vec::new(),
+        selected: 0,
+    };
+    let mut section = "";
+    let found = prompt.found.iter().filter_map(|index| topics.get(*index));
+    for (place, topic) in found.enumerate() {
         if topic.section != section && prompt.line.text().is_empty() {
             section = topic.section;
-            rows.push(Line::styled(section, theme.style(Meaning::Title)));
+            let heading = Line::styled(section, look.theme.style(Meaning::Title));
+            list.rows.push(heading);
         }
         let is_selected = place == prompt.selected;
         if is_selected {
-            selected = rows.len();
+            list.selected = list.rows.len();
         }
-        entry(&mut rows, topic, is_selected, width, theme);
+        list.rows
+            .extend(rows_of_topic(topic, is_selected, width, look.theme));
     }
-    panel::draw(
-        &list(
-            prompt,
-            (name, topics.len(), "nothing fits"),
-            (rows, selected),
-        ),
-        area,
-        false,
-        look,
-        buffer,
-    );
+    panel::draw(&list.panel(prompt), area, false, look, buffer);
 }
 
-/// Adds the name and the text of a topic, in as many lines as needed.
-fn entry(
-    rows: &mut Vec<Line<'static>>,
-    topic: &Topic,
-    is_selected: bool,
-    width: u16,
-    theme: Theme,
-) {
-    let is_beside = width >= BESIDE_FROM && topic.name.chars().count() + 2 < NAMES;
-    let indent = if width >= BESIDE_FROM { NAMES } else { INDENT };
-    let name = Line::styled(
-        format!("{} {}", if is_selected { "›" } else { " " }, topic.name),
-        theme.style(Meaning::Key),
-    );
-    let mut name = Some(fitted(name, width));
-    if !is_beside {
-        rows.extend(name.take());
+/// The name and the text of a topic, in as many rows as needed: in a wide window the text is beside
+/// the name, otherwise below it.
+fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> Vec<Line<'static>> {
+    let mut rows = Vec::new();
+    let is_wide = width >= BESIDE_FROM;
+    let is_beside = is_wide && topic.name.chars().count() + 2 < NAMES;
+    let indent = if is_wide { NAMES } else { INDENT };
+    let mark = if is_selected { "›" } else { " " };
+    let name = format!("{mark} {}", topic.name);
+    let name = fitted(Line::styled(name, theme.style(Meaning::Key)), width);
+    // The row that the next line of the text continues.
+    let mut begun = Line::default();
+    if is_beside {
+        begun = name;
+    } else {
+        rows.push(name);
     }
-    let style = theme.style(if is_selected {
+    let meaning = if is_selected {
         Meaning::Selected
     } else {
         Meaning::Text
-    });
-    for text in wrapped(
-        &Line::styled(topic.text.clone(), style),
-        width.saturating_sub(indent as u16),
-    ) {
-        let mut line = name.take().unwrap_or_default();
-        line.push_span(" ".repeat(indent.saturating_sub(line.width())));
-        line.spans.extend(text.spans);
-        rows.push(line);
+    };
+    let text = Line::styled(topic.text.clone(), theme.style(meaning));
+    for line in wrapped(&text, width.saturating_sub(indent as u16)) {
+        let mut row = std::mem::take(&mut begun);
+        row.push_span(" ".repeat(indent.saturating_sub(row.width())));
+        row.spans.extend(line.spans);
+        rows.push(row);
     }
+    rows
 }
 
 pub fn draw_scenes(
@@ -126,96 +129,90 @@ pub fn draw_scenes(
     entries: &[Entry],
     buffer: &mut Buffer,
 ) {
-    let none = "no scene fits; Enter tries it as a path, such as ./scene.ron or ./study";
-    let row = |(place, index): (usize, &usize)| {
-        Some(scene(
-            (*index, entries.get(*index)?),
-            place == prompt.selected,
-            look.theme,
-        ))
+    let mut list = List {
+        name: "Scenes",
+        length: entries.len(),
+        none: "no scene fits; Enter tries it as a path, such as ./scene.ron or ./study",
+        rows: Vec::new(),
+        selected: prompt.selected,
     };
-    let rows = prompt.found.iter().enumerate().filter_map(row).collect();
-    let list = list(
-        prompt,
-        ("Scenes", entries.len(), none),
-        (rows, prompt.selected),
-    );
-    let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
-    let width = if beside.is_some() {
-        area.width * 2 / 5
-    } else {
-        area.width
-    };
-    panel::draw(&list, Rect { width, ..area }, false, look, buffer);
-    if let Some(entry) = beside {
-        let right = Rect {
-            x: area.x + width,
-            width: area.width - width,
-            ..area
-        };
-        let head = text(entry, right.width - 2, look.theme);
-        let scene = Panel {
-            head,
-            ..Panel::of_text(entry.name.clone(), "")
-        };
-        panel::draw(&scene, right, false, look, buffer);
+    for (place, index) in prompt.found.iter().enumerate() {
+        if let Some(entry) = entries.get(*index) {
+            let is_selected = place == prompt.selected;
+            list.rows
+                .push(row_of_scene(*index, entry, is_selected, look.theme));
+        }
     }
+    let list = list.panel(prompt);
+    let beside = prompt.scene().filter(|_| area.width >= WITH_SCENE);
+    let Some(entry) = beside else {
+        panel::draw(&list, area, false, look, buffer);
+        return;
+    };
+    let width = area.width * 2 / 5;
+    let left = Rect { width, ..area };
+    let right = Rect {
+        x: area.x + width,
+        width: area.width - width,
+        ..area
+    };
+    let scene = Panel {
+        head: words_of_scene(entry, right.width - 2, look.theme),
+        ..Panel::of_text(entry.name.clone(), "")
+    };
+    panel::draw(&list, left, false, look, buffer);
+    panel::draw(&scene, right, false, look, buffer);
 }
 
-fn scene((place, entry): (usize, &Entry), is_selected: bool, theme: Theme) -> Line<'static> {
-    let mark = match (entry.error(), is_selected) {
-        (Some(_), _) => "! ",
-        (None, true) => "› ",
-        (None, false) => "  ",
+/// A row of the list of scenes: a number that finds a built-in scene, the name, and where the scene
+/// comes from.
+fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) -> Line<'static> {
+    let mark = if entry.error().is_some() {
+        "! "
+    } else if is_selected {
+        "› "
+    } else {
+        "  "
     };
     let origin = match entry.origin {
         Source::BuiltIn => "built-in",
         Source::Own => "own",
         Source::Working => "here",
     };
-    let style = theme.style(if is_selected {
-        Meaning::Selected
-    } else {
-        Meaning::Text
-    });
-    // The number finds a built-in scene.
     let number = if entry.origin == Source::BuiltIn {
-        (place + 1).to_string()
+        (index + 1).to_string()
     } else {
         String::new()
     };
-    let number = Span::styled(format!("{number:>2} "), theme.style(Meaning::Quiet));
-    let name = Span::styled(format!("{mark}{}", entry.name), style);
+    let name_meaning = if is_selected {
+        Meaning::Selected
+    } else {
+        Meaning::Text
+    };
+    let quiet = theme.style(Meaning::Quiet);
+    let name = format!("{mark}{}", entry.name);
     Line::from_iter([
-        number,
-        name,
-        Span::styled(format!("  {origin}"), theme.style(Meaning::Quiet)),
+        Span::styled(format!("{number:>2} "), quiet),
+        Span::styled(name, theme.style(name_meaning)),
+        Span::styled(format!("  {origin}"), quiet),
     ])
 }
 
-fn text(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {
-    let notice = entry
-        .notice()
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
-    let error = entry
-        .error()
-        .map(|error| (format!("! {error}"), Meaning::Error));
-    let words = [
+/// Title, notice, error and text of a scene, broken into lines of this width.
+fn words_of_scene(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {
+    let mut texts = vec![
         (entry.title().to_owned(), Meaning::Title),
-        (notice, Meaning::Text),
-    ]
-    .into_iter()
-    .chain(error);
-    let mut lines: Vec<_> = words
-        .flat_map(|(text, meaning)| wrapped(&Line::styled(text, theme.style(meaning)), width))
-        .collect();
-    lines.extend(
-        entry
-            .text
-            .lines()
-            .map(|line| Line::styled(line.to_owned(), theme.style(Meaning::Quiet))),
-    );
+        (on_one_line(entry.notice()), Meaning::Text),
+    ];
+    if let Some(error) = entry.error() {
+        texts.push((format!("! {error}"), Meaning::Error));
+    }
+    let mut lines = Vec::new();
+    for (text, meaning) in texts {
+        lines.extend(wrapped(&Line::styled(text, theme.style(meaning)), width));
+    }
+    for line in entry.text.lines() {
+        lines.push(Line::styled(line.to_owned(), theme.style(Meaning::Quiet)));
+    }
     lines
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use asperity::explorer::commands::accuracy::studies;
-use asperity::explorer::map::Live;
+use asperity::explorer::map_state::Live;
 use asperity::study::Plan;
 use asperity::study::maps::LiveMap;
 

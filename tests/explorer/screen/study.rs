@@ -4,7 +4,7 @@ use super::common::study::{PLAN, merged};
 use super::*;
 use asperity::contact::Move;
 use asperity::explorer::commands::accuracy::studies;
-use asperity::explorer::map::Live;
+use asperity::explorer::map_state::Live;
 use asperity::scene::Roughness;
 use asperity::study::Quantity;
 use tempfile::TempDir;

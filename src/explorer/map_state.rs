@@ -52,6 +52,12 @@ impl OpenStudy {
         }
     }
 
+    /// Returns true if a scene belongs to the shown map: it differs from the study in the
+    /// quantities of the axes only.
+    pub fn is_of(&self, scene: &Scene) -> bool {
+        self.study_map.is_of(self.slice, scene)
+    }
+
     /// Number of the map `steps` after the shown one; the first follows the last.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));

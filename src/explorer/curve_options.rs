@@ -16,8 +16,8 @@ pub static HEAD: Field = Field::beside(GROUP, "measured curve", Range::Group, ""
 /// How a force is written, given its unit.
 type Format = fn(f64, &str) -> String;
 
-/// An option of reading, typed as on the command line.
-pub struct ReadingOption {
+/// A row of the list of parameters for an option of reading, typed as on the command line.
+pub struct CurveOptionRow {
     pub field: Field,
     /// The value of a curve that is read without the option, in words.
     pub usual: &'static str,
@@ -52,8 +52,8 @@ const fn option(
 
 /// The options in the order of the list: options that decide whether a curve is read at all come
 /// first.
-pub static OPTIONS: [ReadingOption; 10] = [
-    ReadingOption {
+pub static OPTIONS: [CurveOptionRow; 10] = [
+    CurveOptionRow {
         field: option(
             "measured.columns",
             "columns",
@@ -68,7 +68,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.units",
             "units",
@@ -83,7 +83,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.segments",
             "segments used",
@@ -94,14 +94,11 @@ pub static OPTIONS: [ReadingOption; 10] = [
         choices: &["all", "1,2", "2", "1"],
         written: |options, _| listed(&options.segments.iter().map(ToString::to_string).collect::<Vec<_>>()),
         take: |options, typed| {
-            let number = |word: &String| word.parse().ok().filter(|number| *number > 0);
-            let numbers = words(typed).iter().map(number).collect::<Option<Vec<usize>>>();
-            options.segments =
-                numbers.ok_or_else(|| format!("{typed}: allowed: numbers from 1 on, such as 1,2"))?;
+            options.segments = segments(typed)?;
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.ramp",
             "travel of the piezo",
@@ -120,7 +117,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             }
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.negate",
             "reversed quantity",
@@ -131,16 +128,11 @@ pub static OPTIONS: [ReadingOption; 10] = [
         choices: NEGATED,
         written: |options, _| options.negate.map(|negate| negate.to_string()),
         take: |options, typed| {
-            let all = [Negate::None, Negate::Displacement, Negate::Force, Negate::Both];
-            let named = all.into_iter().find(|one| one.to_string() == typed);
-            options.negate = match typed {
-                "" => None,
-                _ => Some(named.ok_or_else(|| one_of(typed, NEGATED))?),
-            };
+            options.negate = reversed_quantity(typed)?;
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option("measured.zero", "zero of the force", FORCE, "measured force that is zero (--zero)")
             .in_unit("N"),
         usual: "by the curve",
@@ -151,7 +143,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.drift",
             "drift over time",
@@ -170,7 +162,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.tilt",
             "tilt over displacement",
@@ -184,12 +176,12 @@ pub static OPTIONS: [ReadingOption; 10] = [
             options.tilt = match typed {
                 "" => Tilt::Keep,
                 "remove" => Tilt::Remove,
-                _ => return Err(one_of(typed, KEPT)),
+                _ => return Err(not_among(typed, KEPT)),
             };
             Ok(())
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.noise",
             "noise",
@@ -210,7 +202,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
             }
         },
     },
-    ReadingOption {
+    CurveOptionRow {
         field: option(
             "measured.free_points",
             "points before contact",
@@ -221,8 +213,7 @@ pub static OPTIONS: [ReadingOption; 10] = [
         choices: &[],
         written: |options, _| options.free_points.map(|count| count.to_string()),
         take: |options, typed| {
-            let count = || typed.parse().map_err(|_| format!("{typed}: allowed: a whole number of points"));
-            options.free_points = if typed.is_empty() { None } else { Some(count()?) };
+            options.free_points = count(typed)?;
             Ok(())
         },
     },
@@ -250,11 +241,52 @@ fn quantity(typed: &str, unit: &str) -> Result<Option<f64>, String> {
         .map_err(|error| error.to_string())
 }
 
-fn one_of(typed: &str, choices: &'static [&'static str]) -> String {
+/// Message for a typed value that is not one of the choices.
+fn not_among(typed: &str, choices: &'static [&'static str]) -> String {
     format!("{typed}: allowed: {}", Range::Choice(choices))
 }
 
-impl ReadingOption {
+/// Numbers of segments, from 1.
+fn segments(typed: &str) -> Result<Vec<usize>, String> {
+    let mut numbers = Vec::new();
+    for word in words(typed) {
+        match word.parse::<usize>() {
+            Ok(number) if number > 0 => numbers.push(number),
+            _ => return Err(format!("{typed}: allowed: numbers from 1 on, such as 1,2")),
+        }
+    }
+    Ok(numbers)
+}
+
+fn reversed_quantity(typed: &str) -> Result<Option<Negate>, String> {
+    if typed.is_empty() {
+        return Ok(None);
+    }
+    let choices = [
+        Negate::None,
+        Negate::Displacement,
+        Negate::Force,
+        Negate::Both,
+    ];
+    for negate in choices {
+        if negate.to_string() == typed {
+            return Ok(Some(negate));
+        }
+    }
+    Err(not_among(typed, NEGATED))
+}
+
+fn count(typed: &str) -> Result<Option<usize>, String> {
+    if typed.is_empty() {
+        return Ok(None);
+    }
+    match typed.parse() {
+        Ok(count) => Ok(Some(count)),
+        Err(_) => Err(format!("{typed}: allowed: a whole number of points")),
+    }
+}
+
+impl CurveOptionRow {
     /// The value for the list.
     pub fn shown(&self, measured: &Measured) -> String {
         let given = (self.written)(&measured.options, format_quantity);
@@ -266,10 +298,10 @@ impl ReadingOption {
 
     /// What the option does, and its values or what an empty text means.
     pub fn explanation(&self) -> String {
-        let (meaning, usual) = (self.field.meaning, self.usual);
+        let meaning = self.field.meaning;
         match self.field.range {
             Range::Choice(_) => format!("{meaning}. Allowed: {}", self.field.allowed()),
-            _ => format!("{meaning}. Empty: {usual}"),
+            _ => format!("{meaning}. Empty: {}", self.usual),
         }
     }
 
@@ -286,26 +318,28 @@ impl ReadingOption {
     /// The number of a given force in the notation of a scene; `None` for the usual one and for
     /// other values.
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
-        let is_force = self.field.unit == "N";
-        let written = (self.written)(options, exact_quantity).filter(|_| is_force)?;
-        parse_quantity(&written, self.field.unit)
-            .ok()
-            .map(ron_float)
+        if self.field.unit != "N" {
+            return None;
+        }
+        let written = (self.written)(options, exact_quantity)?;
+        let force = parse_quantity(&written, self.field.unit).ok()?;
+        Some(ron_float(force))
     }
 
-    /// A typed value, with the unit of the noise if it is a force without a unit.
+    /// A typed value; a force without a unit gets the shown unit of force, or else the unit of the
+    /// noise.
     pub fn with_unit(&self, measured: &Measured, typed: &str) -> String {
         let is_force = self.field.unit == "N" || self.field.path == "measured.drift";
-        let shown = self.shown(measured);
-        let unit = match unit_of(&shown) {
-            unit if is_force && unit.ends_with('N') => unit.to_owned(),
-            _ => unit_of(&format_quantity(measured.curve.noise, "N")).to_owned(),
-        };
-        if is_force {
-            in_unit(typed, &unit)
-        } else {
-            typed.to_owned()
+        if !is_force {
+            return typed.to_owned();
         }
+        let shown = self.shown(measured);
+        let shown_unit = unit_of(&shown);
+        if shown_unit.ends_with('N') {
+            return in_unit(typed, shown_unit);
+        }
+        let noise = format_quantity(measured.curve.noise, "N");
+        in_unit(typed, unit_of(&noise))
     }
 
     /// The options with a typed value of this one; an empty text, or the words of the usual value,
@@ -314,29 +348,39 @@ impl ReadingOption {
     /// # Errors
     /// The reason why the value is no value of the option.
     pub fn with(&self, options: &CurveOptions, typed: &str) -> Result<CurveOptions, String> {
-        let (mut changed, typed) = (options.clone(), typed.trim());
-        (self.take)(&mut changed, if typed == self.usual { "" } else { typed })?;
+        let mut changed = options.clone();
+        let typed = typed.trim();
+        let value = if typed == self.usual { "" } else { typed };
+        (self.take)(&mut changed, value)?;
         Ok(changed)
     }
 
     /// The choice after the present value or, unless `forwards`, before it; `None` for a value that
     /// is only typed.
     pub fn next_choice(&self, options: &CurveOptions, forwards: bool) -> Option<&'static str> {
-        let (count, present) = (self.choices.len(), self.in_words(options));
-        let place = self.choices.iter().position(|choice| *choice == present);
-        let step = if forwards { 1 } else { count.checked_sub(1)? };
-        let next = place.map_or(0, |place| (place + step) % count);
+        let last = self.choices.len().checked_sub(1)?;
+        let present = self.in_words(options);
+        let next = match self.choices.iter().position(|choice| *choice == present) {
+            Some(place) if forwards && place < last => place + 1,
+            Some(place) if !forwards => place.checked_sub(1).unwrap_or(last),
+            // The first choice follows the last one, and any value that is no choice.
+            _ => 0,
+        };
         self.choices.get(next).copied()
     }
 }
 
 /// Differences between options in words: `noise by the curve → 2 nN`.
 pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
-    let change = |option: &ReadingOption| {
-        let [from, to] = [from, to].map(|options| option.in_words(options));
-        (from != to).then(|| format!("{} {from} → {to}", option.field.name))
-    };
-    OPTIONS.iter().filter_map(change).collect()
+    let mut changes = Vec::new();
+    for option in &OPTIONS {
+        let before = option.in_words(from);
+        let after = option.in_words(to);
+        if before != after {
+            changes.push(format!("{} {before} → {after}", option.field.name));
+        }
+    }
+    changes
 }
 
 #[cfg(test)]
