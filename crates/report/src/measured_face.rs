@@ -1,7 +1,7 @@
 //! Measured surfaces of one face, as samples of the same roughness, with facts about their files
 //! and warnings about their analysis.
 
-use asperity_data::{Warning, format_quantity, grouped, path_name, printable};
+use asperity_data::{NamedHeight, Warning, format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
 use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};
@@ -141,7 +141,15 @@ impl MeasuredFace {
         let heights = || analysis.rms_heights.iter().zip(files);
         let (least, flat) = heights().min_by(|one, other| one.0.total_cmp(other.0))?;
         let (most, rough) = heights().max_by(|one, other| one.0.total_cmp(other.0))?;
-        Warning::of_rms_heights((flat.name(), *least), (rough.name(), *most))
+        let flattest = NamedHeight {
+            name: flat.name(),
+            rms_height: *least,
+        };
+        let roughest = NamedHeight {
+            name: rough.name(),
+            rms_height: *most,
+        };
+        Warning::of_rms_heights(flattest, roughest)
     }
 
     /// Returns warnings: unusual properties of each file, and reasons why results of the analysis
