@@ -196,8 +196,8 @@ struct Conversion {
 }
 
 impl Conversion {
-    /// Returns the conversion of a number with a suffix such as `MPa` to the SI unit `unit`. Returns
-    /// `None` if the suffix belongs to another unit.
+    /// Returns the conversion of a number with a suffix such as `MPa` to the SI unit `unit`.
+    /// Returns `None` if the suffix belongs to another unit.
     fn to_unit(unit: &str, suffix: &str) -> Option<Self> {
         let suffix = canonical(suffix);
         let unit = canonical(unit);
@@ -381,7 +381,7 @@ fn decimal(mantissa: &str, exponent: i32) -> String {
 fn shifted(mantissa: &str, power: i32) -> String {
     let sign = if mantissa.starts_with('-') { "-" } else { "" };
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-    // A point before the first digit needs zeros in front, and one after the last digit zeros after.
+    // A point before the first digit needs zeros in front, one after the last digit zeros after it.
     let zeros_before = usize::try_from(-power).unwrap_or(0);
     let zeros_after = usize::try_from(power + 1 - digits.len() as i32).unwrap_or(0);
     let digits = "0".repeat(zeros_before) + &digits + &"0".repeat(zeros_after);

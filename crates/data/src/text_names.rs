@@ -219,8 +219,8 @@ struct Division<'a> {
     is_stated: bool,
 }
 
-/// Lists the ways to divide the heading of a column into a name and a unit. The unit is in brackets,
-/// after a slash, or the last word, as in `Lateral um`.
+/// Lists the ways to divide the heading of a column into a name and a unit. The unit is in
+/// brackets, after a slash, or the last word, as in `Lateral um`.
 fn divisions(heading: &str) -> Vec<Division<'_>> {
     let mut divisions = Vec::new();
     for (place, bracket) in heading.match_indices(['[', '(']) {
@@ -254,8 +254,8 @@ fn divisions(heading: &str) -> Vec<Division<'_>> {
 }
 
 /// Returns name, meaning and unit from the heading of a column. An unknown unit is recognised in
-/// square brackets, after a slash, or as a short word in round brackets. Thus `height (measured)` is
-/// a name.
+/// square brackets, after a slash, or as a short word in round brackets. Thus `height (measured)`
+/// is a name.
 fn column(heading: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let divisions = divisions(heading);
     let division = divisions

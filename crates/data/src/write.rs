@@ -127,8 +127,8 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Returns true if no process writes into a temporary file. The process that makes such a file locks
-/// it just after its creation.
+/// Returns true if no process writes into a temporary file. The process that makes such a file
+/// locks it just after its creation.
 fn is_abandoned(path: &Path) -> bool {
     let Ok(file) = crate::read::open_regular(path) else {
         return false;
