@@ -33,13 +33,16 @@ impl AxisScale {
     /// 1.5 is in the middle between the values with the indices 1 and 2. Beyond the ends the index
     /// is extrapolated. For fewer than two values it is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
-        let places: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
-        let at = self.coordinate(number);
-        let after = places
-            .partition_point(|place| *place <= at)
-            .clamp(1, places.len().max(2) - 1);
-        match places.get(after - 1..=after) {
-            Some(&[low, high]) if high > low => (after - 1) as f64 + (at - low) / (high - low),
+        let coordinates: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
+        let coordinate = self.coordinate(number);
+        let last = coordinates.len().max(2) - 1;
+        let after = coordinates
+            .partition_point(|other| *other <= coordinate)
+            .clamp(1, last);
+        match coordinates.get(after - 1..=after) {
+            Some(&[low, high]) if high > low => {
+                (after - 1) as f64 + (coordinate - low) / (high - low)
+            }
             _ => 0.0,
         }
     }

@@ -26,11 +26,11 @@ impl Cholesky {
                 let sum: f64 = (0..column)
                     .map(|k| matrix[row * size + k] * matrix[column * size + k])
                     .sum();
-                let rest = matrix[row * size + column] - sum;
+                let remainder = matrix[row * size + column] - sum;
                 matrix[row * size + column] = if row > column {
-                    rest / matrix[column * size + column]
-                } else if rest > 0.0 && rest.is_finite() {
-                    rest.sqrt()
+                    remainder / matrix[column * size + column]
+                } else if remainder > 0.0 && remainder.is_finite() {
+                    remainder.sqrt()
                 } else {
                     return None;
                 };
@@ -42,22 +42,27 @@ impl Cholesky {
         })
     }
 
+    /// Returns an element of L.
+    fn element(&self, row: usize, column: usize) -> f64 {
+        self.factor[row * self.size + column]
+    }
+
     /// Returns the solution x of M x = `right`.
     pub fn solve(&self, mut right: Vec<f64>) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in 0..self.size {
-            let sum: f64 = (0..row).map(|k| at(row, k) * right[k]).sum();
-            right[row] = (right[row] - sum) / at(row, row);
+            let sum: f64 = (0..row).map(|k| self.element(row, k) * right[k]).sum();
+            right[row] = (right[row] - sum) / self.element(row, row);
         }
         self.solve_transposed(right)
     }
 
     /// Returns the solution x of Lᵀ x = `right`.
     pub fn solve_transposed(&self, mut right: Vec<f64>) -> Vec<f64> {
-        let at = |row: usize, column: usize| self.factor[row * self.size + column];
         for row in (0..self.size).rev() {
-            let sum: f64 = (row + 1..self.size).map(|k| at(k, row) * right[k]).sum();
-            right[row] = (right[row] - sum) / at(row, row);
+            let sum: f64 = (row + 1..self.size)
+                .map(|k| self.element(k, row) * right[k])
+                .sum();
+            right[row] = (right[row] - sum) / self.element(row, row);
         }
         right
     }
@@ -74,6 +79,10 @@ impl Cholesky {
     /// this is the variance of a quantity whose derivatives with respect to the parameters are v.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
-        gradient.iter().zip(solved).map(|(a, b)| a * b).sum()
+        gradient
+            .iter()
+            .zip(solved)
+            .map(|(component, solved)| component * solved)
+            .sum()
     }
 }

@@ -22,7 +22,8 @@ pub fn hexadecimal(hasher: Sha256) -> String {
 /// SHA-256 are copies.
 pub fn sha256_of(path: &Path) -> Result<String, ReadError> {
     let mut file = open_regular(path)?;
-    let (mut hasher, mut buffer) = (Sha256::new(), vec![0; BUFFER]);
+    let mut hasher = Sha256::new();
+    let mut buffer = vec![0; BUFFER];
     loop {
         match file.read(&mut buffer)? {
             0 => return Ok(hexadecimal(hasher)),

@@ -13,22 +13,20 @@ pub fn write_json(
     value: &impl Serialize,
     head: &[(&str, &str)],
 ) -> io::Result<()> {
-    let mut text = Vec::new();
-    for (name, value) in head {
-        let separator = if text.is_empty() { "" } else { "," };
-        write!(text, "{separator}\"{name}\":")?;
-        value.serialize(&mut Serializer::with_formatter(
-            &mut text,
+    let mut entries = Vec::new();
+    for (name, text) in head {
+        let separator = if entries.is_empty() { "" } else { "," };
+        write!(entries, "{separator}\"{name}\":")?;
+        text.serialize(&mut Serializer::with_formatter(
+            &mut entries,
             Printable::default(),
         ))?;
     }
-    value.serialize(&mut Serializer::with_formatter(
-        &mut *out,
-        Printable {
-            head: text,
-            follows: false,
-        },
-    ))?;
+    let format = Printable {
+        head: entries,
+        follows: false,
+    };
+    value.serialize(&mut Serializer::with_formatter(&mut *out, format))?;
     writeln!(out)
 }
 

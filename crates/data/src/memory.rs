@@ -9,14 +9,16 @@ use thiserror::Error;
 
 /// A buffer is released if its capacity is more than this many times the required number of values.
 const MOST_SPARE: usize = 4;
-/// Least number of values for this rule. A buffer for [`MOST_SPARE`] times as many is never
-/// released.
+
+/// Number of values below which memory is not worth a release: a buffer for [`MOST_SPARE`] times as
+/// many values is never released.
 const SMALL: usize = 1 << 16;
 
-/// Bytes checked in addition to the known arrays, for stacks of threads and small arrays. The
-/// number exceeds any block that the allocator of glibc keeps for reuse, so the check has no side
-/// effect.
+/// Number of bytes that the check adds to the known arrays, for stacks of threads and small arrays.
+/// The sum exceeds any block that the allocator of glibc keeps for reuse, so the system takes the
+/// memory of the check back at once.
 const BESIDE: u64 = 33 << 20;
+
 /// Number of bytes below which the check passes at once.
 const FEW: u64 = 1 << 20;
 

@@ -41,9 +41,12 @@ pub fn mean(values: &[f64]) -> f64 {
 
 /// Returns the root mean square of the values; `None` without values.
 pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
-    let (count, squares) = values
-        .into_iter()
-        .fold((0_u64, 0.0), |(n, sum), value| (n + 1, sum + value.powi(2)));
+    let mut count = 0_u64;
+    let mut squares = 0.0;
+    for value in values {
+        count += 1;
+        squares += value.powi(2);
+    }
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
@@ -69,12 +72,11 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
         return None;
     }
     let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
-    let lower = below
-        .iter()
-        .copied()
-        .reduce(f64::max)
-        .filter(|_| count.is_multiple_of(2));
-    Some(lower.map_or(upper, |lower| f64::midpoint(lower, upper)))
+    if !count.is_multiple_of(2) {
+        return Some(upper);
+    }
+    let lower = below.iter().copied().reduce(f64::max)?;
+    Some(f64::midpoint(lower, upper))
 }
 
 /// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A
@@ -126,15 +128,16 @@ pub fn between(from: f64, to: f64, share: f64) -> f64 {
 /// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
 /// ```
 pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
-    let mean =
-        |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let (x, y) = (mean(|point| point.0), mean(|point| point.1));
+    let count = points.len() as f64;
+    let mean_x = points.iter().map(|(x, _)| x).sum::<f64>() / count;
+    let mean_y = points.iter().map(|(_, y)| y).sum::<f64>() / count;
     let product: f64 = points
         .iter()
-        .map(|point| (point.0 - x) * (point.1 - y))
+        .map(|(x, y)| (x - mean_x) * (y - mean_y))
         .sum();
-    let square: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
-    Some(product / square).filter(|slope| slope.is_finite())
+    let square: f64 = points.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
+    let slope = product / square;
+    slope.is_finite().then_some(slope)
 }
 
 /// Returns the nodes in (−1, 1) and the weights of the Gauss-Legendre quadrature with `COUNT`
@@ -156,13 +159,14 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
     let mut slope = 1.0;
     for _ in 0..20 {
-        let (mut before, mut value) = (1.0, x);
+        // Legendre polynomials of the degrees k − 1 and k at x, by their recurrence.
+        let mut before = 1.0;
+        let mut value = x;
         for k in 2..=degree {
             let k = k as f64;
-            (before, value) = (
-                value,
-                ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k,
-            );
+            let next = ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k;
+            before = value;
+            value = next;
         }
         slope = count * (x * value - before) / (x * x - 1.0);
         x -= value / slope;
@@ -172,20 +176,25 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
 
 thread_local! {
     /// Degrees of freedom and value of the last quantile. Most samples in a row have the same size.
-    static KNOWN: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
+    static LAST_QUANTILE: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
 /// Returns the value that |t| exceeds with a probability of 5 %, where t has Student's distribution
 /// with `freedom` degrees of freedom, at least 1.
 pub fn student_quantile(freedom: u32) -> f64 {
-    if KNOWN.get().0 != freedom {
-        KNOWN.set((freedom, student_t(freedom)));
+    let (last_freedom, last_quantile) = LAST_QUANTILE.get();
+    if last_freedom == freedom {
+        return last_quantile;
     }
-    KNOWN.get().1
+    let quantile = student_t(freedom);
+    LAST_QUANTILE.set((freedom, quantile));
+    quantile
 }
 
+/// Finds the quantile by bisection.
 fn student_t(freedom: u32) -> f64 {
-    let (mut low, mut high) = (0.0, 16.0);
+    let mut low = 0.0;
+    let mut high = 16.0;
     for _ in 0..200 {
         let middle = f64::midpoint(low, high);
         if share_within(middle, freedom) < 0.95 {
@@ -202,16 +211,17 @@ fn student_t(freedom: u32) -> f64 {
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
-    let odd = freedom % 2 == 1;
+    let is_odd = freedom % 2 == 1;
     // Sum over cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
-    let (mut term, mut power) = if odd { (cosine, 1) } else { (1.0, 0) };
+    let mut power = u32::from(is_odd);
+    let mut term = if is_odd { cosine } else { 1.0 };
     let mut sum = 0.0;
     while power + 2 <= freedom {
         sum += term;
         power += 2;
         term *= cosine * cosine * f64::from(power - 1) / f64::from(power);
     }
-    if odd {
+    if is_odd {
         FRAC_2_PI * (angle + sine * sum)
     } else {
         sine * sum

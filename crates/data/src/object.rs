@@ -24,17 +24,19 @@ pub struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (ObjectEntry<T>, R) {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
-        map.serialize_entry(self.0.0, &self.0.1)?;
-        self.1.write(map)
+        let (ObjectEntry(key, value), others) = self;
+        map.serialize_entry(key, value)?;
+        others.write(map)
     }
 }
 
 impl<T: Serialize, R: Entries> Entries for (Optional<T>, R) {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
-        if let Some(value) = &self.0.1 {
-            map.serialize_entry(self.0.0, value)?;
+        let (Optional(key, value), others) = self;
+        if let Some(value) = value {
+            map.serialize_entry(key, value)?;
         }
-        self.1.write(map)
+        others.write(map)
     }
 }
 

@@ -31,17 +31,18 @@ pub(crate) fn begin_threads<'scope>(
     count: usize,
     work: impl FnOnce() + Clone + Send + 'scope,
 ) -> io::Result<()> {
-    let begin = |_| {
+    let mut is_begun = false;
+    let mut first_error = None;
+    for _ in 0..count {
         let work = work.clone();
-        Builder::new()
-            .spawn_scoped(scope, || on_this_thread(work))
-            .map(drop)
-    };
-    let begun: Vec<_> = (0..count).map(begin).collect();
-    if begun.iter().any(Result::is_ok) {
-        Ok(())
-    } else {
-        begun.into_iter().collect()
+        match Builder::new().spawn_scoped(scope, || on_this_thread(work)) {
+            Ok(_) => is_begun = true,
+            Err(error) => first_error = first_error.or(Some(error)),
+        }
+    }
+    match first_error {
+        Some(error) if !is_begun => Err(error),
+        _ => Ok(()),
     }
 }
 
@@ -65,7 +66,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     jobs: usize,
     worker: impl Fn() -> W + Sync,
 ) -> Result<Vec<R>, E> {
-    let (next, found) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    let next = AtomicU64::new(0);
+    let found = Mutex::new(Vec::new());
     let work = &|| {
         let mut worker = worker();
         loop {
@@ -98,34 +100,36 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
 /// Returns the number of threads for a computation: one for each core, or 1 inside
 /// [`on_this_thread`] and on threads that this module has started.
 pub fn threads() -> usize {
-    let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    if ONE_OF_MANY.get() { 1 } else { cores() }
+    if ONE_OF_MANY.get() {
+        return 1;
+    }
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }
 
-/// Runs the functions `one` and `other`, and returns their results. If `worth` is true and a second
-/// thread is possible, `one` runs on the second thread at the same time as `other`. Otherwise one
-/// function runs after the other.
+/// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true and a
+/// second thread is possible, `first` runs on the second thread at the same time as `second`.
+/// Otherwise one function runs after the other.
 pub fn in_parallel<A: Send, B>(
-    worth: bool,
-    one: impl FnOnce() -> A + Send,
-    other: impl FnOnce() -> B,
+    is_worth: bool,
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B,
 ) -> (A, B) {
-    if !worth || ONE_OF_MANY.get() {
-        return (one(), other());
+    if !is_worth || ONE_OF_MANY.get() {
+        return (first(), second());
     }
-    let task = Mutex::new(Some(one));
+    let task = Mutex::new(Some(first));
     let take = || task.lock().unwrap_or_else(PoisonError::into_inner).take();
     scope(|scope| {
         let thread = Builder::new()
             .spawn_scoped(scope, || take().map(|task| task()))
             .ok();
-        let other = other();
+        let second_result = second();
         // Runs here if no other thread has begun.
         if let Some(task) = take() {
-            return (task(), other);
+            return (task(), second_result);
         }
         match thread.map(ScopedJoinHandle::join) {
-            Some(Ok(Some(one))) => (one, other),
+            Some(Ok(Some(first_result))) => (first_result, second_result),
             Some(Err(panic)) => resume_unwind(panic),
             Some(Ok(None)) | None => {
                 unreachable!("a task that is gone has been taken by its thread")
@@ -144,9 +148,10 @@ mod tests {
     #[test]
     fn both_are_done_once() {
         for worth in [false, true] {
-            let (mut one, mut other) = (0, 0);
-            let results = in_parallel(worth, || (0..1000).for_each(|k| one += k), || other += 1);
-            assert_eq!((results, one, other), (((), ()), 499_500, 1));
+            let mut sum = 0;
+            let mut calls = 0;
+            let results = in_parallel(worth, || (0..1000).for_each(|k| sum += k), || calls += 1);
+            assert_eq!((results, sum, calls), (((), ()), 499_500, 1));
         }
     }
 
@@ -154,11 +159,11 @@ mod tests {
     fn one_of_many_threads_stays_alone() {
         let on_two_threads = || {
             let begun = AtomicBool::new(false);
-            let one = || {
+            let first = || {
                 begun.store(true, Ordering::SeqCst);
                 current().id()
             };
-            let other = || {
+            let second = || {
                 // Otherwise this thread may run both before the other has started.
                 let clock = Instant::now();
                 while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
@@ -166,8 +171,8 @@ mod tests {
                 }
                 current().id()
             };
-            let (one, other) = in_parallel(true, one, other);
-            one != other
+            let (first, second) = in_parallel(true, first, second);
+            first != second
         };
         assert_eq!(
             (

@@ -26,30 +26,55 @@ const EULER_MACLAURIN: [f64; 5] = [
 pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     let end = last.min(first.saturating_add(DIRECT_TERMS - 1));
     let mut sum = CompensatedSum::default();
-    (first..=end).for_each(|k| sum.add((k as f64).powf(exponent)));
+    for k in first..=end {
+        sum.add((k as f64).powf(exponent));
+    }
     if end == last {
         return sum.total();
     }
     // Σ_{k=m}^{n} f(k) = ∫ f dk + (f(m) + f(n))/2 + Σ B_2j/(2j)! (f^(2j−1)(n) − f^(2j−1)(m)).
-    let (low, high) = ((end + 1) as f64, last as f64);
-    let (mut at_low, mut at_high) = (low.powf(exponent), high.powf(exponent));
+    let low = (end + 1) as f64;
+    let high = last as f64;
+    let mut derivative = Derivative::of_order_zero(exponent, low, high);
     sum.add(integral_of_power(exponent, low, high));
-    sum.add(0.5 * at_low);
-    sum.add(0.5 * at_high);
-    let mut falling = exponent;
-    let mut differentiate = || {
-        at_low *= falling / low;
-        at_high *= falling / high;
-        falling -= 1.0;
-        at_high - at_low
-    };
+    sum.add(0.5 * derivative.at_low);
+    sum.add(0.5 * derivative.at_high);
     for (index, coefficient) in EULER_MACLAURIN.into_iter().enumerate() {
         if index > 0 {
-            differentiate();
+            derivative.differentiate();
         }
-        sum.add(coefficient * differentiate());
+        derivative.differentiate();
+        sum.add(coefficient * (derivative.at_high - derivative.at_low));
     }
     sum.total()
+}
+
+/// A derivative of f(k) = k^exponent at the first and the last k that are not summed directly.
+struct Derivative {
+    low: f64,
+    high: f64,
+    at_low: f64,
+    at_high: f64,
+    /// Exponent of k in this derivative.
+    exponent: f64,
+}
+
+impl Derivative {
+    fn of_order_zero(exponent: f64, low: f64, high: f64) -> Self {
+        Derivative {
+            low,
+            high,
+            at_low: low.powf(exponent),
+            at_high: high.powf(exponent),
+            exponent,
+        }
+    }
+
+    fn differentiate(&mut self) {
+        self.at_low *= self.exponent / self.low;
+        self.at_high *= self.exponent / self.high;
+        self.exponent -= 1.0;
+    }
 }
 
 /// Returns ∫ q^power dq from `low` to `high`. The result is also accurate for a power near −1.
@@ -72,15 +97,16 @@ pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn direct_sum(exponent: f64, first: u64, last: u64) -> f64 {
+        let mut sum = CompensatedSum::default();
+        for k in (first..=last).rev() {
+            sum.add((k as f64).powf(exponent));
+        }
+        sum.total()
+    }
+
     #[test]
     fn sums_are_those_of_their_terms() {
-        let direct = |exponent: f64, first: u64, last: u64| {
-            let mut sum = CompensatedSum::default();
-            (first..=last)
-                .rev()
-                .for_each(|k| sum.add((k as f64).powf(exponent)));
-            sum.total()
-        };
         let ranges = [
             (1, 1),
             (1, 64),
@@ -105,10 +131,8 @@ mod tests {
             1.0,
         ] {
             for (first, last) in ranges {
-                let (found, expected) = (
-                    sum_of_powers(exponent, first, last),
-                    direct(exponent, first, last),
-                );
+                let found = sum_of_powers(exponent, first, last);
+                let expected = direct_sum(exponent, first, last);
                 let error = (found / expected - 1.0).abs();
                 assert!(
                     error <= 9e-16,

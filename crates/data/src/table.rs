@@ -24,7 +24,9 @@ pub enum Kind {
 }
 
 /// Function that returns the value of a column for a row.
-type Of<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
+type ValueOf<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
+
+/// Function that returns an iterator over all rows.
 type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 
 /// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON.
@@ -40,7 +42,7 @@ pub struct Table<'a> {
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
-    values: Vec<Of<'a, T>>,
+    values: Vec<ValueOf<'a, T>>,
 }
 
 impl<'a> Table<'a> {
@@ -81,16 +83,16 @@ impl<'a, T: 'a> TableOf<'a, T> {
 
     /// Ends the construction and returns the table.
     pub fn done(self) -> Table<'a> {
-        let (rows, values) = (self.rows, Rc::new(self.values));
-        let counted = Rc::clone(&rows);
-        let rows = move || -> Box<dyn Iterator<Item = Vec<Value>> + 'a> {
-            let values = Rc::clone(&values);
-            Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
-        };
+        let rows = self.rows;
+        let values = Rc::new(self.values);
+        let counted_rows = Rc::clone(&rows);
         Table {
             columns: self.columns,
-            count: Box::new(move || counted().count()),
-            rows: Rc::new(rows),
+            count: Box::new(move || counted_rows().count()),
+            rows: Rc::new(move || {
+                let values = Rc::clone(&values);
+                Box::new(rows().map(move |row| values.iter().map(|value| value(&row)).collect()))
+            }),
         }
     }
 }
@@ -109,24 +111,16 @@ impl Table<'_> {
     /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how
     /// the table was made.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
-        provenance
-            .lines()
-            .try_for_each(|line| writeln!(out, "# {line}"))?;
+        for line in provenance.lines() {
+            writeln!(out, "# {line}")?;
+        }
         let names: Vec<_> = self.columns.iter().map(|(name, _)| quoted(name)).collect();
         writeln!(out, "{}", names.join(","))?;
         let mut line = String::new();
-        for row in (self.rows)() {
+        for row in self.rows() {
             line.clear();
             for value in &row {
-                // Writing to a string cannot fail.
-                let _ = match value {
-                    Value::Null => Ok(()),
-                    Value::String(text) => line.write_str(&quoted(text)),
-                    number => match number.as_f64().filter(|_| number.is_f64()) {
-                        Some(real) => write!(line, "{real:?}"),
-                        None => write!(line, "{number}"),
-                    },
-                };
+                push_cell(&mut line, value);
                 line.push(',');
             }
             line.pop();
@@ -137,45 +131,69 @@ impl Table<'_> {
 
     /// Writes the table as a NumPy array with one field for each column.
     pub fn write_npy(&self, out: &mut dyn Write) -> io::Result<()> {
-        let descr = |kind: Kind| match kind {
-            Kind::Real => "<f8".to_owned(),
-            Kind::Whole => "<u8".to_owned(),
-            Kind::Text(characters) => format!("<U{characters}"),
-        };
         let fields: Vec<_> = self
             .columns
             .iter()
-            .map(|(name, kind)| format!("('{name}', '{}')", descr(*kind)))
+            .map(|(name, kind)| format!("('{name}', '{}')", kind.numpy_type()))
             .collect();
         let shape = format!("{},", (self.count)());
         npy::write_header(out, &format!("[{}]", fields.join(", ")), &shape)?;
-        for row in (self.rows)() {
+        for row in self.rows() {
             for (value, (_, kind)) in row.iter().zip(&self.columns) {
-                match (kind, value) {
-                    (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
-                    (Kind::Real, Value::Number(number)) => {
-                        out.write_all(&number.as_f64().unwrap_or(f64::NAN).to_le_bytes())
-                    }
-                    (Kind::Whole, Value::Number(number)) => {
-                        out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
-                    }
-                    (Kind::Text(characters), Value::String(text))
-                        if text.chars().count() <= *characters =>
-                    {
-                        let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
-                        codes
-                            .take(*characters)
-                            .try_for_each(|code| out.write_all(&code.to_le_bytes()))
-                    }
-                    _ => Err(io::Error::other(format!(
-                        "{value} in a column of {}",
-                        descr(*kind)
-                    ))),
-                }?;
+                write_binary(out, value, *kind)?;
             }
         }
         Ok(())
     }
+}
+
+impl Kind {
+    /// Returns the type of the values in the notation of NumPy.
+    fn numpy_type(self) -> String {
+        match self {
+            Kind::Real => "<f8".to_owned(),
+            Kind::Whole => "<u8".to_owned(),
+            Kind::Text(characters) => format!("<U{characters}"),
+        }
+    }
+}
+
+/// Writes a value as the bytes of a NumPy array. A value of another kind than its column is an
+/// error.
+fn write_binary(out: &mut dyn Write, value: &Value, kind: Kind) -> io::Result<()> {
+    match (kind, value) {
+        (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
+        (Kind::Real, Value::Number(number)) => {
+            out.write_all(&number.as_f64().unwrap_or(f64::NAN).to_le_bytes())
+        }
+        (Kind::Whole, Value::Number(number)) => {
+            out.write_all(&number.as_u64().unwrap_or_default().to_le_bytes())
+        }
+        (Kind::Text(characters), Value::String(text)) if text.chars().count() <= characters => {
+            let codes = text.chars().map(u32::from).chain(std::iter::repeat(0));
+            for code in codes.take(characters) {
+                out.write_all(&code.to_le_bytes())?;
+            }
+            Ok(())
+        }
+        _ => {
+            let message = format!("{value} in a column of {}", kind.numpy_type());
+            Err(io::Error::other(message))
+        }
+    }
+}
+
+/// Appends a value as a cell of CSV.
+fn push_cell(line: &mut String, value: &Value) {
+    // Writing to a string cannot fail.
+    let _ = match value {
+        Value::Null => Ok(()),
+        Value::String(text) => line.write_str(&quoted(text)),
+        number => match number.as_f64() {
+            Some(real) if number.is_f64() => write!(line, "{real:?}"),
+            _ => write!(line, "{number}"),
+        },
+    };
 }
 
 /// Returns a CSV cell, in quotes by RFC 4180 if it contains a separator, a quote or a line break.
@@ -190,15 +208,23 @@ fn quoted(text: &str) -> Cow<'_, str> {
 /// Serialises the table as a JSON array with one object for each row.
 impl Serialize for Table<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq((self.rows)().map(|row| Object(&self.columns, row)))
+        serializer.collect_seq(self.rows().map(|values| RowObject {
+            columns: &self.columns,
+            values,
+        }))
     }
 }
 
-struct Object<'a>(&'a [(Cow<'static, str>, Kind)], Vec<Value>);
+/// A row that is written as a JSON object.
+struct RowObject<'a> {
+    columns: &'a [(Cow<'static, str>, Kind)],
+    values: Vec<Value>,
+}
 
-impl Serialize for Object<'_> {
+impl Serialize for RowObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, _)| name).zip(&self.1))
+        let names = self.columns.iter().map(|(name, _)| name);
+        serializer.collect_map(names.zip(&self.values))
     }
 }
 

@@ -34,7 +34,7 @@ pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
 pub fn si_prefix(power: i32) -> Option<&'static str> {
     SI_PREFIXES
         .iter()
-        .find(|(_, of)| *of == power)
+        .find(|(_, power_of_ten)| *power_of_ten == power)
         .map(|(prefix, _)| *prefix)
 }
 
@@ -145,23 +145,27 @@ pub fn per_cent(error: f64) -> String {
     if per_cent < 1e-3 {
         return "< 0.001 %".to_owned();
     }
-    let two = round_to(per_cent, 2);
-    let one = round_to(per_cent, 1);
-    let leads_with_one = format!("{two:e}").starts_with('1');
-    format!("{} %", if leads_with_one { two } else { one })
+    let two_digits = round_to(per_cent, 2);
+    let leads_with_one = format!("{two_digits:e}").starts_with('1');
+    if leads_with_one {
+        format!("{two_digits} %")
+    } else {
+        format!("{} %", round_to(per_cent, 1))
+    }
 }
 
 /// Units, without prefixes, that stay on one line with the number before them.
 const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 
-/// Returns true for one of these units, with or without a prefix, also if punctuation follows.
+/// Returns true for one of [`UNITS`], with or without a prefix, also if punctuation follows.
 fn is_unit(word: &str) -> bool {
     let word = word.trim_end_matches([',', ';', ':', '.', ')']);
     let without_prefix = word.strip_prefix([
         'q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E',
     ]);
-    UNITS.contains(&word)
-        || without_prefix.is_some_and(|word| UNITS.contains(&word.trim_start_matches('i')))
+    // The i belongs to a binary prefix, such as Ki.
+    let without_prefix = without_prefix.map(|unit| unit.trim_start_matches('i'));
+    UNITS.contains(&word) || without_prefix.is_some_and(|unit| UNITS.contains(&unit))
 }
 
 /// Returns true if a line must not break between a word and the next one, as inside `16 384` or
@@ -176,9 +180,9 @@ pub fn belong_together(word: &str, next: &str) -> bool {
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     for next in text.split_whitespace() {
-        match words.last_mut().filter(|word| belong_together(word, next)) {
-            Some(word) => *word = format!("{word} {next}"),
-            None => words.push(next.to_owned()),
+        match words.last_mut() {
+            Some(word) if belong_together(word, next) => *word = format!("{word} {next}"),
+            _ => words.push(next.to_owned()),
         }
     }
     words
@@ -186,27 +190,31 @@ fn words(text: &str) -> Vec<String> {
 
 /// Breaks a text into lines of at most `width` characters, between words if possible.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
+    let mut lines = Vec::new();
+    let mut line = String::new();
     let mut room = width;
     for word in words(text) {
         let length = word.chars().count();
         let blank = usize::from(room < width);
         if length + blank > room && room < width {
-            lines.push(String::new());
+            lines.push(std::mem::take(&mut line));
             room = width;
         }
-        let blank = usize::from(room < width);
-        for (index, character) in " ".repeat(blank).chars().chain(word.chars()).enumerate() {
+        if room < width {
+            line.push(' ');
+            room -= 1;
+        }
+        for (index, character) in word.chars().enumerate() {
+            // A line has at least one character.
             if index > 0 && room == 0 {
-                lines.push(String::new());
+                lines.push(std::mem::take(&mut line));
                 room = width;
             }
-            if let Some(line) = lines.last_mut() {
-                line.push(character);
-            }
+            line.push(character);
             room -= 1;
         }
     }
+    lines.push(line);
     lines
 }
 

@@ -16,12 +16,15 @@ impl Separator {
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
-        let is_in_line =
-            |mark: &char| outside.contains(*mark) && (*mark != ',' || !has_decimal_commas(line));
-        [';', '\t', ',']
-            .into_iter()
-            .find(is_in_line)
-            .map_or(Separator::SPACE, Separator)
+        for mark in [';', '\t'] {
+            if outside.contains(mark) {
+                return Separator(mark);
+            }
+        }
+        if outside.contains(',') && !has_decimal_commas(line) {
+            return Separator(',');
+        }
+        Separator::SPACE
     }
 
     /// Splits a line, which must have no blanks at its ends, into columns. Separators within
@@ -30,17 +33,16 @@ impl Separator {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
         let is_mark = move |c: char| {
-            is_outside(c)
-                && if is_spaced {
-                    c.is_ascii_whitespace()
-                } else {
-                    c == self.0
-                }
+            let is_separator = if is_spaced {
+                c.is_ascii_whitespace()
+            } else {
+                c == self.0
+            };
+            is_outside(c) && is_separator
         };
-        let cells = line
-            .split(is_mark)
-            .filter(move |cell| !(is_spaced && cell.is_empty()));
-        cells.map(|cell| cell.trim().trim_matches('"').trim())
+        line.split(is_mark)
+            .filter(move |cell| !(is_spaced && cell.is_empty()))
+            .map(|cell| cell.trim().trim_matches('"').trim())
     }
 }
 
@@ -58,18 +60,23 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
 /// only inside words.
 fn has_decimal_commas(line: &str) -> bool {
     let mut decimal = Decimal::default();
-    let is_number = |word: &str| {
-        let inside = word.split_once(',').is_none_or(|(before, after)| {
-            before.ends_with(|c: char| c.is_ascii_digit())
-                && after.starts_with(|c: char| c.is_ascii_digit())
-        });
-        inside
-            && matches!(
-                decimal.read(word, Separator::SPACE),
-                TextCell::Number(_) | TextCell::Missing
-            )
+    for word in line.split_ascii_whitespace() {
+        let content = decimal.read(word, Separator::SPACE);
+        let is_number = matches!(content, TextCell::Number(_) | TextCell::Missing);
+        if !is_number || !has_digits_around_comma(word) {
+            return false;
+        }
+    }
+    line.split_ascii_whitespace().count() > 1
+}
+
+/// Returns true for a word without a comma, or with digits on both sides of its first comma.
+fn has_digits_around_comma(word: &str) -> bool {
+    let Some((before, after)) = word.split_once(',') else {
+        return true;
     };
-    line.split_ascii_whitespace().count() > 1 && line.split_ascii_whitespace().all(is_number)
+    before.ends_with(|c: char| c.is_ascii_digit())
+        && after.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// Content of a cell of a text table, as [`Decimal::read`] returns it.
@@ -111,6 +118,7 @@ pub struct Decimal {
     group: Option<char>,
     /// True after a number whose comma cannot separate thousands, as `0,5`.
     is_certain: bool,
+    /// True after a number without a decimal mark.
     has_whole: bool,
 }
 
@@ -124,41 +132,50 @@ impl Decimal {
         }
         let parsed = cell.parse::<f64>();
         if (parsed.is_err() || self.group == Some('.'))
-            && let Some((ungrouped, mark)) = ungrouped(cell, self.group)
+            && let Some(grouped) = Grouped::read(cell, self.group)
         {
-            let mark = mark.filter(|mark| [',', '.'].contains(mark));
-            if mark.is_some() && mark == self.mark {
-                return TextCell::OtherMark;
-            }
-            self.group = self.group.or(mark);
-            return self.read(&ungrouped, separator);
+            return self.read_grouped(&grouped, separator);
         }
-        let (value, mark) = if let Ok(value) = parsed {
-            (value, cell.contains('.').then_some('.'))
-        } else if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
+        if let Ok(value) = parsed {
+            let mark = cell.contains('.').then_some('.');
+            return self.take(value, mark);
+        }
+        if cell.is_empty() || MISSING.iter().any(|mark| mark.eq_ignore_ascii_case(cell)) {
             return TextCell::Missing;
-        } else if separator == Separator(',') {
-            return if may_be_grouped(cell) {
-                TextCell::OtherMark
-            } else {
-                TextCell::NoNumber
-            };
-        } else if cell.contains('.') {
+        }
+        if separator == Separator(',') && may_be_grouped(cell) {
+            return TextCell::OtherMark;
+        }
+        if separator == Separator(',') || cell.contains('.') {
             return TextCell::NoNumber;
-        } else {
-            let Ok(value) = cell.replacen(',', ".", 1).parse() else {
-                return TextCell::NoNumber;
-            };
-            self.is_certain = self.is_certain || !may_be_grouped(cell);
-            (value, Some(','))
+        }
+        let Ok(value) = cell.replacen(',', ".", 1).parse() else {
+            return TextCell::NoNumber;
         };
+        self.is_certain |= !may_be_grouped(cell);
+        self.take(value, Some(','))
+    }
+
+    /// Reads a number whose thousands are separated.
+    fn read_grouped(&mut self, number: &Grouped, separator: Separator) -> TextCell {
+        let mark = Some(number.group).filter(|mark| [',', '.'].contains(mark));
+        if mark.is_some() && mark == self.mark {
+            return TextCell::OtherMark;
+        }
+        self.group = self.group.or(mark);
+        self.read(&number.ungrouped, separator)
+    }
+
+    /// Returns a value with this decimal mark, unless the numbers before have another one.
+    fn take(&mut self, value: f64, mark: Option<char>) -> TextCell {
         if value.is_nan() {
             return TextCell::Missing;
         }
-        if mark.is_some()
-            && (mark == self.group || self.mark.is_some_and(|found| mark != Some(found)))
-        {
-            return TextCell::OtherMark;
+        if mark.is_some() {
+            let differs = self.mark.is_some() && mark != self.mark;
+            if differs || mark == self.group {
+                return TextCell::OtherMark;
+            }
         }
         self.mark = self.mark.or(mark);
         self.has_whole |= mark.is_none();
@@ -179,39 +196,56 @@ impl Decimal {
 
 /// Returns true for a number such as `1,234`, whose comma may separate thousands.
 fn may_be_grouped(cell: &str) -> bool {
-    ungrouped(cell, Some(',')).is_some_and(|(_, mark)| mark == Some(','))
+    Grouped::read(cell, Some(',')).is_some_and(|number| number.group == ',')
 }
 
-/// Returns a number without the marks that separate its thousands, and this mark. A single comma or
-/// point separates thousands if it is the mark `known`, or if a decimal mark follows.
-fn ungrouped(cell: &str, known: Option<char>) -> Option<(String, Option<char>)> {
-    let unsigned = cell.trim_start_matches(['+', '-']);
-    let mark = unsigned
-        .chars()
-        .find(|c| !c.is_ascii_digit())
-        .filter(|mark| GROUPING.contains(mark))?;
-    let (first, mut rest) = unsigned.split_once(mark)?;
-    if !(1..=3).contains(&first.len()) || first.starts_with('0') {
-        return None;
-    }
-    let (mut digits, mut groups) = (cell[..cell.len() - unsigned.len()].to_owned() + first, 0);
-    loop {
-        let end = rest
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(rest.len());
-        if end != 3 {
+/// A number whose thousands are separated.
+struct Grouped {
+    /// The number without the marks that separate its thousands.
+    ungrouped: String,
+    /// The mark that separates the thousands.
+    group: char,
+}
+
+impl Grouped {
+    /// Reads a number whose thousands are separated; `None` for other text. A single comma or point
+    /// separates thousands if it is the mark `known`, or if a decimal mark follows.
+    fn read(cell: &str, known: Option<char>) -> Option<Self> {
+        let unsigned = cell.trim_start_matches(['+', '-']);
+        let sign = &cell[..cell.len() - unsigned.len()];
+        let group = unsigned.chars().find(|c| !c.is_ascii_digit())?;
+        if !GROUPING.contains(&group) {
             return None;
         }
-        digits += &rest[..end];
-        (rest, groups) = (&rest[end..], groups + 1);
-        let Some(next) = rest.strip_prefix(mark) else {
-            break;
-        };
-        rest = next;
+        let (first, mut rest) = unsigned.split_once(group)?;
+        if !(1..=3).contains(&first.len()) || first.starts_with('0') {
+            return None;
+        }
+        let mut ungrouped = sign.to_owned() + first;
+        let mut groups = 0;
+        loop {
+            let end = rest
+                .find(|c: char| !c.is_ascii_digit())
+                .unwrap_or(rest.len());
+            if end != 3 {
+                return None;
+            }
+            ungrouped += &rest[..end];
+            groups += 1;
+            rest = &rest[end..];
+            let Some(next) = rest.strip_prefix(group) else {
+                break;
+            };
+            rest = next;
+        }
+        let has_decimals = rest.starts_with([',', '.']);
+        let may_be_decimal_mark = [',', '.'].contains(&group);
+        if may_be_decimal_mark && groups == 1 && !has_decimals && known != Some(group) {
+            return None;
+        }
+        ungrouped += rest;
+        Some(Grouped { ungrouped, group })
     }
-    let has_decimals = rest.starts_with([',', '.']);
-    let is_group = has_decimals || groups > 1 || ![',', '.'].contains(&mark) || known == Some(mark);
-    is_group.then(|| (digits + rest, Some(mark)))
 }
 
 #[cfg(test)]

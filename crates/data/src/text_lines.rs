@@ -50,14 +50,15 @@ pub fn each_line<E: From<TextFault>>(
     bytes: &[u8],
     mut take: impl FnMut(usize, &str) -> Result<(), E>,
 ) -> Result<(), E> {
-    let mut in_provenance = false;
     let text = decoded(bytes).map_err(TextFault::from)?;
-    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
-    for (index, line) in text.split(|byte| *byte == end).enumerate() {
+    let end_of_line = if text.contains(&b'\n') { b'\n' } else { b'\r' };
+    let mut in_provenance = false;
+    for (index, line) in text.split(|byte| *byte == end_of_line).enumerate() {
         let line = line_text(line, index + 1)?;
+        // An empty line does not end the comments above a table.
         if !line.is_empty() {
-            in_provenance =
-                line.starts_with(COMMENT) && (in_provenance || line.starts_with(PROVENANCE));
+            let continues = in_provenance || line.starts_with(PROVENANCE);
+            in_provenance = continues && line.starts_with(COMMENT);
         }
         if !in_provenance {
             take(index + 1, &line)?;
@@ -75,13 +76,8 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
         return Ok(Cow::Borrowed(text));
     }
     check_room(2 * text.len() as u64)?;
-    Ok(Cow::Owned(
-        encoding
-            .decode_without_bom_handling(text)
-            .0
-            .into_owned()
-            .into_bytes(),
-    ))
+    let (decoded, _) = encoding.decode_without_bom_handling(text);
+    Ok(Cow::Owned(decoded.into_owned().into_bytes()))
 }
 
 /// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252,
@@ -94,8 +90,11 @@ fn line_text(text: &[u8], line: usize) -> Result<Cow<'_, str>, TextFault> {
         return Err(TextFault::NotText { line, byte });
     }
     let text = text.trim_ascii();
-    let other = |_| WINDOWS_1252.decode_without_bom_handling(text).0;
-    Ok(str::from_utf8(text).map_or_else(other, Cow::Borrowed))
+    if let Ok(line) = str::from_utf8(text) {
+        return Ok(Cow::Borrowed(line));
+    }
+    let (decoded, _) = WINDOWS_1252.decode_without_bom_handling(text);
+    Ok(decoded)
 }
 
 #[cfg(test)]

@@ -89,31 +89,26 @@ impl HeadLines {
             let Some(found) = cells_of(line, count, cells, separator) else {
                 continue;
             };
-            let is_number = |cell: &String| {
-                matches!(
-                    Decimal::default().read(cell, Separator::SPACE),
-                    TextCell::Number(_)
-                )
-            };
-            if found.iter().any(is_number)
-                || !found
-                    .iter()
-                    .any(|cell| cell.contains(char::is_alphanumeric))
-            {
+            let has_letters = found
+                .iter()
+                .any(|cell| cell.contains(char::is_alphanumeric));
+            if !has_letters || found.iter().any(|cell| is_number(cell)) {
                 continue;
             }
             let mut columns: Vec<TextColumn> =
                 found.iter().map(|cell| column(cell, is_unit)).collect();
-            let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
-            let names = columns.iter().any(|column| column.role != Role::Unknown);
-            if units.is_none() && !names && bare.iter().any(|cell| is_unit(cell)) {
-                units = Some(bare);
-                continue;
+            let has_known_names = columns.iter().any(|column| column.role != Role::Unknown);
+            if units.is_none() && !has_known_names {
+                let bare: Vec<String> = found.iter().map(|cell| bare(cell).to_owned()).collect();
+                if bare.iter().any(|cell| is_unit(cell)) {
+                    units = Some(bare);
+                    continue;
+                }
             }
-            // Numbers of points often have no name, or a sign that begins a comment.
+            // Indices of points often have no name, or a sign that begins a comment.
             if let [first, _, ..] = &mut columns[..]
                 && first.name.is_empty()
-                && names
+                && has_known_names
             {
                 first.role = Role::Number;
             }
@@ -131,6 +126,11 @@ impl HeadLines {
     }
 }
 
+fn is_number(cell: &str) -> bool {
+    let content = Decimal::default().read(cell, Separator::SPACE);
+    matches!(content, TextCell::Number(_))
+}
+
 /// Adds a row of units. A known unit in the row replaces the unit beside a name.
 fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -> bool) {
     for (column, unit) in columns.iter_mut().zip(units) {
@@ -142,113 +142,146 @@ fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -
 
 /// Returns true if `word` is one of `words`, which are separated by blanks.
 pub fn is_one_of(word: &str, words: &str) -> bool {
-    words.split(' ').any(|one| one == word)
+    words.split(' ').any(|listed| listed == word)
 }
 
 /// Returns the cells of a line of names, if there are `count` of them. With the separator of the
 /// numbers there may be up to `most`. Otherwise the line is split at its own separator, or after
 /// closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
-    let line = match line.split_once([':', '=']) {
-        Some((key, cells))
-            if is_one_of(&key.trim().to_lowercase(), "columns names fields units") =>
-        {
-            cells
-        }
-        Some(_) => return None,
-        None => line,
-    };
+    let line = without_key(line)?.trim();
     // Between a name and its unit there may be a blank.
     let joined = line
-        .trim()
         .replace(" [", "[")
         .replace(" (", "(")
         .replace(" / ", "/");
-    let split = |separator: Separator| {
-        let line = if separator == Separator::SPACE {
-            &joined
-        } else {
-            line.trim()
-        };
-        let mut cells: Vec<String> = separator.split(line).map(str::to_owned).collect();
-        let end = cells
-            .iter()
-            .rposition(|cell| !cell.is_empty())
-            .map_or(0, |last| last + 1);
-        cells.truncate(end);
-        cells
-    };
-    let mut cells = split(separator);
+    let mut cells = split_at(separator, line, &joined);
     if (count..=most).contains(&cells.len()) {
         cells.truncate(count);
         return Some(cells);
     }
-    let cells = split(Separator::of(&joined));
+    let cells = split_at(Separator::of(&joined), line, &joined);
     if cells.len() == count {
         return Some(cells);
     }
-    let pieces = joined
-        .split_inclusive([']', ')'])
-        .map(|piece| piece.trim().to_owned());
-    let pieces: Vec<String> = pieces.filter(|piece| !piece.is_empty()).collect();
-    (pieces.len() == count && pieces.iter().all(|piece| piece.ends_with([']', ')'])))
-        .then_some(pieces)
+    split_after_brackets(&joined).filter(|cells| cells.len() == count)
+}
+
+/// Returns what follows the key of a line such as `Columns: x, z`, or the whole line if it has no
+/// key. Returns `None` if the key announces something else than names.
+fn without_key(line: &str) -> Option<&str> {
+    let Some((key, cells)) = line.split_once([':', '=']) else {
+        return Some(line);
+    };
+    is_one_of(&key.trim().to_lowercase(), "columns names fields units").then_some(cells)
+}
+
+/// Splits a line at a separator and leaves out the empty cells at its end. At white space the line
+/// `joined` is split, in which names are joined to their units.
+fn split_at(separator: Separator, line: &str, joined: &str) -> Vec<String> {
+    let line = if separator == Separator::SPACE {
+        joined
+    } else {
+        line
+    };
+    let mut cells: Vec<String> = separator.split(line).map(str::to_owned).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
+/// Splits a line after closing brackets. Returns `None` unless each cell ends with a bracket.
+fn split_after_brackets(line: &str) -> Option<Vec<String>> {
+    let mut cells = Vec::new();
+    for piece in line.split_inclusive([']', ')']) {
+        let piece = piece.trim();
+        if piece.is_empty() {
+            continue;
+        }
+        if !piece.ends_with([']', ')']) {
+            return None;
+        }
+        cells.push(piece.to_owned());
+    }
+    Some(cells)
 }
 
 fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// Returns name, meaning and unit from the name of a column. The unit is in brackets, behind a
-/// slash, or the last word, as in `Lateral um`. An unknown unit is recognised in square brackets,
-/// behind a slash, or as a short word in round brackets. Thus `height (measured)` is a name.
-fn column(cell: &str, is_unit: fn(&str) -> bool) -> TextColumn {
-    let bracket = |(at, mark): (usize, &str)| {
-        let unit = bare(cell[at + 1..].split([']', ')']).next()?);
-        Some((
-            &cell[..at],
+/// One way to divide the heading of a column into a name and a unit.
+struct Division<'a> {
+    name: &'a str,
+    unit: &'a str,
+    /// True if the notation alone shows that this is a unit, so that it need not be known.
+    is_stated: bool,
+}
+
+/// Lists the ways to divide the heading of a column into a name and a unit. The unit is in
+/// brackets, after a slash, or the last word, as in `Lateral um`.
+fn divisions(heading: &str) -> Vec<Division<'_>> {
+    let mut divisions = Vec::new();
+    for (place, bracket) in heading.match_indices(['[', '(']) {
+        let after = &heading[place + 1..];
+        let unit = bare(after.split([']', ')']).next().unwrap_or_default());
+        divisions.push(Division {
+            name: &heading[..place],
             unit,
-            mark == "[" || unit.chars().count() < LONGEST_UNIT,
-        ))
-    };
-    let slash = cell
-        .rsplit_once('/')
-        .map(|(name, unit)| (name, bare(unit), true));
-    // `Length 5 um` is a size.
-    let last_word = cell.rsplit_once([' ', '_']).filter(|(name, _)| {
-        !name
-            .rsplit(' ')
-            .next()
-            .is_some_and(|before| before.contains(|c: char| c.is_ascii_digit()))
-    });
-    let parts = cell
-        .match_indices(['[', '('])
-        .filter_map(bracket)
-        .chain(slash);
-    let parts: Vec<_> = parts
-        .chain(last_word.map(|(name, unit)| (name, unit, false)))
-        .collect();
-    let known = parts.iter().find(|(_, unit, _)| is_unit(unit));
-    let found = known.or_else(|| parts.iter().find(|(.., is_stated)| *is_stated));
-    let (name, unit) = found.map_or((cell, None), |(name, unit, _)| {
-        (*name, Some((*unit).to_owned()))
-    });
-    let lower = cell
-        .split(['[', '(', '/'])
-        .next()
-        .unwrap_or_default()
-        .to_lowercase();
-    let words = || {
-        lower
-            .split(|c: char| !c.is_alphanumeric())
-            .filter(|word| !word.is_empty())
-    };
-    let role = ROLES
+            is_stated: bracket == "[" || unit.chars().count() < LONGEST_UNIT,
+        });
+    }
+    if let Some((name, unit)) = heading.rsplit_once('/') {
+        divisions.push(Division {
+            name,
+            unit: bare(unit),
+            is_stated: true,
+        });
+    }
+    if let Some((name, unit)) = heading.rsplit_once([' ', '_']) {
+        let word_before = name.rsplit(' ').next().unwrap_or_default();
+        // `Length 5 um` is a size.
+        if !word_before.contains(|c: char| c.is_ascii_digit()) {
+            divisions.push(Division {
+                name,
+                unit,
+                is_stated: false,
+            });
+        }
+    }
+    divisions
+}
+
+/// Returns name, meaning and unit from the heading of a column. An unknown unit is recognised in
+/// square brackets, after a slash, or as a short word in round brackets. Thus `height (measured)`
+/// is a name.
+fn column(heading: &str, is_unit: fn(&str) -> bool) -> TextColumn {
+    let divisions = divisions(heading);
+    let division = divisions
         .iter()
-        .find(|(_, known)| words().any(|word| is_one_of(word, known)));
+        .find(|division| is_unit(division.unit))
+        .or_else(|| divisions.iter().find(|division| division.is_stated));
+    let name = division.map_or(heading, |division| division.name);
     TextColumn {
         name: name.trim_matches(['"', ' ']).to_owned(),
-        role: role.map_or(Role::Unknown, |(role, _)| *role),
-        unit,
+        role: role(heading),
+        unit: division.map(|division| division.unit.to_owned()),
     }
+}
+
+/// Returns the meaning of a column by the words of its heading before the first bracket or slash.
+fn role(heading: &str) -> Role {
+    let name = heading.split(['[', '(', '/']).next().unwrap_or_default();
+    let name = name.to_lowercase();
+    let words: Vec<&str> = name
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect();
+    for (role, known_words) in ROLES {
+        if words.iter().any(|word| is_one_of(word, known_words)) {
+            return role;
+        }
+    }
+    Role::Unknown
 }

@@ -119,10 +119,10 @@ pub enum Warning {
     },
     /// Two measured surfaces of one roughness have very different rms heights.
     SurfacesFarApart {
-        /// Name and rms height in m of the flattest surface.
-        flattest: (String, f64),
-        /// Name and rms height in m of the roughest surface.
-        roughest: (String, f64),
+        /// The flattest surface.
+        flattest: NamedHeight,
+        /// The roughest surface.
+        roughest: NamedHeight,
     },
     /// Odd rows of a map are displaced against even rows.
     DisplacedRows {
@@ -153,6 +153,15 @@ pub enum Warning {
         /// Wavelength in m below which waves are unreliable.
         wavelength: f64,
     },
+}
+
+/// Rms height of a surface that has a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedHeight {
+    /// Name of the surface.
+    pub name: String,
+    /// Rms height in m.
+    pub rms_height: f64,
 }
 
 /// Conditions of the warnings.
@@ -276,11 +285,12 @@ impl Warning {
         (ratio < Self::LEAST_WAVE_RATIO).then_some(Warning::SteepWaves { ratio, jkr_factor })
     }
 
-    /// Returns a warning if the rms heights in m of two named surfaces differ too much for samples
-    /// of one roughness.
-    pub fn of_rms_heights(flattest: (String, f64), roughest: (String, f64)) -> Option<Warning> {
-        let is_far = roughest.1 / flattest.1 > Self::LARGEST_RATIO_OF_HEIGHTS;
-        is_far.then_some(Warning::SurfacesFarApart { flattest, roughest })
+    /// Returns a warning if the rms heights of two surfaces differ too much for samples of one
+    /// roughness.
+    pub fn of_rms_heights(flattest: NamedHeight, roughest: NamedHeight) -> Option<Warning> {
+        let ratio = roughest.rms_height / flattest.rms_height;
+        (ratio > Self::LARGEST_RATIO_OF_HEIGHTS)
+            .then_some(Warning::SurfacesFarApart { flattest, roughest })
     }
 
     /// Returns a warning if long waves carry this share of the squared height of a scan.
@@ -352,96 +362,108 @@ impl Warning {
 
     /// Returns a sentence that says what does not hold, and what follows for the numbers.
     pub fn sentence(&self) -> String {
-        let metres = |value: f64| format_quantity(value, "m");
         match self {
             Warning::ContactAtEnds { length } => format!(
-                "The contact reaches an end of the profile of {}, beyond which there are no springs: what the body would touch \
-                 there is missing in all forces and energies, and no stated error contains this.",
+                "The contact reaches an end of the profile of {}, beyond which there are no \
+                 springs: what the body would touch there is missing in all forces and energies, \
+                 and no stated error contains this.",
                 metres(*length)
             ),
-            Warning::EndsInContact { further: Some(force) } => format!(
-                "The loading ends in contact, and further unloading would still pull with up to {}: the bodies are not pulled \
-                 off, so there is no adhesion force F_a, no regime and no dissipated energy.",
+            Warning::EndsInContact {
+                further: Some(force),
+            } => format!(
+                "The loading ends in contact, and further unloading would still pull with up to \
+                 {}: the bodies are not pulled off, so there is no adhesion force F_a, no regime \
+                 and no dissipated energy.",
                 format_quantity(*force, "N")
             ),
             Warning::EndsInContact { further: None } => {
-                "The loading ends in contact before the bodies are pulled off, so there is no adhesion force F_a, no regime \
-                 and no dissipated energy."
+                "The loading ends in contact before the bodies are pulled off, so there is no \
+                 adhesion force F_a, no regime and no dissipated energy."
                     .to_owned()
             }
             Warning::FewSpringsInContact { springs } => format!(
-                "The largest number of springs in contact is {springs}, fewer than {}: forces and energies of so few springs may be wrong \
-                 by several per cent or more.",
+                "The largest number of springs in contact is {springs}, fewer than {}: forces and \
+                 energies of so few springs may be wrong by several per cent or more.",
                 Self::LEAST_SPRINGS_IN_CONTACT
             ),
             Warning::FewSpringsPerWave { springs } => format!(
-                "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough profile with two springs on \
-                 its shortest wave is wrong by 2 % as a median, and by up to 12 %.",
+                "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough \
+                 profile with two springs on its shortest wave is wrong by 2 % as a median, and by \
+                 up to 12 %.",
                 // Rounded down: never to the least number.
                 (10.0 * springs).floor() / 10.0,
                 Self::LEAST_SPRINGS_PER_WAVE
             ),
             Warning::RoundedWaves { stated, used } => format!(
-                "A random profile has a whole number of each wave on its length, so the waves from {} to {} that are stated \
-                 are computed as waves from {} to {}.",
+                "A random profile has a whole number of each wave on its length, so the waves from \
+                 {} to {} that are stated are computed as waves from {} to {}.",
                 metres(stated[0]),
                 metres(stated[1]),
                 metres(used[0]),
                 metres(used[1])
             ),
             Warning::FewLongWaves { waves } => format!(
-                "The longest waves of the roughness fit only {} on the length, fewer than {}: random profiles differ strongly \
-                 in F_a, and the median of F_a/F_a,max depends on the length.",
+                "The longest waves of the roughness fit only {} on the length, fewer than {}: \
+                 random profiles differ strongly in F_a, and the median of F_a/F_a,max depends on \
+                 the length.",
                 times(*waves),
                 Self::LEAST_LONG_WAVES
             ),
             Warning::SteepRoughness { rms_gradient, .. } => format!(
-                "The rms gradient {} is above {}: the theory of small slopes does not hold, and neither do forces and \
-                 energies that follow from it.",
+                "The rms gradient {} is above {}: the theory of small slopes does not hold, and \
+                 neither do forces and energies that follow from it.",
                 format_quantity(*rms_gradient, "1"),
                 Self::LARGEST_GRADIENT
             ),
             Warning::LongRangedAttraction { tabor_number } => format!(
-                "JKR theory and the rule of Hess do not apply: the Tabor number {} is below {}, so that the attraction \
-                 reaches beyond the contact. DMT theory applies, by which a loop dissipates next to nothing.",
+                "JKR theory and the rule of Hess do not apply: the Tabor number {} is below {}, so \
+                 that the attraction reaches beyond the contact. DMT theory applies, by which a \
+                 loop dissipates next to nothing.",
                 format_rounded(*tabor_number, 2, "1"),
                 Self::LEAST_TABOR_NUMBER
             ),
             Warning::FiniteRangedAttraction { tabor_number } => format!(
-                "The Tabor number {} is below {}, between the theories of JKR and DMT: attraction of finite range dissipates \
-                 less energy in a loop than is computed here.",
+                "The Tabor number {} is below {}, between the theories of JKR and DMT: attraction \
+                 of finite range dissipates less energy in a loop than is computed here.",
                 format_rounded(*tabor_number, 2, "1"),
                 Self::JKR_TABOR_NUMBER
             ),
             Warning::HeightsAsProfile => {
-                "The heights count as the equivalent profile, and nobody has stated that they are one: heights measured along \
-                 a line on a rough surface have an rms gradient 29 % smaller than its equivalent profile, and adhere too well."
+                "The heights count as the equivalent profile, and nobody has stated that they are \
+                 one: heights measured along a line on a rough surface have an rms gradient 29 % \
+                 smaller than its equivalent profile, and adhere too well."
                     .to_owned()
             }
             Warning::CutLikeHeights { radius } => format!(
-                "The heights count as the equivalent profile, and are smooth and curved like the cut x²/2R through a sphere of \
-                 the radius R = {}: if they are this cut, forces are twice too large, because the equivalent profile of a \
-                 sphere is x²/R.",
+                "The heights count as the equivalent profile, and are smooth and curved like the \
+                 cut x²/2R through a sphere of the radius R = {}: if they are this cut, forces are \
+                 twice too large, because the equivalent profile of a sphere is x²/R.",
                 format_rounded(*radius, 3, "m")
             ),
-            Warning::ScanLongerThanLength { scan, length, rms_heights: [surface, profile] } => format!(
-                "The scan of {} is longer than the profile of {}, which has no waves longer than itself: its rms height is {} \
-                 instead of {}.",
+            Warning::ScanLongerThanLength {
+                scan,
+                length,
+                rms_heights: [surface, profile],
+            } => format!(
+                "The scan of {} is longer than the profile of {}, which has no waves longer than \
+                 itself: its rms height is {} instead of {}.",
                 metres(*scan),
                 metres(*length),
                 format_rounded(*profile, 3, "m"),
                 format_rounded(*surface, 3, "m")
             ),
             Warning::SteepWaves { ratio, jkr_factor } => format!(
-                "The waves of the sphere are steep, λ²/(AR) = {}, below {}: by the rule of Hess inner springs detach first; by \
-                 the theory of JKR the edge recedes, and waves short against the contact pull off at {jkr_factor:.2} times the \
-                 force of the sphere without waves.",
+                "The waves of the sphere are steep, λ²/(AR) = {}, below {}: by the rule of Hess \
+                 inner springs detach first; by the theory of JKR the edge recedes, and waves \
+                 short against the contact pull off at {jkr_factor:.2} times the force of the \
+                 sphere without waves.",
                 format_quantity(*ratio, "1"),
                 Self::LEAST_WAVE_RATIO
             ),
             Warning::FallingProfile { from } => format!(
-                "The equivalent profile falls at {} from the axis: by the rule of Hess inner springs detach first; by the \
-                 theory of JKR the edge recedes.",
+                "The equivalent profile falls at {} from the axis: by the rule of Hess inner \
+                 springs detach first; by the theory of JKR the edge recedes.",
                 metres(*from)
             ),
             measured => measured.sentence_on_measurement(),
@@ -453,45 +475,47 @@ impl Warning {
         match self {
             Warning::MeasuredFile { file, property } => format!("{file}: {property}."),
             Warning::SurfacesFarApart { flattest, roughest } => format!(
-                "The rms heights of {} ({}) and {} ({}) are {}-fold apart: the unit of one of them may be wrong, or they are \
-                 no samples of the same roughness.",
-                flattest.0,
-                format_quantity(flattest.1, "m"),
-                roughest.0,
-                format_quantity(roughest.1, "m"),
-                format_quantity(roughest.1 / flattest.1, "1")
+                "The rms heights of {} ({}) and {} ({}) are {}-fold apart: the unit of one of them \
+                 may be wrong, or they are no samples of the same roughness.",
+                flattest.name,
+                metres(flattest.rms_height),
+                roughest.name,
+                metres(roughest.rms_height),
+                format_quantity(roughest.rms_height / flattest.rms_height, "1")
             ),
             Warning::DisplacedRows { distance } => format!(
-                "Odd rows are displaced by {} along even ones, as trace and retrace are: the gradient is too large.",
-                format_quantity(*distance, "m")
+                "Odd rows are displaced by {} along even ones, as trace and retrace are: the \
+                 gradient is too large.",
+                metres(*distance)
             ),
             Warning::LongWavesOfScan { share } => format!(
-                "Waves longer than a quarter of the scan carry {:.0} % of the squared height: rms height and elastic energy \
-                 depend on the length of the scan.",
+                "Waves longer than a quarter of the scan carry {:.0} % of the squared height: rms \
+                 height and elastic energy depend on the length of the scan.",
                 100.0 * share
             ),
             Warning::FewMeasuredProfiles { profiles } => {
                 let [low, high] = Self::BOUNDARY_FACTORS;
                 let plural = if *profiles == 1 { "" } else { "s" };
                 format!(
-                    "The surface is known from {profiles} profile{plural}, fewer than {}: adhesion near its boundary is known \
-                     only within a factor of {low} to {high}.",
+                    "The surface is known from {profiles} profile{plural}, fewer than {}: adhesion \
+                     near its boundary is known only within a factor of {low} to {high}.",
                     Self::MANY_PROFILES
                 )
             }
             Warning::UnresolvedSpectrum => {
                 "The spectrum does not end inside the scan: shorter waves may be missing, and in \
-                                            samples of points add to the longer ones."
+                 samples of points add to the longer ones."
                     .to_owned()
             }
             Warning::OffsetRows => {
-                "Rows or columns are offset against each other, or were levelled one by one: waves along \
-                                    that axis are left out of the fit."
+                "Rows or columns are offset against each other, or were levelled one by one: waves \
+                 along that axis are left out of the fit."
                     .to_owned()
             }
             Warning::WavesApart { share } => format!(
-                "Waves along one axis differ from their neighbours by {:.0} % of the squared gradient: rows or columns are \
-                 offset against each other, or the surface has a lay.",
+                "Waves along one axis differ from their neighbours by {:.0} % of the squared \
+                 gradient: rows or columns are offset against each other, or the surface has a \
+                 lay.",
                 100.0 * share
             ),
             Warning::TipArtefacts { wavelength } => format!(
@@ -506,7 +530,8 @@ impl Warning {
     pub fn remedy(&self) -> String {
         let remedy = match self {
             Warning::ContactAtEnds { .. } => {
-                "A larger length helps, with numerics.points in proportion, until the contact ends inside the profile."
+                "A larger length helps, with numerics.points in proportion, until the contact ends \
+                 inside the profile."
             }
             Warning::EndsInContact { .. } => {
                 "The stage ToSeparation at the end of loading pulls the bodies off."
@@ -518,40 +543,47 @@ impl Warning {
                 "More numerics.points help, or a longer shortest wave."
             }
             Warning::RoundedWaves { .. } => {
-                "A length that is a multiple of both wavelengths, or roughness.modes, states waves that are used unchanged."
+                "A length that is a multiple of both wavelengths, or roughness.modes, states waves \
+                 that are used unchanged."
             }
             Warning::FewLongWaves { .. } => {
-                "The length is the width of the real contact; if the contact is so small, report median and quartiles of \
-                 many random profiles."
+                "The length is the width of the real contact; if the contact is so small, report \
+                 median and quartiles of many random profiles."
             }
             Warning::SteepRoughness {
                 is_measured: false, ..
             } => {
-                "A smaller roughness.rms_height or rms_gradient, or a longer shortest wave, has smaller slopes."
+                "A smaller roughness.rms_height or rms_gradient, or a longer shortest wave, has \
+                 smaller slopes."
             }
             Warning::SteepRoughness {
                 is_measured: true, ..
             } => {
-                "If the unit of positions or of heights is wrong, roughness.unit and roughness.height_unit state it."
+                "If the unit of positions or of heights is wrong, roughness.unit and \
+                 roughness.height_unit state it."
             }
             Warning::LongRangedAttraction { .. } => {
-                "Of the results only the force of contact without adhesion is left; a shorter adhesion.range raises the number."
+                "Of the results only the force of contact without adhesion is left; a shorter \
+                 adhesion.range raises the number."
             }
             Warning::FiniteRangedAttraction { .. } => {
-                "The dissipated energy is an upper bound; adhesion.range states the range of the attraction."
+                "The dissipated energy is an upper bound; adhesion.range states the range of the \
+                 attraction."
             }
             Warning::HeightsAsProfile => {
-                "A measured surface without roughness.as_line, or its spectrum, gives random profiles that are equivalent to \
-                 the surface."
+                "A measured surface without roughness.as_line, or its spectrum, gives random \
+                 profiles that are equivalent to the surface."
             }
             Warning::CutLikeHeights { .. } => {
                 "A form, such as Paraboloid, is transformed to its equivalent profile."
             }
             Warning::ScanLongerThanLength { .. } => {
-                "A length of at least the scan has all waves; a shorter one is right only if the contact is that small."
+                "A length of at least the scan has all waves; a shorter one is right only if the \
+                 contact is that small."
             }
             Warning::SteepWaves { .. } => {
-                "A smaller form.amplitude, or a longer form.wavelength, has waves that are not steep."
+                "A smaller form.amplitude, or a longer form.wavelength, has waves that are not \
+                 steep."
             }
             Warning::FallingProfile { .. } => {
                 "A smaller length ends where the equivalent profile still rises."
@@ -562,7 +594,8 @@ impl Warning {
             }
             Warning::DisplacedRows { .. } => "Rows of one direction alone are not displaced.",
             Warning::LongWavesOfScan { share } if *share > Self::FORM_OF_SCAN => {
-                "Where they are the form of a curved body or a bow of the scanner, roughness.detrend: Curvature removes it."
+                "Where they are the form of a curved body or a bow of the scanner, \
+                 roughness.detrend: Curvature removes it."
             }
             Warning::LongWavesOfScan { .. } => {
                 "A longer scan, or several, shows how the rms height depends on the length."
@@ -592,6 +625,10 @@ impl serde::Serialize for Warning {
     ) -> std::result::Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
+}
+
+fn metres(value: f64) -> String {
+    format_quantity(value, "m")
 }
 
 /// Writes how many times a wave fits: `once`, `2.5 times`.

@@ -12,8 +12,9 @@ use thiserror::Error;
 /// Size in bytes of the buffer for output.
 const BUFFER: usize = 1 << 18;
 
-/// Names of temporary files begin and end with these texts.
+/// Beginning of the name of a temporary file.
 const PREFIX: &str = ".asperity-";
+/// End of the name of a temporary file.
 const SUFFIX: &str = ".tmp";
 
 /// Age from which a temporary file that nobody holds locked is abandoned.
@@ -62,7 +63,10 @@ impl WriteError {
 /// Returns an error unless [`write_new`] could write the file now, and leaves no file behind. A
 /// program calls this function before a long computation.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
-    target(path, overwrite)?.map_or(Ok(()), |(path, _)| temporary(&path).map(drop))
+    if let Some(target) = Target::find(path, overwrite)? {
+        temporary(&target.path)?;
+    }
+    Ok(())
 }
 
 /// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe
@@ -72,7 +76,7 @@ pub fn write_new(
     overwrite: bool,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
-    if target(path, overwrite)?.is_some() {
+    if Target::find(path, overwrite)?.is_some() {
         return write_new_file(path, overwrite, write);
     }
     let mut stream = OpenOptions::new()
@@ -90,22 +94,23 @@ pub fn write_new_file(
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), WriteError> {
     let failed = WriteError::failed(path);
-    let not_regular = "this is not a regular file; allowed: the name of a file";
-    let place = target(path, overwrite)?.ok_or_else(|| WriteError::unsuitable(path, not_regular));
-    let (place, permissions) = place?;
-    let mut file = temporary(&place)?;
+    let Some(target) = Target::find(path, overwrite)? else {
+        let fault = "this is not a regular file; allowed: the name of a file";
+        return Err(WriteError::unsuitable(path, fault));
+    };
+    let mut file = temporary(&target.path)?;
     fill(&mut file.file, write).map_err(&failed)?;
-    if let Some(permissions) = permissions {
+    if let Some(permissions) = target.permissions {
         file.file.set_permissions(permissions).map_err(&failed)?;
     }
     file.file.sync_all().map_err(&failed)?;
-    file.persist(&place, overwrite)
+    file.persist(&target.path, overwrite)
         .map_err(|reason| match reason.kind() {
             io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
             _ => failed(reason),
         })?;
     // The name has to be durable as well.
-    sync_folder(folder_of(&place)).map_err(failed)
+    sync_folder(folder_of(&target.path)).map_err(failed)
 }
 
 /// Removes the temporary files that killed processes have left in a folder: those older than a
@@ -122,8 +127,8 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Returns true if a temporary file belongs to no process any more. Its process locks it just after
-/// its creation.
+/// Returns true if no process writes into a temporary file. The process that makes such a file
+/// locks it just after its creation.
 fn is_abandoned(path: &Path) -> bool {
     let Ok(file) = crate::read::open_regular(path) else {
         return false;
@@ -147,22 +152,24 @@ impl Temporary {
         let name = match self.name {
             Some(name) => name,
             None => {
-                // A new file gets its name at once: no moment leaves a temporary name behind.
+                // A new file gets its name at once: at no time has it a temporary name.
                 match link(&self.file, path) {
                     Err(error) if error.kind() == io::ErrorKind::AlreadyExists && overwrite => {}
                     linked => return linked,
                 }
-                let linked = names().make_in(folder_of(path), |name| link(&self.file, name));
-                linked.map_err(without_path)?.into_temp_path()
+                names()
+                    .make_in(folder_of(path), |name| link(&self.file, name))
+                    .map_err(without_path)?
+                    .into_temp_path()
             }
         };
-        let named = if overwrite {
+        let persisted = if overwrite {
             name.persist(path)
         } else {
             name.persist_noclobber(path)
         };
         // The file is open, and locked, until here.
-        named.map_err(|error| error.error)
+        persisted.map_err(|error| error.error)
     }
 }
 
@@ -184,24 +191,20 @@ fn temporary(path: &Path) -> Result<Temporary, WriteError> {
         let _ = file.try_lock();
         return Ok(Temporary { file, name: None });
     }
-    let mut file = names();
+    let mut builder = names();
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        file.permissions(Permissions::from_mode(0o666));
+        builder.permissions(Permissions::from_mode(0o666));
     }
-    let file = file
-        .tempfile_in(folder)
-        .map_err(|reason| match folder.is_dir() {
-            true => WriteError::Failed {
-                path: path.into(),
-                reason: without_path(reason),
-            },
-            false => {
-                WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder)))
-            }
-        })?;
-    let (file, name) = file.into_parts();
+    let made = builder.tempfile_in(folder).map_err(|reason| {
+        if folder.is_dir() {
+            WriteError::failed(path)(without_path(reason))
+        } else {
+            WriteError::unsuitable(path, format!("there is no folder {}", path_name(folder)))
+        }
+    })?;
+    let (file, name) = made.into_parts();
     #[cfg(unix)]
     let _ = file.try_lock();
     Ok(Temporary {
@@ -210,6 +213,7 @@ fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     })
 }
 
+/// Begins the names of temporary files.
 fn names() -> tempfile::Builder<'static, 'static> {
     let mut names = tempfile::Builder::new();
     names.prefix(PREFIX).suffix(SUFFIX);
@@ -235,6 +239,7 @@ fn unnamed(_: &Path) -> Option<File> {
 #[cfg(target_os = "linux")]
 const DESCRIPTORS: &str = "/proc/self/fd";
 
+/// Gives a name to a file that [`unnamed`] has made.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -266,12 +271,14 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
+/// Returns the folder of a file.
 fn folder_of(path: &Path) -> &Path {
     path.parent()
         .filter(|folder| *folder != Path::new(""))
         .unwrap_or(Path::new("."))
 }
 
+/// Writes the content of a file through a buffer.
 fn fill(
     file: &mut (impl Write + Send),
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -281,43 +288,68 @@ fn fill(
     buffered.flush()
 }
 
-/// Returns the path to which `path` leads through links, with the permissions of the file there, if
-/// it exists. Returns `None` for a pipe or a device.
-fn target(
-    path: &Path,
-    overwrite: bool,
-) -> Result<Option<(PathBuf, Option<Permissions>)>, WriteError> {
-    let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
-    let found = fs::metadata(path);
-    let is_folder = found.as_ref().is_ok_and(fs::Metadata::is_dir);
-    if path.file_name().is_none() || ends_as_folder || is_folder {
-        return Err(WriteError::unsuitable(
-            path,
-            "this is not the name of a file",
-        ));
+/// Place of a regular file that may be written.
+struct Target {
+    /// Path of the file, without links.
+    path: PathBuf,
+    /// Permissions of the file, if it exists.
+    permissions: Option<Permissions>,
+}
+
+impl Target {
+    /// Finds the file to which `path` leads through links. Returns `None` for a pipe or a device.
+    fn find(path: &Path, overwrite: bool) -> Result<Option<Self>, WriteError> {
+        let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
+        let found = fs::metadata(path);
+        let is_folder = found.as_ref().is_ok_and(fs::Metadata::is_dir);
+        if path.file_name().is_none() || ends_as_folder || is_folder {
+            let fault = "this is not the name of a file";
+            return Err(WriteError::unsuitable(path, fault));
+        }
+        match found {
+            Ok(found) if !found.is_file() => Ok(None),
+            Ok(found) => Target::existing(path, &found, overwrite).map(Some),
+            Err(reason) => Target::missing(path, reason, overwrite),
+        }
     }
-    match found {
-        Ok(found) if !found.is_file() => Ok(None),
-        Ok(_) if !overwrite => Err(WriteError::Exists(path.into())),
-        Ok(found) if found.permissions().readonly() => {
-            Err(WriteError::unsuitable(path, "this file may not be written"))
+
+    fn existing(path: &Path, found: &fs::Metadata, overwrite: bool) -> Result<Self, WriteError> {
+        if !overwrite {
+            return Err(WriteError::Exists(path.into()));
         }
-        // Through a link to its target: the link itself is kept.
-        Ok(found) => {
-            let path = fs::canonicalize(path).map_err(WriteError::failed(path))?;
-            Ok(Some((path, Some(found.permissions()))))
+        if found.permissions().readonly() {
+            let fault = "this file may not be written";
+            return Err(WriteError::unsuitable(path, fault));
         }
-        // A dangling link exists all the same.
-        Err(_) if !overwrite && fs::symlink_metadata(path).is_ok() => {
-            Err(WriteError::Exists(path.into()))
+        // A link is kept, and its target is written.
+        Ok(Target {
+            path: fs::canonicalize(path).map_err(WriteError::failed(path))?,
+            permissions: Some(found.permissions()),
+        })
+    }
+
+    /// Finds the target of a path at which the system has found no file for this `reason`.
+    fn missing(
+        path: &Path,
+        reason: io::Error,
+        overwrite: bool,
+    ) -> Result<Option<Self>, WriteError> {
+        // A link to a file that does not exist counts as a file.
+        if !overwrite && fs::symlink_metadata(path).is_ok() {
+            return Err(WriteError::Exists(path.into()));
         }
-        // To its target, as through any other link. A circle of links is another error.
-        Err(reason) if reason.kind() == io::ErrorKind::NotFound && path.is_symlink() => {
+        // A circle of links, for example, is another error.
+        if reason.kind() != io::ErrorKind::NotFound {
+            return Err(WriteError::failed(path)(reason));
+        }
+        if path.is_symlink() {
             let link = fs::read_link(path).map_err(WriteError::failed(path))?;
-            target(&folder_of(path).join(link), overwrite)
+            return Target::find(&folder_of(path).join(link), overwrite);
         }
-        Err(reason) if reason.kind() == io::ErrorKind::NotFound => Ok(Some((path.into(), None))),
-        Err(reason) => Err(WriteError::failed(path)(reason)),
+        Ok(Some(Target {
+            path: path.into(),
+            permissions: None,
+        }))
     }
 }
 

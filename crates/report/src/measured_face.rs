@@ -2,7 +2,7 @@
 //! and warnings about their analysis.
 
 use crate::words::plural;
-use asperity_data::{Warning, format_quantity, grouped, path_name, printable};
+use asperity_data::{NamedHeight, Warning, format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
 use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};
@@ -141,7 +141,15 @@ impl MeasuredFace {
         let heights = || self.analysis.rms_heights.iter().zip(&self.files);
         let (least, flattest) = heights().min_by(|first, second| first.0.total_cmp(second.0))?;
         let (most, roughest) = heights().max_by(|first, second| first.0.total_cmp(second.0))?;
-        Warning::of_rms_heights((flattest.name(), *least), (roughest.name(), *most))
+        let flattest = NamedHeight {
+            name: flattest.name(),
+            rms_height: *least,
+        };
+        let roughest = NamedHeight {
+            name: roughest.name(),
+            rms_height: *most,
+        };
+        Warning::of_rms_heights(flattest, roughest)
     }
 
     /// Returns warnings: unusual properties of each file, and reasons why results of the analysis

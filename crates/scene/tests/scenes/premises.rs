@@ -1,7 +1,7 @@
 //! Each premise that a scene breaks is named, and no other.
 
 use asperity_contact::Move;
-use asperity_data::Warning;
+use asperity_data::{NamedHeight, Warning};
 use asperity_scene::{Adhesion, CheckedScene, Material, Measured, Roughness, Scene, Simulation};
 use asperity_surface::Form;
 use std::f64::consts::PI;
@@ -372,8 +372,14 @@ fn words_are_whole_sentences_without_options() {
             property: "line 3: far away".to_owned(),
         },
         Warning::SurfacesFarApart {
-            flattest: ("a".to_owned(), 1e-9),
-            roughest: ("b".to_owned(), 1e-6),
+            flattest: NamedHeight {
+                name: "a".to_owned(),
+                rms_height: 1e-9,
+            },
+            roughest: NamedHeight {
+                name: "b".to_owned(),
+                rms_height: 1e-6,
+            },
         },
         Warning::DisplacedRows { distance: 1e-6 },
         Warning::LongWavesOfScan { share: 0.5 },
