@@ -706,6 +706,7 @@ impl Report for ReferenceReport<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
     use asperity_scene::{Simulation, open};
     use asperity_study::half_space::ReferenceOptions;
     use asperity_study::trust::Budget;
@@ -719,14 +720,11 @@ mod tests {
             maps: 1,
             lines: 1,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            1,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(1),
         )
         .unwrap();
         let report = ReferenceReport {
@@ -761,14 +759,11 @@ mod tests {
             maps: 2,
             lines: 32,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            2,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(2),
         )
         .unwrap();
         let report = ReferenceReport {
@@ -819,14 +814,11 @@ mod tests {
             maps: 1,
             lines: 1,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            1,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(1),
         )
         .unwrap();
         let report = ReferenceReport {
