@@ -7,6 +7,7 @@
 //! it only checks that it runs.
 
 use asperity::contact::Move;
+use asperity::data::Control;
 use asperity::scene::Simulation;
 use asperity::scene::{Adhesion, Roughness, RoughnessParameter, Scene};
 use asperity::study::{Changes, Folder, Plan, Shard, merge, run_study};
@@ -227,7 +228,7 @@ fn processor_time() -> f64 {
 fn study(plan: &Plan, jobs: usize) {
     let place = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
     let done = Folder::create(place.path(), plan).and_then(|folder| {
-        run_study(&folder, Shard::WHOLE, jobs, &|| false, &mut |_| ())?;
+        run_study(&folder, Shard::WHOLE, Control::default().on_threads(jobs))?;
         merge(&folder)
     });
     done.unwrap_or_else(|error| panic!("{error}"));

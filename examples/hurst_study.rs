@@ -16,8 +16,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         16,
         &[Quantity::AdhesionForce],
     )?;
-    let mut report = |records: u64| {
-        if records == plan.records_in_all() {
+    let mut report = |records: &u64| {
+        if *records == plan.records_in_all() {
             eprintln!("{records} records");
         }
     };

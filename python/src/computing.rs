@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::scene::{Scene, simulation};
-use asperity::data::parallel;
+use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Simulation};
 use asperity::study::Ensemble;
 use asperity::surface::lines::MeasuredRoughness;
@@ -115,6 +115,27 @@ impl Case<'_> {
     /// Returns a simulation of the scene.
     pub fn simulation(&self) -> Simulation {
         simulation(&self.document, self.in_memory.as_ref())
+    }
+
+    /// Runs a computation of `all` parts, which a signal or the callback may stop. `done` returns
+    /// the number of finished parts from what the computation reports; `None` if it is unchanged.
+    pub fn watched<P, T, E: Into<Failure>>(
+        &self,
+        all: u64,
+        mut done: impl FnMut(&P) -> Option<u64>,
+        work: impl FnOnce(Control<'_, P>) -> Result<T, E>,
+    ) -> Result<T, Failure> {
+        let stop = || self.watch.stop();
+        let mut report = |progress: &P| {
+            if let Some(done) = done(progress) {
+                self.watch.report(done, all);
+            }
+        };
+        let control = Control::default()
+            .on_threads(self.jobs)
+            .stopped_by(&stop)
+            .reporting_to(&mut report);
+        work(control).map_err(Into::into)
     }
 
     /// Returns an error for a scene whose roughness is in memory, for a computation that reads the

@@ -65,16 +65,13 @@ pub fn fit(
         let Some(Command::Fit(arguments)) = command("fit", words)? else {
             return Err("fit: no options of a fit".to_owned().into());
         };
-        let (document, jobs, watch) = (case.document, case.jobs, case.watch);
-        let (free, instrument) = (arguments.free, document.scene().loading_stiffness);
-        let (reading, stop) = (
-            CurveOptions {
-                instrument,
-                ..arguments.reading
-            },
-            || watch.stop(),
-        );
-        let mut report = |done| watch.report(done, 0);
+        let document = case.document.clone();
+        let free = arguments.free;
+        let reading = CurveOptions {
+            instrument: document.scene().loading_stiffness,
+            ..arguments.reading
+        };
+        let computed_curves = |computed: &u64| Some(*computed);
         if let Some(lines) = arguments.ensemble.lines {
             let options = arguments
                 .ensemble
@@ -84,11 +81,9 @@ pub fn fit(
                 .iter()
                 .map(|curve| Ok((curve.0.clone(), curve.read(&reading)?)));
             let curves = curves.collect::<Result<Vec<_>, Failure>>()?;
-            let control = Control::default()
-                .on_threads(jobs)
-                .stopped_by(&stop)
-                .reporting_to(&mut report);
-            let fit = fit_ensemble(&curves, &document, &options, control)?;
+            let fit = case.watched(0, computed_curves, |control| {
+                fit_ensemble(&curves, &document, &options, control)
+            })?;
             let has_roughness_errors =
                 options.height_error.is_some() || options.hurst_error.is_some();
             return Ok(Report::new(move |format| {
@@ -107,12 +102,7 @@ pub fn fit(
         let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
         if let ([curve], true) = (&curves[..], is_one) {
             let (title, curve) = (curve.0.clone(), curve.read(&reading)?);
-            let fit = fit.run(
-                &curve,
-                Control::default()
-                    .stopped_by(&stop)
-                    .reporting_to(&mut report),
-            )?;
+            let fit = case.watched(0, computed_curves, |control| fit.run(&curve, control))?;
             return Ok(Report::new(move |format| {
                 bytes(
                     Some(&fit.document),
@@ -125,6 +115,8 @@ pub fn fit(
                 )
             }));
         }
+        let watch = case.watch;
+        let stop = || watch.stop();
         let (done, all) = (AtomicU64::new(0), curves.len() as u64);
         let worker = || {
             |number: u64| {
@@ -146,7 +138,7 @@ pub fn fit(
                 }
             }
         };
-        let rows = on_threads(all, jobs, worker)?;
+        let rows = on_threads(all, case.jobs, worker)?;
         check_any_fitted(&curves, &rows)?;
         let is_free = |one: &Parameter| free.iter().any(|free: &Free| free.parameter == *one);
         let free: Vec<Parameter> = Parameter::ALL.into_iter().filter(is_free).collect();

@@ -4,7 +4,7 @@
 use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
-use asperity::data::{Control, parse_quantity};
+use asperity::data::parse_quantity;
 use asperity::scene::{CheckedScene, Document, estimate};
 use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::{MeasuredAdhesion, warnings_of_reversals};
@@ -85,18 +85,17 @@ impl Report {
 
 /// The results of a scene on its random profiles, with these further quantities.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
-    let mut report =
-        |computed: u64, _: &dyn Fn() -> Ensemble| case.watch.report(computed, case.profiles);
-    let workers = (case.simulation(), case.jobs);
-    let stop = || case.watch.stop();
-    Ok(Ensemble::of(
-        case.document.scene(),
-        further,
-        case.profiles,
-        workers,
-        &stop,
-        &mut report,
-    )?)
+    let scene = case.document.scene();
+    let done = |ensemble: &Ensemble| Some(ensemble.computed());
+    case.watched(case.profiles, done, |control| {
+        Ensemble::of(
+            scene,
+            further,
+            case.profiles,
+            &mut case.simulation(),
+            control,
+        )
+    })
 }
 
 /// The report of a computed scene, with the results on its random profiles.
@@ -113,13 +112,22 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         .ok_or_else(|| PyValueError::new_err("no scene"))?;
     call.computed(py, |case| {
         let (scene, folder) = (case.document.scene(), case.document.resolve(""));
-        let ensemble = (case.profiles > 1)
-            .then(|| on_profiles(&case, further))
-            .transpose()?;
+        let mut ensemble = None;
+        let mut deviation = None;
+        if case.profiles > 1 {
+            ensemble = Some(on_profiles(&case, further)?);
+        }
         let estimate = estimate(scene, &folder, &outcome, &|| case.watch.stop());
-        let deviation = ensemble.as_ref().and_then(|ensemble| {
-            MeasuredAdhesion::quick_deviation(&case.document, ensemble.profiles(), case.jobs)
-        });
+        if let Some(ensemble) = &ensemble {
+            deviation = case.watched(
+                case.profiles,
+                |_: &u64| None,
+                |control| {
+                    let profiles = ensemble.profiles();
+                    MeasuredAdhesion::quick_deviation(&case.document, profiles, control)
+                },
+            )?;
+        }
         Ok(Report::new(move |format| {
             let (title, scene, outcome) = (case.document.title(), case.document.scene(), &*outcome);
             let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
@@ -169,13 +177,10 @@ pub fn find(
         if let Some(range) = range {
             question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
-        let mut report = |done| case.watch.report(done, case.profiles);
-        let found = Found::of(
-            question,
-            (simulation, case.jobs),
-            &|| case.watch.stop(),
-            &mut report,
-        )?;
+        let done = |done: &u64| Some(*done);
+        let found = case.watched(case.profiles, done, |control| {
+            Found::of(question, &mut simulation, control)
+        })?;
         Ok(Report::new(move |format| {
             let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
             bytes(
@@ -195,18 +200,24 @@ pub fn find(
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
     call.computed(py, |case| {
-        let (scene, stop, axis) = (
-            case.document.scene(),
-            || case.watch.stop(),
-            Axis::parse_preloads(preloads)?,
-        );
+        let scene = case.document.scene();
+        let axis = Axis::parse_preloads(preloads)?;
         let mut simulation = case.simulation();
-        let staircase = Staircase::find(scene, &axis, &mut simulation, &stop, &mut |_| ())?;
-        let mut results = Results::begin(scene, &Results::OF_PRELOADS, case.profiles, Some(&axis))?;
-        let mut done = 0;
-        results.extend((simulation, case.jobs), &stop, &mut |_| {
-            done += 1;
-            case.watch.report(done, case.profiles);
+        let staircase = case.watched(
+            case.profiles,
+            |_: &Staircase| None,
+            |control| Staircase::of(scene, &axis, &mut simulation, control),
+        )?;
+        let done = |results: &Results| Some(results.profiles_done());
+        let results = case.watched(case.profiles, done, |control| {
+            Results::of_scene(
+                scene,
+                &Results::OF_PRELOADS,
+                case.profiles,
+                Some(&axis),
+                &mut simulation,
+                control,
+            )
         })?;
         Ok(Report::new(move |format| {
             let (title, results, staircase) = (case.document.title(), &results, Some(&staircase));
@@ -258,28 +269,24 @@ pub fn reversals(
 pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
     let lines = call.1;
     call.computed(py, |case| {
-        let (scene, mut done) = (case.document.scene(), 0);
+        let scene = case.document.scene();
         let usual = ReferenceOptions::of(scene, maps);
         let options = ReferenceOptions {
             cells,
             lines: lines.unwrap_or(usual.lines),
             ..usual
         };
-        let mut report = |event| {
-            if let ReferenceEvent::Square { .. } = event {
-                done += 1;
-                case.watch.report(done, options.maps);
+        let mut squares = 0;
+        let done = |event: &ReferenceEvent| {
+            if !matches!(event, ReferenceEvent::Square { .. }) {
+                return None;
             }
+            squares += 1;
+            Some(squares)
         };
-        let stop = || case.watch.stop();
-        let found = Reference::of(
-            scene,
-            options,
-            case.simulation(),
-            case.jobs,
-            &stop,
-            &mut report,
-        )?;
+        let found = case.watched(options.maps, done, |control| {
+            Reference::of(scene, options, &mut case.simulation(), control)
+        })?;
         Ok(Report::new(move |format| {
             let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
             bytes(
@@ -353,13 +360,10 @@ pub fn study(
             .map(|(path, values)| (path.as_str(), values.as_slice()))
             .collect();
         let plan = Plan::new(&case.document, &axes, case.profiles, &record)?;
-        let (stop, all) = (|| case.watch.stop(), plan.records_in_all());
-        let mut report = |done| case.watch.report(done, all);
-        let control = Control::default()
-            .on_threads(case.jobs)
-            .stopped_by(&stop)
-            .reporting_to(&mut report);
-        let results = compute(&plan, control)?;
+        let done = |records: &u64| Some(*records);
+        let results = case.watched(plan.records_in_all(), done, |control| {
+            compute(&plan, control)
+        })?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &results, format)
         }))

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::results::{Report, bytes};
 use crate::scene::Scene;
 use asperity::cli::surface::SurfaceTask;
-use asperity::data::parallel;
+use asperity::data::{Control, parallel};
 use asperity::scene::{Document, Roughness};
 use asperity::surface::lines::MeasuredRoughness;
 use asperity::surface::{Topography, analyse};
@@ -63,15 +63,16 @@ impl Surface {
             Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),
             None => None,
         };
-        computed(py, None, |_| {
+        computed(py, None, |watch| {
             let faces = match heights {
                 None => read_faces(&task)?,
                 Some((heights, columns, spacing)) => {
                     faces_of_map(&task, heights, columns, spacing)?
                 }
             };
+            let stop = || watch.stop();
             let report = task
-                .report(faces, true, &|_, _| ())
+                .report(faces, true, Control::default().stopped_by(&stop))
                 .map_err(|error| error.to_string())?;
             Ok(Surface {
                 task,

@@ -2,7 +2,8 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, TEXT_OR_JSON, without_look};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
+use asperity_data::Control;
 use asperity_report::Format;
 use asperity_study::checks::{Case, Check, Verdict};
 use clap::Args;
@@ -48,17 +49,42 @@ impl CheckArguments {
 pub(super) fn check(arguments: &CheckArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let chosen = arguments.chosen()?;
     let format = arguments.output.format(TEXT_OR_JSON, Format::Text)?;
-    let (mut progress, count) = (ProgressLine::default(), chosen.len());
-    let run = |(index, check): (usize, Check)| {
-        progress.show(&format!("{}/{count} {}", index + 1, check.case.name), None);
-        Check::judge(check)
-    };
-    let verdicts: Vec<Verdict> = chosen.into_iter().enumerate().map(run).collect();
-    progress.clear();
+    let verdicts = judged(chosen)?;
     arguments
         .output
         .write(stdout, &verdicts[..], format, Origin::Files(&[]))?;
     conclude(&verdicts)
+}
+
+/// Judges all checks. A signal ends the computation after the present one.
+fn judged(checks: Vec<Check>) -> Result<Vec<Verdict>, CliError> {
+    let count = checks.len();
+    let task = Task {
+        name: None,
+        threads: 1,
+        begins: String::new(),
+    };
+    let show = |begun: &Begun, line: &mut ProgressLine| {
+        line.show(&format!("{}/{count} {}", begun.number, begun.name), None);
+    };
+    watched(task, show, |mut control: Control<'_, Begun>| {
+        let mut verdicts = Vec::with_capacity(count);
+        for (number, check) in (1..).zip(checks) {
+            if control.is_stopped() {
+                break;
+            }
+            let name = check.case.name;
+            control.report(Begun { number, name });
+            verdicts.push(Check::judge(check));
+        }
+        Ok::<_, CliError>(verdicts)
+    })
+}
+
+/// A check that begins: its number, counted from 1, and the name of its case.
+struct Begun {
+    number: usize,
+    name: &'static str,
 }
 
 fn conclude(verdicts: &[Verdict]) -> Result<(), CliError> {

@@ -2,12 +2,12 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::reference::compared;
 use super::scene::{SceneArguments, threads, warn};
-use asperity_data::parse_quantity;
+use asperity_data::{Control, parse_quantity};
 use asperity_report::{CostReport, Format};
-use asperity_scene::discretisation::{Progress, measure};
+use asperity_scene::discretisation::{Knob, Progress, measure};
 use asperity_study::half_space::ReferenceOptions;
 use clap::Args;
 use std::io::Write;
@@ -57,33 +57,48 @@ fn budget(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// A setting of the discretisation that is tried.
+struct Trying {
+    knob: Knob,
+    setting: String,
+}
+
 pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     warn(&document, &document.scene().warnings());
     let scene = document.scene();
-    let (mut line, mut seen) = (ProgressLine::default(), Vec::new());
-    let measured = measure(
-        scene,
-        &document.resolve(""),
-        arguments.budget,
-        &|| false,
-        &mut |progress| match progress {
-            Progress::Trying(knob, setting) => {
-                let is_new = !seen.contains(&knob);
-                seen.push(knob);
-                line.show(
-                    &format!("{}: {setting}", knob.name()),
-                    is_new.then_some(knob.name()),
-                );
+    let task = Task {
+        name: Some(document.name()),
+        threads: threads(None),
+        begins: "first solution".to_owned(),
+    };
+    let mut seen = Vec::new();
+    let show = |trying: &Trying, line: &mut ProgressLine| {
+        let name = trying.knob.name();
+        let is_new = !seen.contains(&trying.knob);
+        seen.push(trying.knob);
+        line.show(
+            &format!("{name}: {}", trying.setting),
+            is_new.then_some(name),
+        );
+    };
+    let table = watched(task, show, |mut control: Control<'_, Trying>| {
+        let folder = document.resolve("");
+        let stop = control.stop();
+        let mut report = |progress: Progress<'_>| {
+            if let Progress::Trying(knob, setting) = progress {
+                let setting = setting.to_owned();
+                control.report(Trying { knob, setting });
             }
-            Progress::Rows(_) => {}
-        },
-    );
-    line.clear();
-    let table = measured.map_err(|error| CliError::named(document.name(), error))?;
-    let model = || compared(&document, ReferenceOptions::of(scene, None), threads(None));
-    let model = arguments.model.then(model).transpose()?;
+        };
+        measure(scene, &folder, arguments.budget, stop, &mut report)
+    })?;
+    let mut model = None;
+    if arguments.model {
+        let options = ReferenceOptions::of(scene, None);
+        model = Some(compared(&document, options, threads(None))?);
+    }
     let report = CostReport::new(document.title(), scene, &table, model.as_ref());
     arguments
         .output

@@ -4,10 +4,10 @@
 use super::error::CliError;
 use super::fits::{Curves, files_of};
 use super::output::Origin;
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{Control, grouped, parse_quantity, path_name};
+use asperity_data::{grouped, parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use clap::Args;
@@ -110,15 +110,17 @@ pub(super) fn ensemble(
         .iter()
         .map(read)
         .collect::<Result<Vec<_>, _>>()?;
-    let mut progress = ProgressLine::default();
-    let mut report =
-        |computed: u64| progress.show(&format!("{} curves computed", grouped(computed)), None);
-    let control = Control::default()
-        .on_threads(threads(arguments.jobs))
-        .reporting_to(&mut report);
-    let found = fit_ensemble(&curves, &document, &options, control);
-    progress.clear();
-    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let task = Task {
+        name: Some(document.name()),
+        threads: threads(arguments.jobs),
+        begins: "0 curves computed".to_owned(),
+    };
+    let show = |computed: &u64, line: &mut ProgressLine| {
+        line.show(&format!("{} curves computed", grouped(*computed)), None);
+    };
+    let found = watched(task, show, |control| {
+        fit_ensemble(&curves, &document, &options, control)
+    })?;
     let report = EnsembleFitReport {
         title: document.title(),
         fit: &found,

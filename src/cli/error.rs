@@ -38,6 +38,11 @@ impl CliError {
         }
     }
 
+    /// Returns true for a command that a signal has ended.
+    pub fn is_interruption(&self) -> bool {
+        self.exit_code > 128
+    }
+
     /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.
     pub fn named(name: impl Display, error: impl Display) -> CliError {
         CliError::message(format!("{name}: {error}"))

@@ -2,10 +2,10 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
 use asperity_report::{FindReport, Format, counted_texts};
-use asperity_scene::Simulation;
+use asperity_scene::{Document, Simulation};
 use asperity_study::{Axis, Found, Quantity, Question};
 use clap::Args;
 use std::io::Write;
@@ -49,34 +49,42 @@ pub struct FindArguments {
     pub output: OutputArguments,
 }
 
+impl FindArguments {
+    fn question(
+        &self,
+        document: &Document,
+        profiles: u64,
+        simulation: &mut Simulation,
+    ) -> Result<Question, CliError> {
+        let scene = document.scene();
+        let question = Question::new(scene, &self.field, self.condition, profiles, simulation);
+        let mut question = question.map_err(|error| CliError::named(document.name(), error))?;
+        if let Some(range) = &self.range {
+            let range = Axis::parse_range(range, question.axis.unit);
+            question.searched = range.map_err(|error| CliError::named("--range", error))?;
+        }
+        Ok(question)
+    }
+}
+
 pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
-    let (scene, profiles) = (document.scene(), arguments.profiles.count(document.scene()));
-    let failed = |error| CliError::named(document.name(), error);
+    let scene = document.scene();
+    let profiles = arguments.profiles.count(scene);
     let mut simulation = Simulation::new(document.resolve(""));
-    let question = Question::new(
-        scene,
-        &arguments.field,
-        arguments.condition,
-        profiles,
-        &mut simulation,
-    );
-    let mut question = question.map_err(failed)?;
-    if let Some(range) = &arguments.range {
-        let range = Axis::parse_range(range, question.axis.unit);
-        question.searched = range.map_err(|error| CliError::named("--range", error))?;
-    }
-    let mut progress = ProgressLine::default();
-    let mut report = |done: u64| progress.show(&format!("{done} of {profiles} profiles"), None);
-    let found = Found::of(
-        question,
-        (simulation, arguments.profiles.threads()),
-        &|| false,
-        &mut report,
-    );
-    progress.clear();
-    let found = found.map_err(failed)?;
+    let question = arguments.question(&document, profiles, &mut simulation)?;
+    let task = Task {
+        name: Some(document.name()),
+        threads: arguments.profiles.threads(),
+        begins: format!("0 of {profiles} profiles"),
+    };
+    let show = |done: &u64, line: &mut ProgressLine| {
+        line.show(&format!("{done} of {profiles} profiles"), None);
+    };
+    let found = watched(task, show, |control| {
+        Found::of(question, &mut simulation, control)
+    })?;
     let report = FindReport {
         title: document.title(),
         scene,

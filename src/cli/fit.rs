@@ -4,9 +4,10 @@ use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
 use super::fits::{Curves, fit_all};
 use super::output::{Origin, OutputArguments, check_file};
-use super::scene::{Overrides, open_scene};
+use super::progress::{ProgressLine, Task, watched};
+use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{Control, path_name, write_new};
+use asperity_data::{grouped, path_name, write_new};
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
 use asperity_report::{FitReport, Format, Report, named_from};
 use clap::Args;
@@ -121,8 +122,15 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
     let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
-    let found = fit.run(&curve, Control::default());
-    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let task = Task {
+        name: Some(document.name()),
+        threads: threads(None),
+        begins: "0 curves computed".to_owned(),
+    };
+    let show = |computed: &u64, line: &mut ProgressLine| {
+        line.show(&format!("{} curves computed", grouped(*computed)), None);
+    };
+    let found = watched(task, show, |control| fit.run(&curve, control))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));
         let document = found

@@ -3,7 +3,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, SignalWatch};
 use super::scene::{Overrides, threads};
 use asperity_data::{
     Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
@@ -68,6 +68,12 @@ pub(super) fn files_of(
         files.extend(entries);
     }
     Ok(files)
+}
+
+/// Reason why the row of a curve is missing in the table.
+enum RowError {
+    Unwritable(io::Error),
+    Stopped,
 }
 
 /// The rows so far, and where further ones are written.
@@ -214,8 +220,11 @@ impl Batch<'_> {
                 format!("cannot be written: {error}"),
             )
         };
+        let table_path = table;
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
         let count = grouped(files.len() as u64);
+        let watch = SignalWatch::begin()?;
+        let stop = || watch.is_signalled();
         let mut line = ProgressLine::default();
         line.show(
             &format!("{} of {count} curves", grouped(rows.len() as u64)),
@@ -225,13 +234,17 @@ impl Batch<'_> {
         let worker = || {
             |number: u64| {
                 let index = todo[number as usize];
-                let row = self.row(&files[index], &names[index]);
+                let row = self.row(&files[index], &names[index], &stop);
+                if stop() {
+                    return Err(RowError::Stopped);
+                }
                 let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
                 let line = self.text_of(std::slice::from_ref(&row));
                 let written = progress
                     .table
                     .as_mut()
                     .map_or(Ok(()), |table| table.write_all(last_line(&line).as_bytes()));
+                let written = written.map_err(RowError::Unwritable);
                 progress.rows.insert(names[index].clone(), row);
                 let done = grouped(progress.rows.len() as u64);
                 progress
@@ -240,16 +253,29 @@ impl Batch<'_> {
                 written
             }
         };
-        on_threads(todo.len() as u64, threads(self.curves.jobs), worker).map_err(unwritable)?;
+        let written = on_threads(todo.len() as u64, threads(self.curves.jobs), worker);
         let progress = progress
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);
         progress.line.clear();
         let mut rows = progress.rows;
+        written.map_err(|error| match error {
+            RowError::Unwritable(error) => unwritable(error),
+            RowError::Stopped => {
+                let done = grouped(rows.len() as u64);
+                let lost = match table_path {
+                    Some(_) => "the same command continues the table",
+                    None => "no results are written",
+                };
+                watch.interrupted(format!(
+                    "stopped: {done} of {count} curves are fitted; {lost}"
+                ))
+            }
+        })?;
         Ok(names.iter().filter_map(|name| rows.remove(name)).collect())
     }
 
-    fn row(&self, path: &Path, name: &str) -> CurveRow {
+    fn row(&self, path: &Path, name: &str, stop: &(dyn Fn() -> bool + Sync)) -> CurveRow {
         let fit = self
             .curves
             .free
@@ -260,7 +286,7 @@ impl Batch<'_> {
             name,
             MeasuredCurve::read(path, &self.reading),
             &fit,
-            Control::default(),
+            Control::default().stopped_by(stop),
         )
     }
 

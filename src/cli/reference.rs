@@ -2,14 +2,13 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::progress::{ProgressLine, stop_by_signal};
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{ProfileArguments, SceneArguments, holds_warnings, warn};
 use asperity_report::{Format, ReferenceProgress, ReferenceReport, counted_texts};
 use asperity_scene::{Document, Simulation};
-use asperity_study::half_space::{Reference, ReferenceOptions};
+use asperity_study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use clap::Args;
 use std::io::Write;
-use std::sync::atomic::Ordering;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,29 +72,32 @@ pub(super) fn reference(
 pub(super) fn compared(
     document: &Document,
     options: ReferenceOptions,
-    jobs: usize,
+    threads: usize,
 ) -> Result<Reference, CliError> {
-    let (mut line, mut progress) = (ProgressLine::default(), ReferenceProgress::default());
-    let simulation = Simulation::new(document.resolve(""));
-    let signal = stop_by_signal()?;
-    let stop = || signal.load(Ordering::SeqCst) != 0;
-    let found = Reference::of(
-        document.scene(),
-        options,
-        simulation,
-        jobs,
-        &stop,
-        &mut |event| {
-            let (text, is_long) = progress.words(&event);
-            line.show(&text, is_long.then_some(&text));
-            if is_long {
-                line.keep();
-            }
-        },
-    );
-    line.clear();
-    found.map_err(|error| match error.is_interruption() {
-        true => CliError::interrupted(&signal, progress.lost()),
-        false => CliError::named(document.name(), error),
+    let task = Task {
+        name: Some(document.name()),
+        threads,
+        begins: "estimating the computing time".to_owned(),
+    };
+    let mut progress = ReferenceProgress::default();
+    let show = |event: &ReferenceEvent, line: &mut ProgressLine| {
+        let (text, is_long) = progress.words(event);
+        line.show(&text, is_long.then_some(&text));
+        if is_long {
+            line.keep();
+        }
+    };
+    let mut simulation = Simulation::new(document.resolve(""));
+    let found = watched(task, show, |control| {
+        Reference::of(document.scene(), options, &mut simulation, control)
+    });
+    found.map_err(|error| {
+        if error.is_interruption() {
+            return CliError {
+                message: progress.lost(),
+                ..error
+            };
+        }
+        error
     })
 }

@@ -2,13 +2,14 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::scene::{SceneArguments, holds_warnings, simulation_of, warn};
+use super::progress::{ProgressLine, Task, watched};
+use super::scene::{SceneArguments, holds_warnings, simulation_of, staircase_of, warn};
 use asperity_data::AxisScale;
 use asperity_report::{Format, ReversalReport};
-use asperity_scene::RunError;
 use asperity_scene::theory::ReversalMap;
+use asperity_scene::{Document, Simulation};
 use asperity_study::trust::warnings_of_reversals;
-use asperity_study::{Axis, Results, Staircase};
+use asperity_study::{Axis, Results};
 use clap::Args;
 use std::io::Write;
 
@@ -76,17 +77,16 @@ pub(super) fn reversals(
     let format = output.format(&Format::ALL, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
-    let failed = |error: RunError| CliError::named(document.name(), error);
     let mut simulation = simulation_of(&document);
-    let ((ends, count), never) = (arguments.preloads.unwrap_or((None, USUAL)), || false);
-    let map = simulation
-        .reversal_map(scene, ends, count, &never)
-        .map_err(failed)?;
-    let warnings = warnings_of_reversals(&map, scene, &mut simulation).map_err(failed)?;
+    let (ends, count) = arguments.preloads.unwrap_or((None, USUAL));
+    let map = map_of(&document, ends, count, &mut simulation)?;
+    let warnings = warnings_of_reversals(&map, scene, &mut simulation)
+        .map_err(|error| CliError::named(document.name(), error))?;
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }
-    let (mut preloads, mut staircase) = (None, None);
+    let mut preloads = None;
+    let mut staircase = None;
     // Tables hold the turning points alone.
     if !format.is_table() {
         let largest = map
@@ -94,16 +94,11 @@ pub(super) fn reversals(
             .iter()
             .map(|reversal| reversal.turn.force)
             .fold(0.0, f64::max);
-        let (from, to) = ends.unwrap_or((0.0, largest));
-        if let Ok(asked) = Axis::of_preloads((from, to), count, AxisScale::Linear) {
-            let (record, folder) = (&Results::OF_PRELOADS, document.resolve(""));
-            let solved = Results::of_scene(scene, &folder, record, 1, Some(&asked), 1);
-            preloads = Some(solved.map_err(|error| CliError::named(document.name(), error))?);
+        let ends = ends.unwrap_or((0.0, largest));
+        if let Ok(axis) = Axis::of_preloads(ends, count, AxisScale::Linear) {
+            preloads = Some(adhesion_at(&document, &axis)?);
             if format.is_picture() {
-                staircase = Some(
-                    Staircase::find(scene, &asked, &mut simulation, &never, &mut |_| ())
-                        .map_err(failed)?,
-                );
+                staircase = Some(staircase_of(&document, scene, &axis, &mut simulation)?);
             }
         }
     }
@@ -116,4 +111,45 @@ pub(super) fn reversals(
         staircase: staircase.as_ref(),
     };
     output.write(stdout, &report, format, Origin::Scene(&document, scene))
+}
+
+/// Computes the unloadings from the turning points of a scene.
+fn map_of(
+    document: &Document,
+    ends: Option<(f64, f64)>,
+    count: usize,
+    simulation: &mut Simulation,
+) -> Result<ReversalMap, CliError> {
+    let task = Task {
+        name: Some(document.name()),
+        threads: 1,
+        begins: format!("{count} turning points"),
+    };
+    let show = |(): &(), _: &mut ProgressLine| ();
+    watched(task, show, |control| {
+        simulation.reversal_map(document.scene(), ends, count, &|| control.is_stopped())
+    })
+}
+
+/// Computes the adhesion force of a scene after each of these preloads.
+fn adhesion_at(document: &Document, preloads: &Axis) -> Result<Results, CliError> {
+    let task = Task {
+        name: Some(document.name()),
+        threads: 1,
+        begins: format!("{} preloads", preloads.count()),
+    };
+    let show = |_: &Results, _: &mut ProgressLine| ();
+    let mut simulation = simulation_of(document);
+    watched(task, show, |control| {
+        let record = &Results::OF_PRELOADS;
+        let preloads = Some(preloads);
+        Results::of_scene(
+            document.scene(),
+            record,
+            1,
+            preloads,
+            &mut simulation,
+            control,
+        )
+    })
 }

@@ -2,12 +2,11 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{
-    ProfileArguments, SceneArguments, compute, holds_warnings, open_scene, simulation_of, warn,
+    ProfileArguments, SceneArguments, compute, compute_stages, holds_warnings, open_scene,
+    simulation_of, staircase_of, threads, warn,
 };
-use asperity_contact::LegRecord;
-use asperity_contact::motion::Leg;
 use asperity_data::{grouped, wrap};
 use asperity_plot::Figure;
 use asperity_report::{
@@ -15,10 +14,11 @@ use asperity_report::{
     check_measured_files, counted_texts, warning_texts,
 };
 use asperity_scene::discretisation::{Choice, choose, parse_tolerance};
-use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation, estimate};
+use asperity_scene::{CheckedScene, Document, Estimate, Outcome, Scene, Simulation, estimate};
 use asperity_study::trust::MeasuredAdhesion;
-use asperity_study::{Axis, Ensemble, Results, Staircase, StudyError};
+use asperity_study::{Axis, Ensemble, Results, Staircase};
 use clap::{Args, ValueEnum};
+use std::convert::Infallible;
 use std::io;
 use std::io::Write;
 
@@ -167,18 +167,20 @@ impl RunArguments {
                 choice: None,
             });
         };
-        let mut progress = ProgressLine::default();
-        let mut trying =
-            |points| progress.show(&format!("trying {} springs", grouped(points)), None);
-        let choice = choose(
-            document.scene(),
-            &document.resolve(""),
-            tolerance,
-            &|| false,
-            &mut trying,
-        );
-        progress.clear();
-        let choice = choice.map_err(|error| CliError::named(document.name(), error))?;
+        let task = Task {
+            name: Some(document.name()),
+            threads: threads(None),
+            begins: String::new(),
+        };
+        let show = |springs: &u64, line: &mut ProgressLine| {
+            line.show(&format!("trying {} springs", grouped(*springs)), None);
+        };
+        let choice = watched(task, show, |mut control| {
+            let folder = document.resolve("");
+            let stop = control.stop();
+            let mut report = |springs: u64| control.report(springs);
+            choose(document.scene(), &folder, tolerance, stop, &mut report)
+        })?;
         if format != Format::Text || !self.more.is_empty() {
             let _ = writeln!(
                 io::stderr(),
@@ -209,19 +211,39 @@ impl RunArguments {
         } else {
             &[]
         };
-        let mut progress = ProgressLine::default();
-        let mut report = |computed: u64, _: &dyn Fn() -> Ensemble| {
-            progress.show(&format!("{computed} of {count} random profiles"), None);
+        let mut simulation = Simulation::new(document.resolve(""));
+        let show = |ensemble: &Ensemble, line: &mut ProgressLine| {
+            line.show(&random_profiles(ensemble.computed(), count), None);
         };
-        let simulation = (
-            Simulation::new(document.resolve("")),
-            self.profiles.threads(),
-        );
-        let ensemble = Ensemble::of(scene, further, count, simulation, &|| false, &mut report);
-        progress.clear();
-        ensemble
-            .map(Some)
-            .map_err(|error| CliError::named(document.name(), error))
+        let ensemble = watched(self.profiles_task(document, count), show, |control| {
+            Ensemble::of(scene, further, count, &mut simulation, control)
+        })?;
+        Ok(Some(ensemble))
+    }
+
+    /// The computation of `count` random profiles of a document.
+    fn profiles_task<'a>(&self, document: &'a Document, count: u64) -> Task<'a> {
+        Task {
+            name: Some(document.name()),
+            threads: self.profiles.threads(),
+            begins: random_profiles(0, count),
+        }
+    }
+
+    /// Standard deviation of the adhesion force by the uncertainty of a measured spectrum, if it is
+    /// computed fast.
+    fn fit_deviation(
+        &self,
+        document: &Document,
+        ensemble: &Ensemble,
+    ) -> Result<Option<f64>, CliError> {
+        let count = ensemble.profiles();
+        let show = |computed: &u64, line: &mut ProgressLine| {
+            line.show(&random_profiles(*computed, count), None);
+        };
+        watched(self.profiles_task(document, count), show, |control| {
+            MeasuredAdhesion::quick_deviation(document, count, control)
+        })
     }
 
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads
@@ -235,16 +257,13 @@ impl RunArguments {
         let Chosen {
             document, scene, ..
         } = chosen;
-        let mut simulation = simulation_of(document);
-        let staircase = (is_drawn || self.curves || preloads.values[0] < 0.0)
-            .then(|| Staircase::find(scene, preloads, &mut simulation, &|| false, &mut |_| ()))
-            .transpose()
-            .map_err(|error| CliError::named(document.name(), error))?;
-        let results = self.adhesion_on_profiles(chosen, preloads);
-        Ok((
-            results.map_err(|error| CliError::named(document.name(), error))?,
-            staircase,
-        ))
+        let mut staircase = None;
+        if is_drawn || self.curves || preloads.values[0] < 0.0 {
+            let mut simulation = simulation_of(document);
+            staircase = Some(staircase_of(document, scene, preloads, &mut simulation)?);
+        }
+        let results = self.adhesion_on_profiles(chosen, preloads)?;
+        Ok((results, staircase))
     }
 
     /// Adhesion force against preload on one or several random profiles, which are counted on the
@@ -253,29 +272,34 @@ impl RunArguments {
         &self,
         chosen: &Chosen<'_>,
         preloads: &Axis,
-    ) -> Result<Results, StudyError> {
+    ) -> Result<Results, CliError> {
+        let Chosen {
+            document, scene, ..
+        } = chosen;
         let count = self.profiles.lines.map_or(1, u64::from);
-        let mut results =
-            Results::begin(&chosen.scene, &Results::OF_PRELOADS, count, Some(preloads))?;
-        let simulation = if count == 1 {
-            simulation_of(chosen.document)
-        } else {
-            Simulation::new(chosen.document.resolve(""))
+        let mut simulation = Simulation::new(document.resolve(""));
+        if count == 1 {
+            simulation = simulation_of(document);
+        }
+        let show = |results: &Results, line: &mut ProgressLine| {
+            line.show(&random_profiles(results.profiles_done(), count), None);
         };
-        let mut progress = ProgressLine::default();
-        let mut computed = 0;
-        let mut report = |_: &Results| {
-            computed += 1;
-            progress.show(&format!("{computed} of {count} random profiles"), None);
-        };
-        let solved = results.extend(
-            (simulation, self.profiles.threads()),
-            &|| false,
-            &mut report,
-        );
-        progress.clear();
-        solved.map(|()| results)
+        watched(self.profiles_task(document, count), show, |control| {
+            let record = &Results::OF_PRELOADS;
+            Results::of_scene(
+                scene,
+                record,
+                count,
+                Some(preloads),
+                &mut simulation,
+                control,
+            )
+        })
     }
+}
+
+fn random_profiles(computed: u64, count: u64) -> String {
+    format!("{computed} of {count} random profiles")
 }
 
 pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -358,26 +382,40 @@ fn run_loadings(
     let estimate = match choice {
         Some(choice) => Some(choice.estimate()),
         None if matches!(format, Format::Text | Format::Json) => {
-            estimate(scene, &document.resolve(""), &outcome, &|| false)
+            estimated(document, scene, &outcome)?
         }
         None => None,
     };
-    let (title, estimate, ensemble) = (document.title(), estimate.as_ref(), ensemble.as_ref());
-    let deviation = ensemble.and_then(|ensemble| {
-        MeasuredAdhesion::quick_deviation(
-            document,
-            ensemble.profiles(),
-            arguments.profiles.threads(),
-        )
-    });
+    let deviation = match &ensemble {
+        Some(ensemble) => arguments.fit_deviation(document, ensemble)?,
+        None => None,
+    };
     write(&RunReport {
-        title,
+        title: document.title(),
         scene,
         outcome: &outcome,
         choice,
-        estimate,
-        ensemble,
+        estimate: estimate.as_ref(),
+        ensemble: ensemble.as_ref(),
         deviation,
+    })
+}
+
+/// Estimates the error of an outcome.
+fn estimated(
+    document: &Document,
+    scene: &CheckedScene,
+    outcome: &Outcome,
+) -> Result<Option<Estimate>, CliError> {
+    let task = Task {
+        name: Some(document.name()),
+        threads: 1,
+        begins: "estimating the error".to_owned(),
+    };
+    let show = |(): &(), _: &mut ProgressLine| ();
+    watched(task, show, |control| {
+        let folder = document.resolve("");
+        Ok::<_, Infallible>(estimate(scene, &folder, outcome, control.stop()))
     })
 }
 
@@ -442,13 +480,13 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
         let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(has_patches);
-        let mut observe = |_, record: &LegRecord, leg: &Leg| {
-            sets.observe(record, leg);
-            Ok(())
-        };
-        let outcome = simulation
-            .run(scene, &|| false, &mut observe)
-            .map_err(failed)?;
+        let outcome = compute_stages(document, scene, |stop, after| {
+            simulation.run(scene, stop, &mut |stage, record, leg| {
+                sets.observe(record, leg);
+                after(stage);
+                Ok(())
+            })
+        })?;
         warn(document, &outcome.warnings);
         figures.push(match has_patches {
             true => sets.patches_figure(document.title(), &outcome),

@@ -1,12 +1,13 @@
 //! The scene of a command, with overrides.
 
 use super::error::CliError;
+use super::progress::{ProgressLine, Task, watched};
 use crate::explorer::recognition::no_scene;
-use asperity_data::{parallel, printable};
+use asperity_data::{Control, parallel, printable};
 use asperity_report::Format;
 use asperity_scene::library::open_argument;
-use asperity_scene::{CheckedScene, Document, Outcome, Scene, Simulation};
-use asperity_study::Ensemble;
+use asperity_scene::{CheckedScene, Document, Outcome, RunError, Scene, Simulation};
+use asperity_study::{Axis, Ensemble, Staircase};
 use clap::Args;
 use std::fmt::Display;
 use std::io;
@@ -114,10 +115,60 @@ pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
+/// Computes a scene of a document, and shows its loading stages on a terminal.
 pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outcome, CliError> {
-    simulation_of(document)
-        .run(scene, &|| false, &mut |_, _, _| Ok(()))
-        .map_err(|error| CliError::named(document.name(), error))
+    let mut simulation = simulation_of(document);
+    compute_stages(document, scene, |stop, after| {
+        simulation.run(scene, stop, &mut |stage, _, _| {
+            after(stage);
+            Ok(())
+        })
+    })
+}
+
+/// Runs a scene of a document, and shows the loading stages on a terminal. `run` gets the function
+/// that stops it, and a function to call after each stage.
+pub(super) fn compute_stages(
+    document: &Document,
+    scene: &Scene,
+    run: impl FnOnce(&Stop<'_>, &mut dyn FnMut(usize)) -> Result<Outcome, RunError>,
+) -> Result<Outcome, CliError> {
+    let stages = scene.loading.len();
+    let task = Task {
+        name: Some(document.name()),
+        threads: 1,
+        begins: format!("0 of {stages} stages"),
+    };
+    let show = |done: &usize, line: &mut ProgressLine| {
+        line.show(&format!("{done} of {stages} stages"), None);
+    };
+    watched(task, show, |mut control: Control<'_, usize>| {
+        let stop = control.stop();
+        run(stop, &mut |stage| control.report(stage + 1))
+    })
+}
+
+/// Function that returns true if a computation is to end.
+type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+
+/// Computes the staircase of a scene of a document over preloads.
+pub(super) fn staircase_of(
+    document: &Document,
+    scene: &CheckedScene,
+    preloads: &Axis,
+    simulation: &mut Simulation,
+) -> Result<Staircase, CliError> {
+    let task = Task {
+        name: Some(document.name()),
+        threads: 1,
+        begins: "0 preloads".to_owned(),
+    };
+    let show = |staircase: &Staircase, line: &mut ProgressLine| {
+        line.show(&format!("{} preloads", staircase.forces.len()), None);
+    };
+    watched(task, show, |control| {
+        Staircase::of(scene, preloads, simulation, control)
+    })
 }
 
 /// Number of threads that share the profiles: the requested number, or one for each core.

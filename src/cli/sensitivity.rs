@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{SceneArguments, holds_warnings, threads, warn};
 use asperity_report::{Format, SensitivityReport, counted_texts};
 use asperity_scene::Simulation;
@@ -37,16 +37,18 @@ pub(super) fn sensitivity(
     let format = arguments.output.format(WITHOUT_PICTURE, Format::Text)?;
     let document = arguments.scene.open()?;
     let scene = document.scene();
-    let mut progress = ProgressLine::default();
-    let mut report =
-        |found: &Sensitivity| progress.show(&format!("{} profiles", found.profiles), None);
-    let simulation = (
-        Simulation::new(document.resolve("")),
-        threads(arguments.jobs),
-    );
-    let found = Sensitivity::of(scene, simulation, &|| false, &mut report);
-    progress.clear();
-    let found = found.map_err(|error| CliError::named(document.name(), error))?;
+    let task = Task {
+        name: Some(document.name()),
+        threads: threads(arguments.jobs),
+        begins: "0 profiles".to_owned(),
+    };
+    let show = |found: &Sensitivity, line: &mut ProgressLine| {
+        line.show(&format!("{} profiles", found.profiles), None);
+    };
+    let mut simulation = Simulation::new(document.resolve(""));
+    let found = watched(task, show, |control| {
+        Sensitivity::of(scene, &mut simulation, control)
+    })?;
     let report = SensitivityReport {
         title: document.title(),
         scene,

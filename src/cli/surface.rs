@@ -2,11 +2,11 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
-use super::progress::ProgressLine;
+use super::progress::{ProgressLine, Task, watched};
 use super::scene::{MOST_LINES, threads};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
-use asperity_data::{parse_quantity, path_name, round_to, write_new};
+use asperity_data::{Control, parse_quantity, path_name, round_to, write_new};
 use asperity_report::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use asperity_scene::stages::equivalent_springs;
 use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
@@ -16,7 +16,6 @@ use asperity_surface::{EquivalentLine, Unit, analyse, read};
 use clap::Args;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -206,6 +205,14 @@ pub struct SurfaceTask {
     pub jobs: usize,
 }
 
+/// Number of random profiles whose adhesion is computed, and number of all random profiles.
+pub struct ComputedProfiles {
+    /// Number of computed profiles.
+    pub computed: u64,
+    /// Number of all profiles.
+    pub all: u32,
+}
+
 impl SurfaceTask {
     /// Returns the options of reading and analysing the files.
     pub fn options(&self) -> MeasuredOptions {
@@ -273,18 +280,16 @@ impl SurfaceTask {
     }
 
     /// Makes the report of analysed faces. If `computes_adhesion` is true and a work of adhesion is
-    /// given, the adhesion of the equivalent line is computed on random profiles. `progress`
-    /// receives the number of computed profiles and the number of all profiles, from several
-    /// threads.
+    /// given, the adhesion of the equivalent line is computed on random profiles.
     ///
     /// # Errors
-    /// Returns an error for a value that a scene does not allow, and if a profile cannot be
-    /// computed.
+    /// Returns an error for a value that a scene does not allow, if a profile cannot be computed,
+    /// and if `control` stops the computation.
     pub fn report(
         &self,
         faces: Vec<MeasuredFace>,
         computes_adhesion: bool,
-        progress: &(dyn Fn(u64, u32) + Sync),
+        mut control: Control<'_, ComputedProfiles>,
     ) -> Result<SurfaceReport, CliError> {
         let line = EquivalentLine {
             faces: faces
@@ -307,14 +312,38 @@ impl SurfaceTask {
         let profiles = self.profiles.or(is_quick.then_some(LINES));
         let mut solved = None;
         if let Some(count) = profiles {
-            let report_profile = |computed: u64| progress(computed, count);
-            let adhesion =
-                MeasuredAdhesion::of_line(&scene, &report.line, count, self.jobs, &report_profile);
+            let profiles_control = control.of_part().on_threads(self.jobs);
+            let mut report_profile = |computed: &u64| {
+                control.report(ComputedProfiles {
+                    computed: *computed,
+                    all: count,
+                });
+            };
+            let profiles_control = profiles_control.reporting_to(&mut report_profile);
+            let adhesion = MeasuredAdhesion::of_line(&scene, &report.line, count, profiles_control);
             let file = Path::new(&self.measured.file);
             solved = Some(adhesion.map_err(|error| CliError::named(path_name(file), error))?);
         }
         report.adhesion = Some((scene, solved));
         Ok(report)
+    }
+}
+
+impl SurfaceTask {
+    /// Reads and analyses the files, and makes the report with the progress on a terminal.
+    fn watched_report(&self, computes_adhesion: bool) -> Result<SurfaceReport, CliError> {
+        let task = Task {
+            name: None,
+            threads: self.jobs,
+            begins: "reading and analysing the files".to_owned(),
+        };
+        let show = |profiles: &ComputedProfiles, line: &mut ProgressLine| {
+            let ComputedProfiles { computed, all } = profiles;
+            line.show(&format!("{computed} of {all} random profiles"), None);
+        };
+        watched(task, show, |control| {
+            self.report(self.faces()?, computes_adhesion, control)
+        })
     }
 }
 
@@ -330,15 +359,7 @@ pub(super) fn surface(
     let task = arguments.task()?;
     // Adhesion is computed for text and JSON alone, since it takes seconds.
     let computes_adhesion = matches!(format, Format::Text | Format::Json);
-    let progress = Mutex::new(Counted::default());
-    let count = |computed: u64, profiles: u32| count_profiles(&progress, computed, profiles);
-    let report = task.report(task.faces()?, computes_adhesion, &count);
-    progress
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .line
-        .clear();
-    let report = report?;
+    let report = task.watched_report(computes_adhesion)?;
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
         let scene = task.scene(modulus, &report.faces, &report.line);
         write_scene(file, scene, arguments.output.force)?;
@@ -352,24 +373,6 @@ pub(super) fn surface(
     arguments
         .output
         .write(stdout, &report, format, Origin::Files(&files))
-}
-
-/// Number of computed profiles on the terminal.
-#[derive(Default)]
-struct Counted {
-    line: ProgressLine,
-    computed: u64,
-}
-
-/// Shows the number of computed profiles, which several threads report.
-fn count_profiles(progress: &Mutex<Counted>, computed: u64, profiles: u32) {
-    let mut progress = progress.lock().unwrap_or_else(PoisonError::into_inner);
-    if computed > progress.computed {
-        progress.computed = computed;
-        progress
-            .line
-            .show(&format!("{computed} of {profiles} random profiles"), None);
-    }
 }
 
 fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {

@@ -25,7 +25,7 @@ pub struct OpenStudy {
     pub grid: Arc<Grid>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Live {
     pub map: LiveMap,
     pub grid: Grid,

@@ -2,9 +2,11 @@
 //! curve for a typed value. The explorer holds one value of each type, with a key for what it was
 //! computed from. A thread of its own performs the newest order of studies; a newer order ends it.
 
+use asperity_data::Control;
 use asperity_scene::{Scene, Simulation};
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
+use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,13 +19,9 @@ const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
 
-/// Function that returns true if a study is to end.
-type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
-
-/// Computation of a value, on a simulation that other studies may have used, until `stop` returns
-/// true. Parts of the value are reported as they are computed.
-type Run =
-    dyn FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(Value)) -> Result<Value, String> + Send;
+/// Computation of a value, on a simulation that other studies may have used. Parts of the value are
+/// reported as they are computed.
+type Run = dyn FnOnce(&mut Simulation, Control<'_, Value>) -> Result<Value, String> + Send;
 
 pub struct Study {
     kind: TypeId,
@@ -35,16 +33,21 @@ pub struct Study {
 }
 
 impl Study {
-    /// Creates a study; its key identifies the scene or the parameters it depends on.
-    pub fn new<T: Any + Send + Sync>(
+    /// Creates a study; its key identifies the scene or the parameters it depends on. The value so
+    /// far is shown whenever `run` reports it.
+    pub fn new<T: Any + Clone + Send + Sync, E: Display>(
         key: impl ToString,
         is_long: bool,
-        run: impl FnOnce(&mut Simulation, &Stop<'_>, &mut dyn FnMut(T)) -> Result<T, String>
-        + Send
-        + 'static,
+        run: impl FnOnce(&mut Simulation, Control<'_, T>) -> Result<T, E> + Send + 'static,
     ) -> Self {
-        let run: Box<Run> = Box::new(move |simulation, stop, report| {
-            let value = run(simulation, stop, &mut |part| report(Arc::new(part)))?;
+        let run: Box<Run> = Box::new(move |simulation, mut control| {
+            let control_of_value = control.of_part();
+            let mut report = |part: &T| {
+                let part: Value = Arc::new(part.clone());
+                control.report(part);
+            };
+            let value = run(simulation, control_of_value.reporting_to(&mut report))
+                .map_err(|error| error.to_string())?;
             Ok(Arc::new(value))
         });
         Study {
@@ -65,7 +68,7 @@ impl Study {
     pub fn perform(
         self,
         simulation: &mut Simulation,
-        stop: &Stop<'_>,
+        stop: &(dyn Fn() -> bool + Sync),
         report: &mut dyn FnMut(Finding),
     ) {
         let Study { kind, key, run, .. } = self;
@@ -81,9 +84,11 @@ impl Study {
                 });
             }
         };
-        let done = catch_unwind(AssertUnwindSafe(|| {
-            run(simulation, stop, &mut |part| report(Some(part), None))
-        }));
+        let mut report_part = |part: &Value| report(Some(Arc::clone(part)), None);
+        let control = Control::default()
+            .stopped_by(stop)
+            .reporting_to(&mut report_part);
+        let done = catch_unwind(AssertUnwindSafe(|| run(simulation, control)));
         match done {
             Ok(Ok(value)) => report(Some(value), Some(Ok(()))),
             Ok(Err(why)) => report(None, Some(Err(why))),

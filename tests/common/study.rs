@@ -1,5 +1,6 @@
 //! A small study over κ and H at three preloads, finished.
 
+use asperity::data::Control;
 use asperity::study::{Changes, Folder, Plan, Shard, merge, run_study};
 use std::path::Path;
 
@@ -26,7 +27,7 @@ pub const PLAN: &str = r#"(
 /// Creates the study of a plan in a folder, computed and merged.
 pub fn merged(folder: &Path, plan: &str) {
     let study = begun(folder, plan);
-    run_study(&study, Shard::WHOLE, 2, &|| false, &mut |_| ()).unwrap();
+    run_study(&study, Shard::WHOLE, Control::default().on_threads(2)).unwrap();
     merge(&study).unwrap();
 }
 

@@ -22,6 +22,8 @@ mod python;
 mod results;
 mod rounding;
 #[cfg(target_os = "linux")]
+mod signals;
+#[cfg(target_os = "linux")]
 mod slurm;
 mod source;
 mod surfaces;

@@ -3,6 +3,7 @@
 
 use super::common::effort::cases;
 use asperity::contact::Move;
+use asperity::data::Control;
 use asperity::scene::Regime;
 use asperity::scene::{Adhesion, Material, Roughness, RoughnessParameter, Scene};
 use asperity::scene::{Outcome, Simulation};
@@ -62,7 +63,7 @@ fn study(plan: &Plan) -> (TempDir, Folder) {
 }
 
 fn compute(folder: &Folder, jobs: usize, shard: Shard) {
-    let ended = run_study(folder, shard, jobs, &|| false, &mut |_| ()).unwrap();
+    let ended = run_study(folder, shard, Control::default().on_threads(jobs)).unwrap();
     assert!(ended.is_complete());
 }
 

@@ -1,28 +1,33 @@
 //! Number of threads, stop and progress of a long computation.
 
 use crate::parallel;
+use std::borrow::Borrow;
 
 /// Settings of a long computation: the number of threads, a function that stops it, and a function
 /// that receives its progress. The default uses all cores, never stops early and reports nothing.
+///
+/// `P` is the type of the progress: the number of finished parts, or the result so far.
 ///
 /// ```
 /// use asperity_data::Control;
 /// use std::sync::atomic::{AtomicBool, Ordering};
 ///
-/// let (stopped, mut last) = (AtomicBool::new(false), 0);
-/// let (stop, mut report) = (|| stopped.load(Ordering::Relaxed), |done| last = done);
+/// let stopped = AtomicBool::new(false);
+/// let stop = || stopped.load(Ordering::Relaxed);
+/// let mut last = 0;
+/// let mut report = |done: &u64| last = *done;
 /// let mut control = Control::default().on_threads(2).stopped_by(&stop).reporting_to(&mut report);
 /// control.report(7);
 /// assert!(!control.is_stopped() && control.threads() == 2);
 /// assert_eq!(last, 7);
 /// ```
-pub struct Control<'a> {
+pub struct Control<'a, P = u64> {
     threads: usize,
     stop: &'a (dyn Fn() -> bool + Sync),
-    report: Option<&'a mut (dyn FnMut(u64) + 'a)>,
+    report: Option<&'a mut (dyn FnMut(&P) + 'a)>,
 }
 
-impl Default for Control<'_> {
+impl<P> Default for Control<'_, P> {
     fn default() -> Self {
         Control {
             threads: parallel::threads(),
@@ -32,7 +37,7 @@ impl Default for Control<'_> {
     }
 }
 
-impl<'a> Control<'a> {
+impl<'a, P> Control<'a, P> {
     /// Sets the number of threads, at least 1. The result is the same to the bit for any number of
     /// threads.
     #[must_use]
@@ -47,13 +52,25 @@ impl<'a> Control<'a> {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress, as the number of finished parts of the
-    /// computation. The function is called on the calling thread.
+    /// Sets the function that receives the progress. The function is called on the calling thread.
     #[must_use]
-    pub fn reporting_to(self, report: &'a mut (dyn FnMut(u64) + 'a)) -> Self {
+    pub fn reporting_to(self, report: &'a mut (dyn FnMut(&P) + 'a)) -> Self {
         Control {
             report: Some(report),
             ..self
+        }
+    }
+
+    /// Returns a control with the same number of threads and the same stop, for a part of this
+    /// computation. Its progress is of a type of its own, and has no receiver yet.
+    pub fn of_part<'part, Q>(&self) -> Control<'part, Q>
+    where
+        'a: 'part,
+    {
+        Control {
+            threads: self.threads,
+            stop: self.stop,
+            report: None,
         }
     }
 
@@ -73,10 +90,10 @@ impl<'a> Control<'a> {
     }
 
     /// Calls the function set by [`reporting_to`](Control::reporting_to), if there is one, with the
-    /// number of finished parts.
-    pub fn report(&mut self, done: u64) {
+    /// progress or a reference to it.
+    pub fn report(&mut self, progress: impl Borrow<P>) {
         if let Some(report) = &mut self.report {
-            report(done);
+            report(progress.borrow());
         }
     }
 }

@@ -790,6 +790,7 @@ impl<'a> ReferenceJson<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
     use asperity_scene::{Simulation, open};
     use asperity_study::half_space::ReferenceOptions;
     use asperity_study::trust::Budget;
@@ -803,14 +804,11 @@ mod tests {
             maps: 1,
             lines: 1,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            1,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(1),
         )
         .unwrap();
         let report = ReferenceReport {
@@ -845,14 +843,11 @@ mod tests {
             maps: 2,
             lines: 32,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            2,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(2),
         )
         .unwrap();
         let report = ReferenceReport {
@@ -903,14 +898,11 @@ mod tests {
             maps: 1,
             lines: 1,
         };
-        let simulation = Simulation::default();
         let found = Reference::of(
             document.scene(),
             options,
-            simulation,
-            1,
-            &|| false,
-            &mut |_| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(1),
         )
         .unwrap();
         let report = ReferenceReport {

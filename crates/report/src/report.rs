@@ -384,10 +384,21 @@ mod tests {
                 let preloads =
                     Axis::of_preloads((0.0, 1e-5), 8, asperity_data::AxisScale::Linear).unwrap();
                 let record = &Results::OF_PRELOADS;
-                let results =
-                    Results::of_scene(scene, Path::new(""), record, 1, Some(&preloads), 1).unwrap();
-                let staircase =
-                    Staircase::find(scene, &preloads, &mut simulation, &|| false, &mut |_| ());
+                let results = Results::of_scene(
+                    scene,
+                    record,
+                    1,
+                    Some(&preloads),
+                    &mut Simulation::default(),
+                    asperity_data::Control::default().on_threads(1),
+                )
+                .unwrap();
+                let staircase = Staircase::of(
+                    scene,
+                    &preloads,
+                    &mut simulation,
+                    asperity_data::Control::default(),
+                );
                 let staircase = staircase.ok();
                 let (preloads, staircase) = (Some(&results), staircase.as_ref());
                 let report = ReversalReport {

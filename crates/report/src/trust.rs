@@ -176,6 +176,7 @@ fn largest_in_words(budget: &Budget, is_exceeded: bool) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
     use asperity_scene::{Simulation, open, run};
 
     fn scene(fields: &[(&str, &str)]) -> asperity_scene::Document {
@@ -286,8 +287,8 @@ mod tests {
     fn each_source_has_a_row_and_the_largest_is_last() {
         let document = scene(&[]);
         let (scene, outcome) = (document.scene(), run(&document).unwrap());
-        let simulation = (Simulation::default(), 1);
-        let ensemble = Ensemble::of(scene, &[], 6, simulation, &|| false, &mut |_, _| ()).unwrap();
+        let control = Control::default().on_threads(1);
+        let ensemble = Ensemble::of(scene, &[], 6, &mut Simulation::default(), control).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
             error_rows(scene, &outcome, None, &budget, ensemble, None)

@@ -97,6 +97,7 @@ impl Budget {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
     use asperity_scene::discretisation::{Evidence, Target};
     use asperity_scene::{Simulation, open, run};
 
@@ -109,14 +110,12 @@ mod tests {
             .set_all(&fields)
             .unwrap();
         let outcome = run(&document).unwrap();
-        let simulation = (Simulation::default(), 1);
         let ensemble = Ensemble::of(
             document.scene(),
             &[],
             17,
-            simulation,
-            &|| false,
-            &mut |_, _| (),
+            &mut Simulation::default(),
+            Control::default().on_threads(1),
         )
         .unwrap();
         let estimate = |error| Estimate {

@@ -12,7 +12,7 @@ use super::reference_time::{LEAST_CELLS, SquareTime, check_time};
 use super::resolved::{Resolved, of_scene};
 use super::spatial::{Loads, Pressing, Pulling, SquareLoading, Turn, Watch};
 use asperity_contact::{Branch, Move};
-use asperity_data::{check_room, mean, memory_size};
+use asperity_data::{Control, check_room, mean, memory_size};
 use asperity_half_space::check_cells;
 use asperity_scene::{CheckedScene, Outcome, Simulation};
 use std::sync::mpsc::Sender;
@@ -30,28 +30,25 @@ const ROUNDING: f64 = 1e-9;
 impl Reference {
     /// Compares the contact of a checked scene on random profiles with its contact on random
     /// squares in three dimensions. `simulation` knows the folder of the measured files of the
-    /// scene. `jobs` is the number of threads, on which only the computing times depend. `report`
-    /// receives each event.
+    /// scene. `control` reports each event. Only the computing times depend on the number of
+    /// threads.
     ///
     /// # Errors
-    /// Returns an error if the scene has no body in three dimensions or no preload above zero, if
-    /// the number of grid cells is not allowed, or if the memory does not suffice. It is also an
-    /// error if the squares would take more than a day, if too few grid cells are in contact for
-    /// any comparison, or if `stop` returned true.
+    /// Returns an error if zero threads are requested, if the scene has no body in three dimensions
+    /// or no preload above zero, if the number of grid cells is not allowed, or if the memory does
+    /// not suffice. It is also an error if the squares would take more than a day, if too few grid
+    /// cells are in contact for any comparison, or if `control` stops the computation.
     pub fn of(
         scene: &CheckedScene,
         options: ReferenceOptions,
-        simulation: Simulation,
-        jobs: usize,
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(ReferenceEvent),
+        simulation: &mut Simulation,
+        mut control: Control<'_, ReferenceEvent>,
     ) -> Result<Reference, StudyError> {
+        StudyError::check_threads(control.threads())?;
         if options.maps == 0 || options.lines == 0 {
             return Err(StudyError::refused(None, "no profiles", "at least one"));
         }
-        let simulation_for_warnings = simulation.another();
-        let mut simulation = simulation;
-        let resolved = Resolved::of(scene, options.cells, &mut simulation)?;
+        let resolved = Resolved::of(scene, options.cells, simulation)?;
         let seed = scene.seed();
         let options = match seed {
             Some(_) => options,
@@ -65,12 +62,13 @@ impl Reference {
             resolved,
             options,
             seed: seed.unwrap_or(0),
-            stop,
+            threads: control.threads(),
+            stop: control.stop(),
         };
-        let mut reference = comparison.run(jobs, report)?;
+        let mut reference = comparison.run(&mut control)?;
         let profiles = reference.profiles_for_warnings();
-        let workers = (simulation_for_warnings, jobs);
-        reference.warnings = warnings_on_profiles(scene, profiles, workers, stop)?;
+        let control = control.of_part();
+        reference.warnings = warnings_on_profiles(scene, profiles, simulation, control)?;
         Ok(reference)
     }
 }
@@ -81,6 +79,8 @@ struct Comparison<'a> {
     options: ReferenceOptions,
     /// Seed of the first profile and of the first square.
     seed: u64,
+    /// Number of threads that share the profiles.
+    threads: usize,
     stop: &'a Stop<'a>,
 }
 
@@ -131,32 +131,28 @@ struct SquareResult {
 }
 
 impl Comparison<'_> {
-    fn run(
-        &self,
-        jobs: usize,
-        report: &mut dyn FnMut(ReferenceEvent),
-    ) -> Result<Reference, StudyError> {
-        let threads = self.threads_for_squares(jobs)?;
+    fn run(&self, control: &mut Control<'_, ReferenceEvent>) -> Result<Reference, StudyError> {
+        let threads = self.threads_for_squares()?;
         let begun = Instant::now();
         let own = self.own_loading()?;
         let time = self.estimate(&own, threads)?;
         let bytes = self.bytes_of_square() * threads as u64;
         let seconds = time.of_squares(self.options.maps, threads);
-        report(ReferenceEvent::Begins {
+        control.report(ReferenceEvent::Begins {
             maps: self.options.maps,
             threads,
             bytes,
             seconds,
         });
 
-        let lines = self.lines(&own, jobs, report)?;
+        let lines = self.lines(&own, control)?;
         let seconds_of_lines = begun.elapsed().as_secs_f64();
-        report(ReferenceEvent::ProfilesEnd {
+        control.report(ReferenceEvent::ProfilesEnd {
             lines: self.headlines(&lines),
         });
 
         let begun = Instant::now();
-        let squares = self.squares(&lines.loading, threads, &time, report)?;
+        let squares = self.squares(&lines.loading, threads, &time, control)?;
         let seconds_of_squares = begun.elapsed().as_secs_f64();
         self.gather(
             &own,
@@ -175,10 +171,10 @@ impl Comparison<'_> {
     }
 
     /// Returns the largest number of threads for which the memory suffices.
-    fn threads_for_squares(&self, jobs: usize) -> Result<usize, StudyError> {
+    fn threads_for_squares(&self) -> Result<usize, StudyError> {
         let bytes = self.bytes_of_square();
         let maps = usize::try_from(self.options.maps).unwrap_or(usize::MAX);
-        for threads in (1..=jobs.clamp(1, maps)).rev() {
+        for threads in (1..=self.threads.clamp(1, maps)).rev() {
             if check_room(bytes.saturating_mul(threads as u64)).is_ok() {
                 return Ok(threads);
             }
@@ -247,8 +243,8 @@ impl Comparison<'_> {
     fn estimate(&self, own: &OwnLoading, threads: usize) -> Result<SquareTime, StudyError> {
         let ReferenceOptions { cells, maps, .. } = self.options;
         let loading = self.square_loading(own.turn, own.preload, own.depth);
-        let stop = || (self.stop)();
-        let time = SquareTime::estimate(&self.resolved.body, cells, self.seed, &loading, &stop)?;
+        let body = &self.resolved.body;
+        let time = SquareTime::estimate(body, cells, self.seed, &loading, self.stop)?;
         check_time(cells, maps, threads, &time)?;
         Ok(time)
     }
@@ -257,8 +253,7 @@ impl Comparison<'_> {
     fn lines(
         &self,
         own: &OwnLoading,
-        jobs: usize,
-        report: &mut dyn FnMut(ReferenceEvent),
+        control: &mut Control<'_, ReferenceEvent>,
     ) -> Result<Lines, StudyError> {
         let loop_scene = self.resolved.line.with(|scene| {
             scene.loading = vec![own.turn.stage(), Move::ToSeparation];
@@ -267,9 +262,7 @@ impl Comparison<'_> {
         let prescribes_force = matches!(own.turn, Turn::Force(_));
         let mut loops = Vec::new();
         if self.is_adhesive() || !prescribes_force {
-            loops = self.each_line(&loop_scene, jobs, 2, report, |outcome| {
-                LineLoop::of(&outcome)
-            })?;
+            loops = self.each_line(&loop_scene, 2, control, |outcome| LineLoop::of(&outcome))?;
         }
         let mut preload = own.preload;
         if !prescribes_force {
@@ -301,7 +294,7 @@ impl Comparison<'_> {
         let bare_scene = bare_scene.map_err(|errors| of_scene(errors.into()))?;
         let modulus = self.resolved.body.effective_modulus;
         let passes = if loops.is_empty() { 1 } else { 2 };
-        let pressed = self.each_line(&bare_scene, jobs, passes, report, |outcome| {
+        let pressed = self.each_line(&bare_scene, passes, control, |outcome| {
             pressed_line(&outcome, modulus)
         })?;
         Ok(Lines {
@@ -317,9 +310,8 @@ impl Comparison<'_> {
     fn each_line<F: Send>(
         &self,
         scene: &CheckedScene,
-        jobs: usize,
         passes: u64,
-        report: &mut dyn FnMut(ReferenceEvent),
+        control: &mut Control<'_, ReferenceEvent>,
         figures: impl Fn(Outcome) -> F + Sync,
     ) -> Result<Vec<F>, StudyError> {
         let lines = self.options.lines;
@@ -339,13 +331,13 @@ impl Comparison<'_> {
         let mut receive = |()| {
             count += 1;
             if count % group == 0 {
-                report(ReferenceEvent::Profiles {
+                control.report(ReferenceEvent::Profiles {
                     count: group,
                     lines: lines * passes,
                 });
             }
         };
-        on_threads_received(lines, jobs, worker, &mut receive)
+        on_threads_received(lines, self.threads, worker, &mut receive)
     }
 
     /// Returns the adhesion force of each profile, or its indentation at the preload.
@@ -370,7 +362,7 @@ impl Comparison<'_> {
         loading: &SquareLoading,
         threads: usize,
         time: &SquareTime,
-        report: &mut dyn FnMut(ReferenceEvent),
+        control: &mut Control<'_, ReferenceEvent>,
     ) -> Result<Vec<SquareResult>, StudyError> {
         let worker = |sender: Sender<ReferenceEvent>| {
             move |map: u64| {
@@ -379,7 +371,8 @@ impl Comparison<'_> {
                 Ok(square)
             }
         };
-        on_threads_received(self.options.maps, threads, worker, report)
+        let mut receive = |event: ReferenceEvent| control.report(event);
+        on_threads_received(self.options.maps, threads, worker, &mut receive)
     }
 
     fn square(
@@ -391,7 +384,6 @@ impl Comparison<'_> {
     ) -> Result<SquareResult, StudyError> {
         let ReferenceOptions { cells, maps, .. } = self.options;
         let seed = self.seed.wrapping_add(map);
-        let stop = || (self.stop)();
         let begun = Instant::now();
         let loaded = || {
             let _ = sender.send(ReferenceEvent::Loaded {
@@ -403,7 +395,7 @@ impl Comparison<'_> {
             seed,
             loading,
             Watch {
-                stop: &stop,
+                stop: self.stop,
                 loaded: &loaded,
             },
         )?;
@@ -411,7 +403,7 @@ impl Comparison<'_> {
         let mut coarse = None;
         if cells / 2 >= LEAST_CELLS {
             let watch = Watch {
-                stop: &stop,
+                stop: self.stop,
                 loaded: &|| (),
             };
             coarse = Some(self.resolved.body.load(cells / 2, seed, loading, watch)?);
@@ -603,7 +595,7 @@ fn run(
     stop: &Stop<'_>,
 ) -> Result<Outcome, StudyError> {
     simulation
-        .run(scene, &|| stop(), &mut |_, _, _| Ok(()))
+        .run(scene, stop, &mut |_, _, _| Ok(()))
         .map_err(of_scene)
 }
 
@@ -699,13 +691,15 @@ mod tests {
             resolved,
             options,
             seed: 1000,
+            threads: 2,
             stop: &|| false,
         };
+        let control = &mut Control::default();
         let own = comparison.own_loading().unwrap();
-        let lines = comparison.lines(&own, 2, &mut |_| ()).unwrap();
+        let lines = comparison.lines(&own, control).unwrap();
         let time = comparison.estimate(&own, 2).unwrap();
         let squares = comparison
-            .squares(&lines.loading, 2, &time, &mut |_| ())
+            .squares(&lines.loading, 2, &time, control)
             .unwrap();
         (lines, squares)
     }

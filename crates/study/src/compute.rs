@@ -182,7 +182,7 @@ mod tests {
     fn a_plan_in_memory_has_the_records_of_single_cells() {
         let plan = plan();
         let mut parts = Vec::new();
-        let mut see = |done| parts.push(done);
+        let mut see = |done: &u64| parts.push(*done);
         let found = compute(
             &plan,
             Control::default().on_threads(3).reporting_to(&mut see),

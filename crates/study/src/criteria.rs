@@ -124,6 +124,7 @@ fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_data::Control;
     use asperity_scene::{Document, Simulation, run};
 
     fn document(fields: &str) -> Document {
@@ -202,9 +203,8 @@ mod tests {
             "material: (effective_modulus: 1.0e6), adhesion: (work: 0.05), \
              roughness: SelfAffine(hurst: 0.3, rms_height: 1.0e-7, modes: (1, 64), seed: 1)",
         );
-        let simulation = (Simulation::default(), 1);
-        let ensemble =
-            Ensemble::of(rough.scene(), &[], 5, simulation, &|| false, &mut |_, _| ()).unwrap();
+        let simulation = &mut Simulation::default();
+        let ensemble = Ensemble::of(rough.scene(), &[], 5, simulation, Control::default()).unwrap();
         let found = rows(&rough, Some(&ensemble));
         assert_eq!(
             names(&found)[4..],

@@ -10,7 +10,6 @@ use asperity_data::Control;
 use asperity_scene::{CheckedScene, Document, Simulation, open};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use std::path::Path;
 
 /// Number of runs of a dense scan.
 const RUNS: usize = 400;
@@ -128,7 +127,9 @@ impl Case {
         let Some(scene) = self.scene(number) else {
             return f64::NAN;
         };
-        let results = Results::of_scene(&scene, Path::new(""), &[self.quantity], 1, None, 1);
+        let simulation = &mut Simulation::default();
+        let control = Control::default();
+        let results = Results::of_scene(&scene, &[self.quantity], 1, None, simulation, control);
         results
             .ok()
             .and_then(|results| results.value(0, 0, self.quantity))
@@ -314,13 +315,8 @@ fn compared(seed: u64, questions: usize) -> Counts {
             continue;
         };
         question.searched = (from, to);
-        let control = Control::default();
-        let found = Found::of(
-            question,
-            (Simulation::default(), 1),
-            control.stop(),
-            &mut |_| (),
-        );
+        let control = Control::default().on_threads(1);
+        let found = Found::of(question, &mut Simulation::default(), control);
         let Ok(found) = found else { continue };
         counts.add(&case, &found);
     }

@@ -1,12 +1,12 @@
 //! The ensemble of a scene: its results on random profiles of one roughness.
 
 use super::error::StudyError;
-use super::profiles::Stop;
+use super::missing_profiles::Failures;
 use super::quantity::Quantity;
 use super::results::{CountedWarning, Results};
 use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::Control;
-use asperity_scene::{Document, Scene, Simulation, Solver};
+use asperity_scene::{Scene, Simulation, Solver};
 
 /// Results of a scene on several random profiles. The first profile has the seed of the scene, and
 /// the others have the seeds that follow. If the profile of the scene is fixed, the ensemble is
@@ -51,35 +51,46 @@ impl Ensemble {
     }
 
     /// Computes a checked scene on `profiles` random profiles. The recorded quantities are
-    /// [`Ensemble::NUMBERS`], `further` and [`Quantity::REGIMES`].
-    ///
-    /// `workers` is a pair: the simulation with which the first thread computes, and the number of
-    /// threads that share the profiles. The results do not depend on the number of threads. After
-    /// each profile `report` receives the number of computed profiles, and a function that returns
-    /// a copy of the ensemble with the computed profiles.
+    /// [`Ensemble::NUMBERS`], `further` and [`Quantity::REGIMES`]. `control` reports the ensemble
+    /// of the profiles computed so far after each profile.
     ///
     /// # Errors
-    /// Returns an error if several profiles are requested and the profile of the scene is fixed, if
-    /// the memory does not suffice, or if `stop` returned true.
+    /// Returns an error if zero profiles or zero threads are requested, if several profiles are
+    /// requested and the profile of the scene is fixed, if the memory does not suffice, or if
+    /// `control` stops the computation.
+    ///
+    /// ```
+    /// use asperity_data::Control;
+    /// use asperity_scene::Simulation;
+    /// use asperity_study::{Ensemble, Quantity};
+    ///
+    /// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "2048")?;
+    /// let simulation = &mut Simulation::default();
+    /// let found = Ensemble::of(scene.scene(), &[], 8, simulation, Control::default())?;
+    /// let force = found.statistics(Quantity::AdhesionForce).expect("eight profiles adhere");
+    /// assert_eq!(force.count, 8);
+    /// assert!(force.quartiles[0] < force.quartiles[1] && force.quartiles[1] < force.quartiles[2]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of(
         scene: &Scene,
         further: &[Quantity],
         profiles: u64,
-        workers: (Simulation, usize),
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(u64, &dyn Fn() -> Ensemble),
+        simulation: &mut Simulation,
+        mut control: Control<'_, Ensemble>,
     ) -> Result<Ensemble, StudyError> {
+        let threads = control.threads();
+        StudyError::check_threads(threads)?;
         let record = [&Ensemble::NUMBERS[..], &Quantity::REGIMES, further].concat();
-        let mut results = Results::begin(scene, &record, profiles, None)?;
-        let mut computed = 0;
-        let mut see = |results: &Results| {
-            computed += 1;
-            report(computed, &|| Ensemble {
-                results: results.clone(),
-            });
+        let mut ensemble = Ensemble {
+            results: Results::begin(scene, &record, profiles, None)?,
         };
-        results.extend_each(workers, stop, &mut see)?;
-        Ok(Ensemble { results })
+        let missing = ensemble.results.missing(Failures::Keep);
+        missing.solve(simulation, threads, control.stop(), &mut |solved| {
+            ensemble.results.take_in(solved);
+            control.report(&ensemble);
+        })?;
+        Ok(ensemble)
     }
 
     /// Returns the number of profiles of the complete ensemble.
@@ -89,9 +100,7 @@ impl Ensemble {
 
     /// Returns the number of profiles that are computed so far.
     pub fn computed(&self) -> u64 {
-        (0..self.profiles())
-            .filter(|line| self.results.has(0, *line))
-            .count() as u64
+        self.results.count()
     }
 
     /// Returns the seeds of the profiles that cannot be computed, each with the reason in one line.
@@ -133,37 +142,6 @@ impl Ensemble {
     }
 }
 
-/// Computes a scene on `profiles` random profiles. Paths of files in the scene are relative to the
-/// folder of the scene file. The progress that `control` reports is the number of computed
-/// profiles.
-///
-/// # Errors
-/// Returns an error if zero profiles or zero threads are requested. The errors of [`Ensemble::of`]
-/// are possible too.
-///
-/// ```
-/// use asperity_data::Control;
-/// use asperity_study::{Quantity, ensemble};
-///
-/// let scene = asperity_scene::open("pressure-sensitive")?.set("numerics.points", "2048")?;
-/// let found = ensemble(&scene, 8, Control::default())?;
-/// let force = found.statistics(Quantity::AdhesionForce).expect("eight profiles adhere");
-/// assert_eq!(force.count, 8);
-/// assert!(force.quartiles[0] < force.quartiles[1] && force.quartiles[1] < force.quartiles[2]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn ensemble(
-    document: &Document,
-    profiles: u64,
-    mut control: Control<'_>,
-) -> Result<Ensemble, StudyError> {
-    StudyError::check_threads(control.threads())?;
-    let workers = (Simulation::new(document.resolve("")), control.threads());
-    let stop = control.stop();
-    let mut see = |computed: u64, _: &dyn Fn() -> Ensemble| control.report(computed);
-    Ensemble::of(document.scene(), &[], profiles, workers, stop, &mut see)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -179,14 +157,8 @@ mod tests {
     }
 
     fn ensemble(scene: &CheckedScene, profiles: u64, jobs: usize) -> Result<Ensemble, StudyError> {
-        Ensemble::of(
-            scene,
-            &[],
-            profiles,
-            (Simulation::default(), jobs),
-            &|| false,
-            &mut |_, _| (),
-        )
+        let control = Control::default().on_threads(jobs);
+        Ensemble::of(scene, &[], profiles, &mut Simulation::default(), control)
     }
 
     /// Each profile is the scene with the seed of that profile, and no bit depends on the number of
@@ -240,20 +212,17 @@ mod tests {
     fn an_ensemble_reports_each_profile_and_stops() {
         let scene = scene("rough-sphere");
         let (mut parts, ended) = (Vec::new(), AtomicBool::new(false));
-        let mut see = |computed: u64, part: &dyn Fn() -> Ensemble| {
-            assert_eq!(part().computed(), computed);
+        let mut see = |part: &Ensemble| {
+            let computed = part.computed();
             parts.push(computed);
             ended.store(computed == 3, Ordering::Relaxed);
         };
         let stop = || ended.load(Ordering::Relaxed);
-        let stopped = Ensemble::of(
-            &scene,
-            &[],
-            400,
-            (Simulation::default(), 1),
-            &stop,
-            &mut see,
-        );
+        let control = Control::default()
+            .on_threads(1)
+            .stopped_by(&stop)
+            .reporting_to(&mut see);
+        let stopped = Ensemble::of(&scene, &[], 400, &mut Simulation::default(), control);
         assert!(matches!(stopped, Err(StudyError::Run { error, .. }) if error.is_interruption()));
         assert!(
             parts.starts_with(&[1, 2, 3]) && parts.len() < 400,

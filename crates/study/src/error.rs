@@ -38,8 +38,8 @@ pub enum StudyError {
     /// A file of results, such as a table, could not be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The computation of the scene of a study failed, or a [`Stop`](crate::Stop) ended the
-    /// computation.
+    /// The computation of the scene of a study failed, or a [`Control`](asperity_data::Control)
+    /// stopped the computation.
     #[error("{place}{error}")]
     Run {
         /// Values on the axes and seed of the profile, as text that ends with a colon; empty if a
@@ -96,6 +96,16 @@ pub enum StudyError {
     NoThread(io::Error),
 }
 
+impl From<RunError> for StudyError {
+    /// Makes the error of a computation of a single profile.
+    fn from(error: RunError) -> StudyError {
+        StudyError::Run {
+            place: String::new(),
+            error,
+        }
+    }
+}
+
 impl StudyError {
     /// Makes the error of a value at a place, or of a request as a whole.
     pub(super) fn refused(
@@ -136,7 +146,8 @@ impl StudyError {
         }
     }
 
-    /// Returns true if the computation ended because its [`Stop`](crate::Stop) returned true.
+    /// Returns true if the computation ended because its [`Control`](asperity_data::Control)
+    /// stopped it.
     pub fn is_interruption(&self) -> bool {
         match self {
             StudyError::Run { error, .. } => error.is_interruption(),

@@ -5,17 +5,16 @@
 //! preloads bracket its only crossing. Any other quantity is first computed at several numbers over
 //! the searched range.
 
-use super::premises::warnings_on_profiles;
 use super::axis::Axis;
 use super::error::StudyError;
 use super::plan::Plan;
-use super::profiles::{Stop, on_profiles};
-use super::quantity::Quantity;
+use super::premises::warnings_on_profiles;
+use super::profiles::on_profiles;
 use super::question::{Answer, Question};
 use super::results::CountedWarning;
 use asperity_contact::Move;
 use asperity_data::{Control, format_quantity, format_range, quantile};
-use asperity_scene::{CheckedScene, Document, Simulation};
+use asperity_scene::{CheckedScene, Simulation};
 
 /// Largest relative change of a quantity over the searched range with which the number counts as
 /// without influence. The error by the number of springs changes with the scene.
@@ -38,79 +37,58 @@ pub struct Found {
     pub warnings: Vec<CountedWarning>,
 }
 
-/// Finds the value of a number of a scene at which a quantity has a given value, on each of
-/// `profiles` random profiles. `path` is the path of the number, or `preload`. `condition` is the
-/// quantity and its wanted value in SI units. [`Question::new`] states which numbers are searched.
-/// The progress that `control` reports is the number of finished profiles.
-///
-/// # Errors
-/// Returns an error if zero threads are requested. The errors of [`Question::new`] and
-/// [`Found::of`] are possible too.
-///
-/// ```
-/// use asperity_data::Control;
-/// use asperity_study::{Quantity, find};
-///
-/// // The pull-off force of a sphere is (3/2)πγR.
-/// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
-/// let found = find(
-///     &scene,
-///     "adhesion.work",
-///     (Quantity::AdhesionForce, 1e-5),
-///     1,
-///     Control::default(),
-/// )?;
-/// let work = found.quantile(0.5).expect("the force is within reach");
-/// assert!((work / (1e-5 / (1.5 * std::f64::consts::PI * 1e-4)) - 1.0).abs() < 1e-3);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn find(
-    document: &Document,
-    path: &str,
-    condition: (Quantity, f64),
-    profiles: u64,
-    mut control: Control<'_>,
-) -> Result<Found, StudyError> {
-    StudyError::check_threads(control.threads())?;
-    let mut simulation = Simulation::new(document.resolve(""));
-    let question = Question::new(document.scene(), path, condition, profiles, &mut simulation)?;
-    let (workers, stop) = ((simulation, control.threads()), control.stop());
-    Found::of(question, workers, stop, &mut |done| control.report(done))
-}
-
 impl Found {
-    /// Answers a question on all its random profiles. `simulation` is the simulation of the first
-    /// thread, and `jobs` is the number of threads, which does not change the results. After each
-    /// profile `report` receives the number of finished profiles.
+    /// Answers a question on all its random profiles. `control` reports the number of finished
+    /// profiles.
     ///
     /// # Errors
-    /// Returns an error if [`Question::searched`] is not a finite range, if the scene does not have
-    /// the quantity, or if the number does not change the quantity. It is also an error if a
-    /// profile cannot be computed, or if `stop` returned true.
+    /// Returns an error if zero threads are requested, if [`Question::searched`] is not a finite
+    /// range, if the scene does not have the quantity, or if the number does not change the
+    /// quantity. It is also an error if a profile cannot be computed, or if `control` stops the
+    /// computation.
+    ///
+    /// ```
+    /// use asperity_data::Control;
+    /// use asperity_scene::Simulation;
+    /// use asperity_study::{Found, Quantity, Question};
+    ///
+    /// // The pull-off force of a sphere is (3/2)πγR.
+    /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "1024")?;
+    /// let simulation = &mut Simulation::default();
+    /// let condition = (Quantity::AdhesionForce, 1e-5);
+    /// let question = Question::new(scene.scene(), "adhesion.work", condition, 1, simulation)?;
+    /// let found = Found::of(question, simulation, Control::default())?;
+    /// let work = found.quantile(0.5).expect("the force is within reach");
+    /// assert!((work / (1e-5 / (1.5 * std::f64::consts::PI * 1e-4)) - 1.0).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of(
         question: Question,
-        (simulation, jobs): (Simulation, usize),
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(u64),
+        simulation: &mut Simulation,
+        mut control: Control<'_>,
     ) -> Result<Found, StudyError> {
+        StudyError::check_threads(control.threads())?;
         question.check()?;
-        let simulation_for_warnings = simulation.another();
         let plan = &question.plan;
         let lines: Vec<u64> = (0..plan.lines).collect();
+        let stop = control.stop();
         let solve = |simulation: &mut Simulation, line| question.answer(simulation, line, stop);
-        let (mut each, mut done) = (vec![(Answer::default(), None); lines.len()], 0);
+        let mut answers = vec![Answer::default(); lines.len()];
+        let mut reasons = vec![None; lines.len()];
+        let mut finished = 0;
         on_profiles(
             plan,
             &lines,
-            (simulation, jobs),
+            simulation,
+            control.threads(),
             solve,
-            &mut |line, answered| {
-                each[line as usize] = answered;
-                done += 1;
-                report(done);
+            &mut |line, (answer, reason)| {
+                answers[line as usize] = answer;
+                reasons[line as usize] = reason;
+                finished += 1;
+                control.report(finished);
             },
         )?;
-        let (answers, reasons): (Vec<Answer>, Vec<Option<String>>) = each.into_iter().unzip();
         let refused = reasons.into_iter().flatten().next();
         let mut found = Found {
             question,
@@ -121,8 +99,8 @@ impl Found {
         found.check()?;
         if let Some(scene) = found.answered_scene() {
             let profiles = found.question.profiles();
-            let workers = (simulation_for_warnings, jobs);
-            found.warnings = warnings_on_profiles(&scene, profiles, workers, stop)?;
+            let control = control.of_part();
+            found.warnings = warnings_on_profiles(&scene, profiles, simulation, control)?;
         }
         Ok(found)
     }
@@ -272,6 +250,8 @@ impl Found {
 mod tests {
     use super::*;
     use crate::bracket::WITHIN;
+    use crate::quantity::Quantity;
+    use crate::results::Results;
     use asperity_scene::{Adhesion, open};
     use std::f64::consts::PI;
 
@@ -296,7 +276,8 @@ mod tests {
         let question = Question::new(scene, path, condition, profiles, &mut simulation);
         let mut question = question.map_err(|error| error.to_string())?;
         question.searched = range.unwrap_or(question.searched);
-        let found = Found::of(question, (simulation, jobs), &|| false, &mut |_| ());
+        let control = Control::default().on_threads(jobs);
+        let found = Found::of(question, &mut simulation, control);
         found.map_err(|error| error.to_string())
     }
 
@@ -307,13 +288,13 @@ mod tests {
             .with_seed(seed)
             .with(|scene| scene.loading = loading)
             .unwrap();
-        let results = super::super::results::Results::of_scene(
+        let results = Results::of_scene(
             &scene,
-            std::path::Path::new(""),
             &[quantity],
             1,
             None,
-            1,
+            &mut Simulation::default(),
+            Control::default(),
         );
         results.unwrap().value(0, 0, quantity).unwrap()
     }

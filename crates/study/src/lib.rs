@@ -8,14 +8,17 @@
 //!   [`Changes`] to a plan.
 //! * Computing: [`compute`](compute()) computes a plan in memory. [`run_study`] computes a part of
 //!   a plan, a [`Shard`], in a [`Folder`] and reports its [`StudyProgress`]. [`merge`] then makes
-//!   the tables from all parts. A [`Stop`] ends a computation.
+//!   the tables from all parts.
 //! * Results: [`Results`] has all values, their [`Statistics`] with the [`Spread`], and
 //!   [`RegimeCounts`].
-//! * One scene on many profiles: [`ensemble`](ensemble()) returns an [`Ensemble`]. [`find`](find())
-//!   answers a [`Question`] by [`Found`], with an [`Answer`] for each profile. [`PreloadCurve`] and
-//!   [`Staircase`] have the adhesion force as a function of the preload. [`Sensitivity`] has an
-//!   [`Influence`] for each number of the scene: the [`Changed`] results for a smaller and a larger
-//!   value of this number.
+//! * One scene on many profiles: an [`Ensemble`]. [`Found`] answers a [`Question`], with an
+//!   [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a
+//!   function of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene:
+//!   the [`Changed`] results for a smaller and a larger value of this number.
+//! * All that takes long has one shape: what is asked, the
+//!   [`Simulation`](asperity_scene::Simulation) whose profile and contact may be reused, and a
+//!   [`Control`](asperity_data::Control) with the number of threads, the stop, and the receiver of
+//!   the progress or of the results so far.
 //! * Errors of all these functions: [`StudyError`].
 //!
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
@@ -46,6 +49,7 @@ mod live_plan;
 mod measured;
 mod measured_adhesion;
 mod memory;
+mod missing_profiles;
 mod place;
 mod plan;
 mod plan_text;
@@ -79,14 +83,13 @@ mod tables;
 
 pub use axis::{Axis, Spacing};
 pub use compute::compute;
-pub use ensemble::{Ensemble, ensemble};
+pub use ensemble::Ensemble;
 pub use error::StudyError;
-pub use find::{Found, find};
+pub use find::Found;
 pub use plan::{Plan, StiffnessRange};
 pub use plan_text::Changes;
 pub use preload_curve::PreloadCurve;
 pub use preloads::Staircase;
-pub use profiles::Stop;
 pub use quantity::Quantity;
 pub use question::{Answer, Question};
 pub use results::Results;

@@ -6,10 +6,14 @@ use super::cells::Streak;
 use super::error::StudyError;
 use super::grid::Grid;
 use super::plan::Plan;
+use super::profiles::Stop;
 use super::recorder::Recorder;
 use super::results::Results;
+use asperity_data::Control;
 use asperity_scene::Simulation;
 use std::collections::BTreeMap;
+use std::mem::take;
+use std::ops::ControlFlow;
 
 /// Number of springs above which a map gets fewer cells, and number above which it gets even fewer.
 const MANY: u64 = 1 << 14;
@@ -130,36 +134,54 @@ impl LiveMap {
         self.levels().all(|level| self.has(&level))
     }
 
-    /// Computes the missing [cells](Plan) from coarse to fine. `report` receives the map after each
-    /// value of H. If `stop` returns true, the computation ends and the map keeps its results.
-    pub fn compute(&mut self, stop: &dyn Fn() -> bool, report: &mut dyn FnMut(&LiveMap)) {
+    /// Computes the missing [cells](Plan) from coarse to fine, on this thread. `control` reports
+    /// the map after each value of H. If `control` stops the computation, the map keeps its
+    /// results.
+    pub fn compute(&mut self, simulation: &mut Simulation, mut control: Control<'_, LiveMap>) {
         let plan = self.plan().clone();
-        let mut recorder = Recorder::new(&plan, Simulation::default(), stop);
+        let mut recorder = Recorder::new(&plan, take(simulation), control.stop());
         let rows: Vec<Vec<u64>> = self.levels().flat_map(|level| self.cells(level)).collect();
         for row in rows {
             if row.iter().all(|cell| self.is_known(*cell)) {
                 continue;
             }
-            for (line, &cell) in
-                (0..plan.lines).flat_map(|line| row.iter().map(move |cell| (line, cell)))
+            if self
+                .compute_row(&row, &mut recorder, control.stop())
+                .is_break()
             {
+                break;
+            }
+            control.report(&*self);
+        }
+        *simulation = recorder.simulation;
+    }
+
+    /// Computes the missing cells of one value of H.
+    fn compute_row(
+        &mut self,
+        row: &[u64],
+        recorder: &mut Recorder<'_>,
+        stop: &Stop<'_>,
+    ) -> ControlFlow<()> {
+        for line in 0..self.plan().lines {
+            for &cell in row {
                 if self.failed.contains_key(&cell) || self.results.has(cell, line) {
                     continue;
                 }
                 if stop() {
-                    return;
+                    return ControlFlow::Break(());
                 }
-                match recorder.record(&Streak {
-                    cells: cell..cell + 1,
-                    line,
-                }) {
+                let cells = cell..cell + 1;
+                match recorder.record(&Streak { cells, line }) {
                     Ok(records) => self.set(cell, line, &records.concat()),
-                    Err(error) if error.is_interruption() => return,
-                    Err(error) => drop(self.failed.insert(cell, error.to_string())),
+                    Err(error) if error.is_interruption() => return ControlFlow::Break(()),
+                    Err(error) => {
+                        self.failed.insert(cell, error.to_string());
+                    }
                 }
             }
-            report(self);
         }
+        ControlFlow::Continue(())
     }
 
     /// Returns the results so far as a [`Grid`] with H on the horizontal axis and κ or e_el/γ on
@@ -228,7 +250,7 @@ mod tests {
     use crate::tables::merge;
     use asperity_scene::text::to_ron;
     use asperity_scene::{Regime, open};
-    use std::cell::Cell;
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
     const HURSTS: usize = 19;
     const KAPPAS: usize = 33;
@@ -241,13 +263,29 @@ mod tests {
         LiveMap::new(Plan::of_map(document.scene()).unwrap()).unwrap()
     }
 
+    /// Computes the map until `most` rows are reported, and returns the number of these rows.
+    fn compute_rows(map: &mut LiveMap, most: usize) -> usize {
+        let rows = AtomicUsize::new(0);
+        let stop = || rows.load(Relaxed) == most;
+        let mut count = |_: &LiveMap| {
+            rows.fetch_add(1, Relaxed);
+        };
+        let control = Control::default()
+            .stopped_by(&stop)
+            .reporting_to(&mut count);
+        map.compute(&mut Simulation::default(), control);
+        rows.into_inner()
+    }
+
     #[test]
     fn a_map_goes_from_coarse_to_fine_and_adhesion_falls_with_kappa() {
         let (mut map, mut levels, mut rows) = (map(), Vec::new(), 0);
-        map.compute(&|| false, &mut |map| {
+        let mut see = |map: &LiveMap| {
             rows += 1;
             levels.extend(map.level());
-        });
+        };
+        let control = Control::default().reporting_to(&mut see);
+        map.compute(&mut Simulation::default(), control);
         levels.dedup();
         assert_eq!(levels, Level::ALL);
         assert_eq!(rows, 5 + 9 + 19 + 19);
@@ -275,8 +313,8 @@ mod tests {
 
     #[test]
     fn the_map_of_a_study_of_the_same_cells_is_the_same() {
-        let (mut live, rows) = (map(), Cell::new(0));
-        live.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        let mut live = map();
+        compute_rows(&mut live, 5);
         let [up, across] = [0, 1].map(|axis| Level::Coarse.places(&live.plan().axes[axis]));
         let list = |axis: usize, places: &[usize]| {
             let value = |&place: &usize| format!("{:?}", live.plan().axes[axis].values[place]);
@@ -294,7 +332,7 @@ mod tests {
         let plan = Plan::parse(&text, "map", &Changes::default()).unwrap();
         let place = tempfile::tempdir().unwrap();
         let folder = Folder::create(&place.path().join("study"), &plan).unwrap();
-        run_study(&folder, Shard::WHOLE, 1, &|| false, &mut |_| ()).unwrap();
+        run_study(&folder, Shard::WHOLE, Control::default().on_threads(1)).unwrap();
         merge(&folder).unwrap();
         let study = StudyMap::open(folder.path()).unwrap().grid(0);
         let (live, mut disagreeing) = (live.grid(), 0);
@@ -317,21 +355,21 @@ mod tests {
     #[test]
     fn known_cells_are_not_computed_again() {
         let mut once = map();
-        once.compute(&|| false, &mut |_| ());
-        let (mut map, rows) = (map(), Cell::new(0));
-        map.compute(&|| rows.get() == 7, &mut |_| rows.set(rows.get() + 1));
-        assert_eq!((rows.get(), map.level()), (7, Some(Level::Coarse)));
-        map.compute(&|| false, &mut |_| rows.set(rows.get() + 1));
-        assert_eq!(rows.get(), 5 + 9 + 19 + 19);
+        compute_rows(&mut once, usize::MAX);
+        let mut map = map();
+        let mut rows = compute_rows(&mut map, 7);
+        assert_eq!((rows, map.level()), (7, Some(Level::Coarse)));
+        rows += compute_rows(&mut map, usize::MAX);
+        assert_eq!(rows, 5 + 9 + 19 + 19);
         assert_eq!(map, once);
-        map.compute(&|| false, &mut |_| panic!("nothing is missing"));
+        assert_eq!(compute_rows(&mut map, usize::MAX), 0, "nothing is missing");
     }
 
     #[test]
     fn missing_cells_are_shown_by_the_nearest_of_a_coarser_level() {
-        let (mut map, rows) = (map(), Cell::new(0));
+        let mut map = map();
         assert!(map.grid().shown(3, 3).is_none());
-        map.compute(&|| rows.get() == 5, &mut |_| rows.set(rows.get() + 1));
+        compute_rows(&mut map, 5);
         let grid = map.grid();
         for (asked, expected) in [
             ((0, 0), (0, 0)),
@@ -354,8 +392,7 @@ mod tests {
             .set("loading", "[ToForce(1.0e-5), ToForce(-1.0)]")
             .unwrap();
         let mut map = LiveMap::new(Plan::of_map(never.scene()).unwrap()).unwrap();
-        let reported = Cell::new(false);
-        map.compute(&|| reported.get(), &mut |_| reported.set(true));
+        compute_rows(&mut map, 1);
         assert!(
             map.grid()
                 .shown(0, 0)

@@ -5,15 +5,16 @@
 //! spectrum that differs a little in a direction drawn from the uncertainty of the fit.
 
 use super::error::StudyError;
+use super::profiles::on_threads_received;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
-use asperity_data::{on_threads, root_mean_square};
+use asperity_data::{Control, root_mean_square};
 use asperity_scene::{CheckedScene, Document, Regime, RunError, Simulation};
 use asperity_surface::EquivalentLine;
 use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use serde::Serialize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::Sender;
 
 /// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first
 /// order. Its longest waves are nearly unknown, and a whole step of their logarithms could be
@@ -89,14 +90,16 @@ pub struct MeasuredAdhesion {
 impl MeasuredAdhesion {
     /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its
     /// measured surface. The first profile has the seed of the scene, and the others have the seeds
-    /// that follow. Paths of measured files are relative to the folder of the scene file. `jobs` is
-    /// the number of threads, which does not change the results.
+    /// that follow. Paths of measured files are relative to the folder of the scene file. `control`
+    /// reports the number of computed profiles.
     ///
     /// # Errors
     /// Returns an error if the scene does not make random profiles from a measured surface, if a
-    /// file cannot be read, or if a profile cannot be computed.
+    /// file cannot be read, if a profile cannot be computed, or if `control` stops the computation.
     ///
     /// ```
+    /// use asperity_data::Control;
+    ///
     /// let folder = tempfile::tempdir()?;
     /// let height = |i: u32| {
     ///     (1..60)
@@ -116,7 +119,7 @@ impl MeasuredAdhesion {
     /// loading: [ToForce(1.0e-4), ToSeparation])"#;
     /// std::fs::write(folder.path().join("scene.ron"), text)?;
     /// let scene = asperity_scene::open(&folder.path().join("scene.ron").display().to_string())?;
-    /// let found = asperity_study::trust::MeasuredAdhesion::of(&scene, 4, 2)?;
+    /// let found = asperity_study::trust::MeasuredAdhesion::of(&scene, 4, Control::default())?;
     /// let (low, high) = found.fit_interval().ok_or("no force")?;
     /// assert!(
     ///     found
@@ -125,7 +128,7 @@ impl MeasuredAdhesion {
     /// );
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn of(document: &Document, count: u32, jobs: usize) -> Result<Self, StudyError> {
+    pub fn of(document: &Document, count: u32, control: Control<'_>) -> Result<Self, StudyError> {
         let scene = document.scene();
         StudyError::check_profiles(scene, u64::from(count))?;
         if scene.measured().is_none() || scene.measured_as_line() {
@@ -138,7 +141,7 @@ impl MeasuredAdhesion {
         }
         let faces = read_faces(&scene.measured_paths(&document.resolve("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-        MeasuredAdhesion::of_line(scene, &line, count, jobs, &|_| ())
+        MeasuredAdhesion::of_line(scene, &line, count, control)
     }
 
     /// Largest number of springs of a scene that [`MeasuredAdhesion::quick_deviation`] computes.
@@ -146,42 +149,57 @@ impl MeasuredAdhesion {
 
     /// Computes a scene on `count` random profiles, as [`MeasuredAdhesion::of`] does, and returns
     /// [`MeasuredAdhesion::fit_deviation`] in N. `None` if the scene has more than
-    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, or does not make random profiles from a measured
-    /// surface.
-    pub fn quick_deviation(document: &Document, count: u64, jobs: usize) -> Option<f64> {
-        let is_quick = document.scene().numerics.points <= MeasuredAdhesion::MOST_SPRINGS;
-        is_quick.then(|| {
-            MeasuredAdhesion::of(document, count as u32, jobs)
-                .ok()?
-                .fit_deviation()
-        })?
+    /// [`MeasuredAdhesion::MOST_SPRINGS`] springs, does not make random profiles from a measured
+    /// surface, or cannot be computed.
+    ///
+    /// # Errors
+    /// Returns an error if `control` stops the computation.
+    pub fn quick_deviation(
+        document: &Document,
+        count: u64,
+        control: Control<'_>,
+    ) -> Result<Option<f64>, StudyError> {
+        if document.scene().numerics.points > MeasuredAdhesion::MOST_SPRINGS {
+            return Ok(None);
+        }
+        match MeasuredAdhesion::of(document, count as u32, control) {
+            Ok(adhesion) => Ok(adhesion.fit_deviation()),
+            Err(error) if error.is_interruption() => Err(error),
+            Err(_) => Ok(None),
+        }
     }
 
     /// Computes a scene on `count` random profiles with the spectrum of `line`, as
-    /// [`MeasuredAdhesion::of`] does. `report` is called with the number of computed profiles after
-    /// each of them.
+    /// [`MeasuredAdhesion::of`] does. `control` reports the number of computed profiles.
     ///
     /// # Errors
-    /// Returns an error if a profile cannot be computed.
+    /// Returns an error if a profile cannot be computed, or if `control` stops the computation.
     pub fn of_line(
         scene: &CheckedScene,
         line: &EquivalentLine,
         count: u32,
-        jobs: usize,
-        report: &(dyn Fn(u64) + Sync),
+        mut control: Control<'_>,
     ) -> Result<Self, StudyError> {
-        let computed = AtomicU64::new(0);
-        let profiles = on_threads(u64::from(count), jobs, || {
-            |number| {
+        let stop = control.stop();
+        let worker = |sender: Sender<()>| {
+            move |number: u64| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
-                let solved = ProfileAdhesion::solve(scene, line, seed, &|| false);
-                report(computed.fetch_add(1, Ordering::Relaxed) + 1);
+                let solved = ProfileAdhesion::solve(scene, line, seed, stop);
+                // The receiver lives until all threads have ended.
+                let _ = sender.send(());
                 solved.map_err(|error| StudyError::Run {
                     place: format!("seed {seed}: "),
                     error,
                 })
             }
-        })?;
+        };
+        let threads = control.threads();
+        let mut computed = 0;
+        let mut receive = |()| {
+            computed += 1;
+            control.report(computed);
+        };
+        let profiles = on_threads_received(u64::from(count), threads, worker, &mut receive)?;
         Ok(MeasuredAdhesion { profiles })
     }
 
@@ -263,9 +281,10 @@ mod tests {
     #[test]
     fn both_spreads_are_those_of_separate_runs() {
         let (scene, line) = scene_and_line("(work: 0.05)");
-        let found = MeasuredAdhesion::of_line(&scene, &line, 6, 1, &|_| ()).unwrap();
+        let found =
+            MeasuredAdhesion::of_line(&scene, &line, 6, Control::default().on_threads(1)).unwrap();
         assert_eq!(
-            MeasuredAdhesion::of_line(&scene, &line, 6, 3, &|_| ()).unwrap(),
+            MeasuredAdhesion::of_line(&scene, &line, 6, Control::default().on_threads(3)).unwrap(),
             found
         );
         let force = |line: EquivalentLine, seed: u64| {
@@ -338,20 +357,28 @@ mod tests {
                 &folder.path().join("scene.ron").display().to_string(),
             )
             .unwrap();
-            let found = MeasuredAdhesion::of(&document, 1, 1).unwrap();
+            let found = MeasuredAdhesion::of(&document, 1, Control::default()).unwrap();
             let outcome = asperity_scene::run(&document).unwrap();
             assert_eq!(
                 found.profiles[0].adhesion_force, outcome.figures.adhesion_force,
                 "{periodic}"
             );
         }
-        assert!(MeasuredAdhesion::of(&asperity_scene::open("jkr-sphere").unwrap(), 1, 1).is_err());
+        assert!(
+            MeasuredAdhesion::of(
+                &asperity_scene::open("jkr-sphere").unwrap(),
+                1,
+                Control::default()
+            )
+            .is_err()
+        );
     }
 
     #[test]
     fn a_given_kappa_is_that_of_the_fitted_spectrum() {
         let (scene, line) = scene_and_line("(kappa: 1.5)");
-        let by_kappa = MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap();
+        let by_kappa =
+            MeasuredAdhesion::of_line(&scene, &line, 2, Control::default().on_threads(1)).unwrap();
         let measured = Arc::new(MeasuredRoughness::Equivalent(line.clone()));
         let mut simulation = Simulation::default().with_measured(measured);
         let outcome = simulation
@@ -362,7 +389,7 @@ mod tests {
             |scene: &mut Scene| scene.adhesion = scene.adhesion.map(|of| of.with_work(work));
         let scene = scene.with(with_work).unwrap();
         assert_eq!(
-            MeasuredAdhesion::of_line(&scene, &line, 2, 1, &|_| ()).unwrap(),
+            MeasuredAdhesion::of_line(&scene, &line, 2, Control::default().on_threads(1)).unwrap(),
             by_kappa
         );
     }

@@ -2,30 +2,26 @@
 
 use crate::axis::Axis;
 use crate::error::StudyError;
+use crate::missing_profiles::Failures;
 use crate::preloads::Staircase;
 use crate::profiles::Stop;
 use crate::results::Results;
 use crate::statistics::Statistics;
-use asperity_contact::{Figures, Move};
-use asperity_data::AxisScale;
-use asperity_scene::{CheckedScene, Outcome, RunError, Simulation, Solver};
+use asperity_contact::{Figures, Move, Reversal};
+use asperity_data::{AxisScale, Control};
+use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
-/// Number of preloads, and index of the preload of the scene among them. A linear axis extends from
-/// the force at first touch to twice this preload. A logarithmic axis extends over six decades, two
-/// of them above this preload.
+/// Number of preloads.
 const PRELOADS: usize = 64;
-const PLACES: (f64, f64) = (31.0, 42.0);
+/// Index of the preload of the scene on a linear axis, which extends from the force at first touch
+/// to twice this preload.
+const LINEAR_PLACE: f64 = 31.0;
+/// Index of the preload of the scene on a logarithmic axis, two decades of which lie above it.
+const LOGARITHMIC_PLACE: f64 = 42.0;
+/// Number of decades of a logarithmic axis.
 const DECADES: f64 = 6.0;
 /// Relative difference up to which preloads count as equal.
 const SAME: f64 = 1e-9;
-
-/// Returns the error of a single profile.
-fn failed(error: RunError) -> StudyError {
-    StudyError::Run {
-        place: String::new(),
-        error,
-    }
-}
 
 /// Adhesion force of a scene as a function of the preload, for the scene's own profile and for
 /// further random profiles.
@@ -46,101 +42,72 @@ impl PreloadCurve {
 
     /// Computes the curve of a scene whose outcome is already known. `scale` is the scale of the
     /// preloads, linear or logarithmic. If `begun` is an incomplete curve on the same scale, only
-    /// the missing parts are computed. After each part `report` receives the curve so far.
+    /// the missing parts are computed. `control` reports the curve so far after each part.
     ///
     /// # Errors
-    /// Returns an error if the scene has no adhesion or no stage that presses the bodies together,
-    /// or if the solver of the scene is not [`Solver::Exact`]. It is also an error if a profile or
-    /// its contact cannot be computed, or if `stop` returned true.
-    pub fn compute(
-        (scene, outcome): (&CheckedScene, &Outcome),
+    /// Returns an error if zero threads are requested, if the scene has no adhesion or no stage
+    /// that presses the bodies together, or if the solver of the scene is not [`Solver::Exact`]. It
+    /// is also an error if a profile or its contact cannot be computed, or if `control` stops the
+    /// computation.
+    pub fn of(
+        scene: &CheckedScene,
+        outcome: &Outcome,
         scale: AxisScale,
         begun: Option<PreloadCurve>,
         simulation: &mut Simulation,
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(&PreloadCurve),
+        mut control: Control<'_, PreloadCurve>,
     ) -> Result<PreloadCurve, StudyError> {
+        StudyError::check_threads(control.threads())?;
+        let stop = control.stop();
         let begun = begun.filter(|begun| begun.axis.scale() == scale && begun.staircase.is_whole());
-        let mut curve = begun.map_or_else(
-            || Self::begin((scene, outcome), scale, simulation, stop),
-            Ok,
-        )?;
+        let mut curve = match begun {
+            Some(begun) => begun,
+            None => PreloadCurve::begin(scene, outcome, scale, simulation, stop)?,
+        };
         if !curve.staircase.is_whole() {
             let axis = curve.axis.clone();
-            let found = Staircase::find(scene, &axis, simulation, stop, &mut |part| {
-                curve.staircase = part.clone();
-                report(&curve);
-            });
-            found.map_err(failed)?;
+            let staircase_control = control.of_part();
+            let mut report = |staircase: &Staircase| {
+                curve.staircase = staircase.clone();
+                control.report(&curve);
+            };
+            let staircase_control = staircase_control.reporting_to(&mut report);
+            Staircase::of(scene, &axis, simulation, staircase_control)?;
         }
-        let mut results = curve.results.clone();
-        let done = results.extend((std::mem::take(simulation), 1), stop, &mut |part| {
-            report(&PreloadCurve {
-                results: part.clone(),
-                ..curve.clone()
-            });
-        });
-        done?;
-        Ok(PreloadCurve { results, ..curve })
+        let missing = curve.results.missing(Failures::End);
+        let threads = control.threads();
+        missing.solve(simulation, threads, stop, &mut |solved| {
+            curve.results.take_in(solved);
+            control.report(&curve);
+        })?;
+        Ok(curve)
     }
 
     /// Begins the curve of a computed scene without results.
     fn begin(
-        (scene, outcome): (&CheckedScene, &Outcome),
+        scene: &CheckedScene,
+        outcome: &Outcome,
         scale: AxisScale,
         simulation: &mut Simulation,
         stop: &Stop<'_>,
     ) -> Result<Self, StudyError> {
-        if scene.numerics.solver != Solver::Exact {
-            let found = "many preloads at once with the stepwise solver";
-            return Err(StudyError::refused(
-                Some("numerics.solver"),
-                found,
-                "the exact solver",
-            ));
-        }
-        if scene.adhesion.is_none() {
-            let found = "without adhesion nothing holds the bodies together";
-            return Err(StudyError::refused(
-                Some("adhesion"),
-                found,
-                "a scene with adhesion",
-            ));
-        }
-        let Figures {
-            preload,
-            adhesion_force,
-            ..
-        } = outcome.figures;
-        let preload = preload
-            .filter(|&force| force > 0.0)
-            .or(adhesion_force)
-            .filter(|&force| force > 0.0);
-        let preload = preload.ok_or_else(|| {
-            let found = "no stage presses the bodies together";
-            StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
-        })?;
-        let mut touch = 0.0;
-        let touched = simulation.reverse(scene, &[Move::ToTouch], &[], stop, &mut |_, reversal| {
-            touch = reversal.turn.force;
-            Ok(())
-        });
-        touched.map_err(failed)?;
+        let preload = preload_of(scene, outcome)?;
+        let touch = force_at_touch(scene, simulation, stop)?;
         let last = (PRELOADS - 1) as f64;
         let (low, high) = match scale {
-            AxisScale::Linear => (touch, touch + (preload - touch) * last / PLACES.0),
+            AxisScale::Linear => (touch, touch + (preload - touch) * last / LINEAR_PLACE),
             AxisScale::Logarithmic => {
-                let low = scale.coordinate(preload) - DECADES * PLACES.1 / last;
+                let low = scale.coordinate(preload) - DECADES * LOGARITHMIC_PLACE / last;
                 (low, low + DECADES)
             }
         };
         let axis = Axis::of_preloads((scale.number(low), scale.number(high)), PRELOADS, scale)?;
         let lines = scene.seed().map_or(1, |_| Self::PROFILES as u64);
-        let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis));
+        let results = Results::begin(scene, &Results::OF_PRELOADS, lines, Some(&axis))?;
         Ok(PreloadCurve {
             axis,
             staircase: Staircase::default(),
-            results: results?,
+            results,
         })
     }
 
@@ -159,10 +126,55 @@ impl PreloadCurve {
     /// in N. `None` if the preload is not on [`PreloadCurve::axis`], or if fewer than two profiles
     /// are computed.
     pub fn at(&self, preload: f64) -> Option<Statistics> {
-        let spread = self.results.spread_of_adhesion().into_iter();
-        let at = |one: &(f64, Statistics)| (one.0 - preload).abs() <= SAME * preload.abs();
-        spread.into_iter().find(at).map(|(_, all)| all)
+        for (place, statistics) in self.results.spread_of_adhesion() {
+            if (place - preload).abs() <= SAME * preload.abs() {
+                return Some(statistics);
+            }
+        }
+        None
     }
+}
+
+/// Returns the preload of a computed scene in N, or without a preload its adhesion force.
+///
+/// # Errors
+/// The scene has no such force, no adhesion or another solver.
+fn preload_of(scene: &CheckedScene, outcome: &Outcome) -> Result<f64, StudyError> {
+    if scene.numerics.solver != Solver::Exact {
+        let place = Some("numerics.solver");
+        let found = "many preloads at once with the stepwise solver";
+        return Err(StudyError::refused(place, found, "the exact solver"));
+    }
+    if scene.adhesion.is_none() {
+        let place = Some("adhesion");
+        let found = "without adhesion nothing holds the bodies together";
+        return Err(StudyError::refused(place, found, "a scene with adhesion"));
+    }
+    let Figures {
+        preload,
+        adhesion_force,
+        ..
+    } = outcome.figures;
+    let preload = preload.filter(|force| *force > 0.0).or(adhesion_force);
+    preload.filter(|force| *force > 0.0).ok_or_else(|| {
+        let found = "no stage presses the bodies together";
+        StudyError::refused(Some("loading"), found, "a stage with a force above 0 N")
+    })
+}
+
+/// Returns the force at first touch, N.
+fn force_at_touch(
+    scene: &CheckedScene,
+    simulation: &mut Simulation,
+    stop: &Stop<'_>,
+) -> Result<f64, StudyError> {
+    let mut force = 0.0;
+    let mut receive = |_, reversal: Reversal| {
+        force = reversal.turn.force;
+        Ok(())
+    };
+    simulation.reverse(scene, &[Move::ToTouch], &[], stop, &mut receive)?;
+    Ok(force)
 }
 
 #[cfg(test)]
@@ -195,14 +207,7 @@ mod tests {
         scale: AxisScale,
     ) -> Result<PreloadCurve, StudyError> {
         let simulation = &mut Simulation::default();
-        PreloadCurve::compute(
-            (scene, outcome),
-            scale,
-            None,
-            simulation,
-            &|| false,
-            &mut |_| (),
-        )
+        PreloadCurve::of(scene, outcome, scale, None, simulation, Control::default())
     }
 
     #[test]
@@ -220,14 +225,12 @@ mod tests {
             parts.fetch_add(1, Relaxed);
             last = Some(curve.clone());
         };
-        let done = PreloadCurve::compute(
-            (&computed.0, &computed.1),
-            LINEAR,
-            None,
-            simulation,
-            &stop,
-            &mut see,
-        );
+        let control = Control::default()
+            .on_threads(1)
+            .stopped_by(&stop)
+            .reporting_to(&mut see);
+        let (scene, outcome) = &computed;
+        let done = PreloadCurve::of(scene, outcome, LINEAR, None, simulation, control);
         let begun = last.unwrap();
         assert!(
             done.is_err()
@@ -239,14 +242,8 @@ mod tests {
         let mut see = |part: &PreloadCurve| {
             first.get_or_insert(part.profiles());
         };
-        let whole = PreloadCurve::compute(
-            (&computed.0, &computed.1),
-            LINEAR,
-            Some(begun),
-            simulation,
-            &|| false,
-            &mut see,
-        );
+        let control = Control::default().reporting_to(&mut see);
+        let whole = PreloadCurve::of(scene, outcome, LINEAR, Some(begun), simulation, control);
         let whole = whole.unwrap();
         assert_eq!(
             (first, whole.profiles(), whole.is_whole()),

@@ -3,11 +3,12 @@
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::error::StudyError;
 use super::plan::PRELOAD;
+use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::Statistics;
 use asperity_contact::{Move, Reversal};
-use asperity_data::{AxisScale, parse_quantity};
+use asperity_data::{AxisScale, Control, parse_quantity};
 use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
@@ -152,7 +153,7 @@ pub struct Staircase {
 impl Staircase {
     /// Computes the staircase of a checked scene at the preloads in N of an axis. Further preloads
     /// are added until each step lies between two preloads that are at most 1/2048 of the axis
-    /// apart, on the scale of the axis. `report` receives the staircase at the preloads of the
+    /// apart, on the scale of the axis. `control` reports the staircase at the preloads of the
     /// axis, and again after each refinement.
     ///
     /// # Errors
@@ -160,71 +161,56 @@ impl Staircase {
     /// [`Simulation::reverse`] are possible too.
     ///
     /// ```
-    /// use asperity_data::AxisScale;
+    /// use asperity_data::{AxisScale, Control};
     /// use asperity_scene::{Simulation, open};
     /// use asperity_study::{Axis, Staircase};
     ///
     /// let scene = open("pressure-sensitive")?.set("numerics.points", "2048")?;
     /// let preloads = Axis::of_preloads((0.0, 4e-5), 9, AxisScale::Linear)?;
-    /// let stairs = Staircase::find(
-    ///     scene.scene(),
-    ///     &preloads,
-    ///     &mut Simulation::default(),
-    ///     &|| false,
-    ///     &mut |_| (),
-    /// )?;
+    /// let simulation = &mut Simulation::default();
+    /// let stairs = Staircase::of(scene.scene(), &preloads, simulation, Control::default())?;
     /// assert!(stairs.is_whole());
     /// // The adhesion force never falls with the preload.
     /// assert!(stairs.forces.windows(2).all(|pair| pair[0].1 <= pair[1].1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn find(
+    pub fn of(
         scene: &CheckedScene,
         preloads: &Axis,
         simulation: &mut Simulation,
-        stop: &dyn Fn() -> bool,
-        report: &mut dyn FnMut(&Staircase),
-    ) -> Result<Staircase, RunError> {
-        let mut solve = |ends: &[Move]| -> Result<Vec<(f64, f64)>, RunError> {
-            let mut solved = vec![(0.0, 0.0); ends.len()];
-            simulation.reverse(scene, ends, &[], stop, &mut |index, reversal: Reversal| {
-                solved[index] = (
-                    reversal.turn.force,
-                    reversal.adhesion_force().unwrap_or(0.0),
-                );
-                Ok(())
-            })?;
-            Ok(solved)
-        };
-        let scale = preloads.scale();
-        let ends = solve(&[Move::ToTouch, Move::ToZeroForce])?;
-        let (touch, zero_force) = (ends[0], ends[1].1);
-        if let Some(&preload) = preloads
+        mut control: Control<'_, Staircase>,
+    ) -> Result<Staircase, StudyError> {
+        let stop = control.stop();
+        let turns = turns_at(scene, &[Move::ToTouch, Move::ToZeroForce], simulation, stop)?;
+        let [touched, at_zero_force] = [turns[0], turns[1]];
+        let below_touch = preloads
             .values
             .first()
-            .filter(|preload| **preload < touch.0)
-        {
-            return Err(RunError::BelowTouch {
-                preload,
-                touch: touch.0,
-            });
+            .filter(|preload| **preload < touched.force);
+        if let Some(&preload) = below_touch {
+            let touch = touched.force;
+            return Err(RunError::BelowTouch { preload, touch }.into());
         }
-        let mut all = Staircase {
-            scale,
-            touch,
-            zero_force,
+        let mut staircase = Staircase {
+            scale: preloads.scale(),
+            touch: (touched.force, touched.adhesion_force),
+            zero_force: at_zero_force.adhesion_force,
             forces: Vec::new(),
         };
         let mut missing = preloads.values.clone();
         while !missing.is_empty() {
             let ends: Vec<Move> = missing.iter().map(|&force| Move::ToForce(force)).collect();
-            let solved = solve(&ends)?.into_iter().map(|(_, adhesion)| adhesion);
-            all.forces.extend(missing.into_iter().zip(solved));
-            all.forces.sort_by(|one, other| one.0.total_cmp(&other.0));
-            report(&all);
-            missing = all.halves();
+            let turns = turns_at(scene, &ends, simulation, stop)?;
+            for (preload, turn) in missing.into_iter().zip(turns) {
+                staircase.forces.push((preload, turn.adhesion_force));
+            }
+            staircase
+                .forces
+                .sort_by(|one, other| one.0.total_cmp(&other.0));
+            control.report(&staircase);
+            missing = staircase.halves();
         }
-        Ok(all)
+        Ok(staircase)
     }
 
     /// Returns true if every step is known to lie between two preloads that are at most 1/2048 of
@@ -263,6 +249,34 @@ impl Staircase {
             .chain(self.forces.windows(2).flat_map(corner))
             .collect()
     }
+}
+
+/// Turning point of a loading, and the unloading from it.
+#[derive(Clone, Copy, Default)]
+struct Turned {
+    /// Force at the turning point, N.
+    force: f64,
+    /// Adhesion force after it, N; 0 if the force of the unloading is never negative.
+    adhesion_force: f64,
+}
+
+/// Unloads a scene from the end of each of these moves.
+fn turns_at(
+    scene: &CheckedScene,
+    ends: &[Move],
+    simulation: &mut Simulation,
+    stop: &Stop<'_>,
+) -> Result<Vec<Turned>, RunError> {
+    let mut turns = vec![Turned::default(); ends.len()];
+    let mut receive = |index: usize, reversal: Reversal| {
+        turns[index] = Turned {
+            force: reversal.turn.force,
+            adhesion_force: reversal.adhesion_force().unwrap_or(0.0),
+        };
+        Ok(())
+    };
+    simulation.reverse(scene, ends, &[], &|| stop(), &mut receive)?;
+    Ok(turns)
 }
 
 impl Results {
@@ -330,14 +344,13 @@ mod tests {
         lines: u64,
         jobs: usize,
     ) -> Result<Results, String> {
-        let (scene, folder) = (document.scene(), document.resolve(""));
         let results = Results::of_scene(
-            scene,
-            &folder,
+            document.scene(),
             &Results::OF_PRELOADS,
             lines,
             Some(preloads),
-            jobs,
+            &mut Simulation::new(document.resolve("")),
+            Control::default().on_threads(jobs),
         );
         results.map_err(|error| error.to_string())
     }
@@ -470,16 +483,18 @@ mod tests {
         let find = |ends, count, scale| {
             let axis = Axis::of_preloads(ends, count, scale).unwrap();
             let mut parts = Vec::new();
-            let found = Staircase::find(
+            let mut see = |part: &Staircase| parts.push(part.forces.len());
+            let found = Staircase::of(
                 &scene,
                 &axis,
                 &mut Simulation::default(),
-                &|| false,
-                &mut |part| {
-                    parts.push(part.forces.len());
-                },
+                Control::default().reporting_to(&mut see),
             );
-            found.map(|found| (found, parts))
+            match found {
+                Ok(found) => Ok((found, parts)),
+                Err(StudyError::Run { error, .. }) => Err(error),
+                Err(other) => panic!("{other}"),
+            }
         };
         let (coarse, parts) = find((0.0, 4e-5), 5, AxisScale::Linear).unwrap();
         let (fine, _) = find((0.0, 4e-5), 512, AxisScale::Linear).unwrap();

@@ -1,42 +1,48 @@
 //! Premises of the model that a scene, or the unloading from several turning points, does not meet.
 
 use super::error::StudyError;
-use super::profiles::Stop;
+use super::missing_profiles::Failures;
 use super::quantity::Quantity;
 use super::results::{CountedWarning, Results};
-use asperity_data::Warning;
+use asperity_data::{Control, Warning};
 use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 
 /// Computes a scene on `profiles` random profiles, and returns the premises of the model that these
 /// profiles do not meet, each with the number of these profiles. If the scene cannot be computed on
-/// any of them, the premises are those that are known from its fields.
-///
-/// `workers` is a pair: the simulation with which the first thread computes, and the number of
-/// threads, which does not change the result.
+/// any of them, the premises are those that are known from its fields. `control` reports the number
+/// of computed profiles.
 ///
 /// # Errors
 /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the
-/// memory does not suffice, or if `stop` returned true.
+/// memory does not suffice, or if `control` stops the computation.
 ///
 /// ```
+/// use asperity_data::Control;
 /// use asperity_scene::Simulation;
 /// use asperity_study::trust::warnings_on_profiles;
 ///
 /// let narrow = asperity_scene::open("jkr-sphere")?.set("length", "20 µm")?;
-/// let workers = (Simulation::default(), 1);
-/// let warnings = warnings_on_profiles(narrow.scene(), 1, workers, &|| false)?;
+/// let simulation = &mut Simulation::default();
+/// let warnings = warnings_on_profiles(narrow.scene(), 1, simulation, Control::default())?;
 /// assert_eq!(warnings[0].warning.name(), "contact_at_ends");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn warnings_on_profiles(
     scene: &CheckedScene,
     profiles: u64,
-    workers: (Simulation, usize),
-    stop: &Stop<'_>,
+    simulation: &mut Simulation,
+    mut control: Control<'_>,
 ) -> Result<Vec<CountedWarning>, StudyError> {
     let mut results = Results::begin(scene, &[Quantity::Warnings], profiles, None)?;
-    results.extend_each(workers, stop, &mut |_| ())?;
+    let missing = results.missing(Failures::Keep);
+    let (threads, stop) = (control.threads(), control.stop());
+    let mut computed = 0;
+    missing.solve(simulation, threads, stop, &mut |solved| {
+        results.take_in(solved);
+        computed += 1;
+        control.report(computed);
+    })?;
     if results.failure_of(0).is_none() {
         return Ok(results.warnings(0));
     }

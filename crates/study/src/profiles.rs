@@ -3,6 +3,7 @@
 
 use super::error::StudyError;
 use super::plan::Plan;
+use asperity_contact::ContactError;
 use asperity_data::{on_this_thread, on_threads};
 use asperity_scene::{RunError, Simulation};
 use std::panic::resume_unwind;
@@ -12,84 +13,101 @@ use std::thread::Builder;
 
 /// Function that a computation calls repeatedly. Once the function returns true, the computation
 /// ends.
-pub type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
+pub(super) type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Solves profiles of a plan, given by their indices, on at most `jobs` threads, or on fewer if the
-/// memory does not suffice. Each thread has its own simulation, and the first thread uses this
-/// simulation. `receive` gets each result with the index of its profile, on this thread, as soon as
-/// the result is known.
+/// Solves profiles of a plan, given by their indices, on at most `threads` threads, or on fewer if
+/// the memory does not suffice. One thread uses this simulation, and each further one a new
+/// simulation of the same files. `receive` gets each result with the index of its profile, on the
+/// calling thread, as soon as the result is known.
 ///
 /// # Errors
 /// A profile fails. The error belongs to the first of the profiles that fail.
 pub(super) fn on_profiles<R: Send>(
     plan: &Plan,
     lines: &[u64],
-    (simulation, jobs): (Simulation, usize),
+    simulation: &mut Simulation,
+    threads: usize,
     solve: impl Fn(&mut Simulation, u64) -> Result<R, RunError> + Sync,
     receive: &mut dyn FnMut(u64, R),
 ) -> Result<(), StudyError> {
-    let most = jobs.clamp(1, lines.len().max(1));
-    let jobs = (2..=most)
-        .rev()
-        .find(|jobs| plan.memory(*jobs as u64).is_ok())
-        .unwrap_or(1);
-    let solved = |simulation: &mut Simulation, line| {
-        solve(simulation, line).map_err(|error| {
-            let place = if plan.lines > 1 {
-                format!("seed {}: ", plan.seed_of(line))
-            } else {
-                String::new()
-            };
-            StudyError::Run { place, error }
-        })
+    let threads = threads_within_memory(plan, threads.clamp(1, lines.len().max(1)));
+    let solve_line = |simulation: &mut Simulation, line: u64| {
+        solve(simulation, line).map_err(|error| failed_profile(plan, line, error))
     };
-    if jobs == 1 {
-        let mut simulation = simulation;
-        let mut each = |line| solved(&mut simulation, line).map(|solved| receive(line, solved));
-        return on_this_thread(|| lines.iter().try_for_each(|line| each(*line)));
+    if threads == 1 {
+        return on_this_thread(|| {
+            for &line in lines {
+                receive(line, solve_line(simulation, line)?);
+            }
+            Ok(())
+        });
     }
-    let mut simulations: Vec<Simulation> = (1..jobs).map(|_| simulation.another()).collect();
-    simulations.push(simulation);
-    let simulations = Mutex::new(simulations);
+    let mut further: Vec<Simulation> = (1..threads).map(|_| simulation.another()).collect();
+    let mut unused: Vec<&mut Simulation> = further.iter_mut().collect();
+    unused.push(simulation);
+    let unused = Mutex::new(unused);
     let worker = |sender: Sender<(u64, R)>| {
-        let own = simulations
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .pop();
-        let (mut simulation, solved) = (own.unwrap_or_default(), &solved);
+        let mut own = unused.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let solve_line = &solve_line;
         move |number: u64| {
             let line = lines[number as usize];
+            let simulation = own.as_deref_mut().ok_or_else(no_simulation)?;
+            let solved = solve_line(simulation, line)?;
             // The receiver lives until all threads have ended.
-            let _ = sender.send((line, solved(&mut simulation, line)?));
+            let _ = sender.send((line, solved));
             Ok(())
         }
     };
-    let count = lines.len() as u64;
-    on_threads_received(count, jobs, worker, &mut |(line, solved)| {
-        receive(line, solved)
-    })
-    .map(drop)
+    let mut receive_pair = |(line, solved): (u64, R)| receive(line, solved);
+    on_threads_received(lines.len() as u64, threads, worker, &mut receive_pair)?;
+    Ok(())
 }
 
-/// Returns results for the numbers below `count`, computed on `jobs` threads, each with its own
-/// `worker`. `receive` gets what the workers send, on this thread, as soon as it is sent.
+/// Returns the largest number of threads, at most `most`, for which the memory suffices; 1 if it
+/// suffices for none.
+fn threads_within_memory(plan: &Plan, most: usize) -> usize {
+    (2..=most)
+        .rev()
+        .find(|threads| plan.memory(*threads as u64).is_ok())
+        .unwrap_or(1)
+}
+
+fn failed_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
+    let mut place = String::new();
+    if plan.lines > 1 {
+        place = format!("seed {}: ", plan.seed_of(line));
+    }
+    StudyError::Run { place, error }
+}
+
+fn no_simulation() -> StudyError {
+    RunError::from(ContactError::Internal(
+        "there are more threads than simulations",
+    ))
+    .into()
+}
+
+/// Returns results for the numbers below `count`, computed on `threads` threads, each with its own
+/// `worker`. `receive` gets what the workers send, on the calling thread, as soon as it is sent.
 ///
 /// # Errors
 /// A number fails. The error belongs to the smallest number that fails.
 pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, StudyError>>(
     count: u64,
-    jobs: usize,
+    threads: usize,
     worker: impl Fn(Sender<M>) -> W + Sync,
     receive: &mut dyn FnMut(M),
 ) -> Result<Vec<R>, StudyError> {
     let (sender, receiver) = channel();
     let worker = &worker;
     std::thread::scope(|scope| {
-        let work = move || on_threads(count, jobs, || worker(sender.clone()));
-        let threads = Builder::new()
+        let work = move || on_threads(count, threads, || worker(sender.clone()));
+        let computing = Builder::new()
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
         receiver.iter().for_each(receive);
-        threads.join().unwrap_or_else(|panic| resume_unwind(panic))
+        computing
+            .join()
+            .unwrap_or_else(|panic| resume_unwind(panic))
     })
 }

@@ -217,6 +217,7 @@ impl Reference {
 mod tests {
     use super::*;
     use crate::error::StudyError;
+    use asperity_data::Control;
     use asperity_scene::{CheckedScene, Document, Roughness, Simulation, open};
 
     const DOCS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/");
@@ -232,14 +233,8 @@ mod tests {
             maps,
             lines: 16 * maps,
         };
-        Reference::of(
-            scene,
-            options,
-            Simulation::default(),
-            jobs,
-            &|| false,
-            &mut |_| (),
-        )
+        let control = Control::default().on_threads(jobs);
+        Reference::of(scene, options, &mut Simulation::default(), control)
     }
 
     /// A rough square with modes 1 to 4, which a coarse grid resolves.
@@ -406,7 +401,7 @@ mod tests {
                 .unwrap();
             let document = document.set("loading_stiffness", stiffness).unwrap();
             let mut deepest = Vec::new();
-            let mut report = |event| {
+            let mut report = |event: &ReferenceEvent| {
                 if let ReferenceEvent::Square { curve, .. } = event {
                     deepest.push(curve.iter().map(|point| point.0).fold(0.0, f64::max));
                 }
@@ -416,14 +411,12 @@ mod tests {
                 maps: 3,
                 lines: 48,
             };
-            let simulation = Simulation::default();
+            let control = Control::default().on_threads(1).reporting_to(&mut report);
             let reference = Reference::of(
                 document.scene(),
                 options,
-                simulation,
-                1,
-                &|| false,
-                &mut report,
+                &mut Simulation::default(),
+                control,
             )
             .unwrap();
             assert_eq!(deepest.len(), 3);

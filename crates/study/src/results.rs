@@ -1,19 +1,17 @@
 //! All values of a study: read from its shard files or its merged table, or computed in memory.
 
 use super::axis::Axis;
-use super::cells::Streak;
 use super::error::StudyError;
 use super::grid::{Grid, GridCell, GridLayer};
+use super::missing_profiles::{Failures, MissingProfiles, SolvedProfile};
 use super::plan::Plan;
-use super::profiles::{Stop, on_profiles};
 use super::quantity::{Quantity, regime_of};
-use super::recorder::{Recorded, Recorder, with_recorder};
+use super::recorder::Recorded;
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, Record, ShardFile};
-use asperity_data::{AxisScale, Warning};
+use asperity_data::{AxisScale, Control, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 const MOST_NAMED: usize = 8;
 
@@ -25,6 +23,7 @@ pub struct Results {
     /// Values of all records, ordered by cell, then by profile; NaN for missing ones.
     values: Vec<f64>,
     done: Vec<bool>,
+    records_done: u64,
     /// Reasons of the records that cannot be computed, by the index of the record.
     failed: BTreeMap<u64, String>,
     /// Premises that records computed in memory do not meet, by the index of the record.
@@ -130,6 +129,7 @@ impl Results {
             plan,
             values,
             done: vec![false; records as usize],
+            records_done: 0,
             failed: BTreeMap::new(),
             warnings: BTreeMap::new(),
         })
@@ -143,7 +143,7 @@ impl Results {
     /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an
     /// error if `preloads` are given and the solver of the scene is not [`Solver::Exact`], or if
     /// the memory does not suffice for the study.
-    pub fn begin(
+    pub(super) fn begin(
         scene: &Scene,
         record: &[Quantity],
         lines: u64,
@@ -151,10 +151,7 @@ impl Results {
     ) -> Result<Results, StudyError> {
         StudyError::check_profiles(scene, lines)?;
         if preloads.is_some() && scene.numerics.solver != Solver::Exact {
-            return Err(StudyError::Run {
-                place: String::new(),
-                error: RunError::NeedsExactSolver,
-            });
+            return Err(RunError::NeedsExactSolver.into());
         }
         let axes = preloads.into_iter().cloned().collect();
         Results::empty(Plan {
@@ -163,96 +160,51 @@ impl Results {
         })
     }
 
-    /// Makes a study as [`Results::begin`] does, and computes its values. Paths of files in the
-    /// scene are relative to `folder`. `jobs` is the number of threads, which does not change the
-    /// results.
+    /// Makes a study as [`Results::begin`] does, and computes its values. `control` reports the
+    /// results so far after each profile.
     ///
     /// # Errors
-    /// Returns an error if a profile cannot be computed. The errors of [`Results::begin`] are
+    /// Returns an error if zero threads are requested, if a profile or its contact cannot be
+    /// computed, or if `control` stops the computation. The errors of [`Results::begin`] are
     /// possible too.
     pub fn of_scene(
         scene: &Scene,
-        folder: &Path,
         record: &[Quantity],
         lines: u64,
         preloads: Option<&Axis>,
-        jobs: usize,
+        simulation: &mut Simulation,
+        mut control: Control<'_, Results>,
     ) -> Result<Results, StudyError> {
+        StudyError::check_threads(control.threads())?;
         let mut results = Results::begin(scene, record, lines, preloads)?;
-        let simulation = Simulation::new(folder.to_path_buf());
-        let simulation = if lines == 1 {
-            simulation.for_one_scene()
-        } else {
-            simulation
-        };
-        results.extend((simulation, jobs), &|| false, &mut |_| ())?;
+        let (threads, stop) = (control.threads(), control.stop());
+        let missing = results.missing(Failures::End);
+        missing.solve(simulation, threads, stop, &mut |solved| {
+            results.take_in(solved);
+            control.report(&results);
+        })?;
         Ok(results)
     }
 
-    /// Computes the missing profiles of a study that [`Results::begin`] made. `workers` is a pair:
-    /// the simulation with which the first thread computes, and the number of threads. After each
-    /// profile `report` receives the results so far, on the calling thread.
-    ///
-    /// # Errors
-    /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
-    pub fn extend(
-        &mut self,
-        workers: (Simulation, usize),
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(&Results),
-    ) -> Result<(), StudyError> {
-        let all = |recorder: &mut Recorder<'_>, streak: &Streak| {
-            Ok(recorder.record(streak)?.into_iter().map(Ok).collect())
-        };
-        self.compute(workers, stop, all, report)
+    /// Returns the profiles that are not computed yet.
+    pub(super) fn missing(&self, failures: Failures) -> MissingProfiles {
+        let is_missing = |line: &u64| !self.has(0, *line);
+        MissingProfiles {
+            plan: self.plan.clone(),
+            lines: (0..self.plan.lines).filter(is_missing).collect(),
+            failures,
+        }
     }
 
-    /// Does the same, but keeps the reason of a profile that fails in place of its values.
-    pub(super) fn extend_each(
-        &mut self,
-        workers: (Simulation, usize),
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(&Results),
-    ) -> Result<(), StudyError> {
-        self.compute(
-            workers,
-            stop,
-            |recorder, streak| recorder.record_each(streak),
-            report,
-        )
-    }
-
-    fn compute(
-        &mut self,
-        workers: (Simulation, usize),
-        stop: &Stop<'_>,
-        record: impl Fn(&mut Recorder<'_>, &Streak) -> Result<Vec<Recorded>, RunError> + Sync,
-        report: &mut dyn FnMut(&Results),
-    ) -> Result<(), StudyError> {
-        let plan = self.plan.clone();
-        let missing: Vec<u64> = (0..plan.lines).filter(|line| !self.has(0, *line)).collect();
-        let solve = |simulation: &mut Simulation, line| {
-            let streak = Streak {
-                cells: 0..plan.cells(),
-                line,
-            };
-            with_recorder(&plan, simulation, stop, |recorder| {
-                Ok((record(recorder, &streak)?, recorder.take_warnings()))
-            })
-        };
-        on_profiles(&plan, &missing, workers, solve, &mut |line,
-                                                           (
-            records,
-            warnings,
-        )| {
-            (0..)
-                .zip(records)
-                .for_each(|(cell, one)| self.set_record(cell * plan.lines + line, one));
-            for (cell, of_cell) in warnings {
-                self.warnings.insert(cell * plan.lines + line, of_cell);
-            }
-            report(self);
-        })
+    /// Sets the records of a profile in all cells.
+    pub(super) fn take_in(&mut self, solved: SolvedProfile) {
+        for (cell, record) in (0..).zip(solved.records) {
+            self.set_record(cell * self.plan.lines + solved.line, record);
+        }
+        for (cell, warnings) in solved.warnings {
+            self.warnings
+                .insert(cell * self.plan.lines + solved.line, warnings);
+        }
     }
 
     /// Reads all shard files of a study.
@@ -331,15 +283,27 @@ impl Results {
         }
     }
 
-    fn count(&self) -> u64 {
-        self.done.iter().filter(|done| **done).count() as u64
+    /// Returns the number of records that are done.
+    pub(super) fn count(&self) -> u64 {
+        self.records_done
+    }
+
+    /// Returns the number of profiles that are computed in all cells.
+    pub fn profiles_done(&self) -> u64 {
+        self.count() / self.plan.cells().max(1)
+    }
+
+    fn set_done(&mut self, place: u64) {
+        let done = &mut self.done[place as usize];
+        self.records_done += u64::from(!*done);
+        *done = true;
     }
 
     /// Sets the values of a record, which is counted by cell, then by profile.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
-        self.done[place as usize] = true;
+        self.set_done(place);
     }
 
     /// Sets a record to its values, or to the reason why it has none.
@@ -347,7 +311,7 @@ impl Results {
         match record {
             Ok(values) => self.set(place, &values),
             Err(reason) => {
-                self.done[place as usize] = true;
+                self.set_done(place);
                 self.failed.insert(place, reason);
             }
         }

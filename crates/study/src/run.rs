@@ -9,6 +9,7 @@ use super::recorder::Recorded;
 use super::shard::Shard;
 use super::status::{count, rate};
 use super::store::{Folder, encode};
+use asperity_data::Control;
 use std::fs::File;
 use std::io;
 use std::io::Write;
@@ -63,20 +64,19 @@ impl StudyProgress {
 }
 
 /// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
-/// file in the folder. `threads` is the number of threads. `stop` is called after each loading. If
-/// it returns true, the computation ends without an error. `report` receives the progress several
-/// times a second and at the end.
+/// file in the folder. `control` is asked after each loading whether it stops the computation, which
+/// then ends without an error. It reports the progress several times a second and at the end.
 ///
 /// # Errors
-/// Returns an error if `threads` is zero, if the memory does not suffice for a record, or if a file
+/// Returns an error if zero threads are requested, if the memory does not suffice for a record, or if a file
 /// cannot be read or written. Records written before the error are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,
-    threads: usize,
-    stop: &(dyn Fn() -> bool + Sync),
-    report: &mut dyn FnMut(&StudyProgress),
+    mut control: Control<'_, StudyProgress>,
 ) -> Result<StudyProgress, StudyError> {
+    let threads = control.threads();
+    let stop = control.stop();
     StudyError::check_threads(threads)?;
     let plan = folder.plan();
     let cells = Cells::of(plan);
@@ -88,7 +88,7 @@ pub fn run_study(
         total,
         elapsed: Duration::ZERO,
     };
-    report(&progress);
+    control.report(&progress);
     if progress.is_complete() {
         return Ok(progress);
     }
@@ -128,59 +128,99 @@ pub fn run_study(
         let threads = Builder::new()
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
-        let written = write((&path, &mut file), receiver, clock, &mut progress, report);
+        let mut written = WrittenFile {
+            path: &path,
+            file: &mut file,
+            clock,
+            pending: 0,
+            computed: Duration::ZERO,
+            synced: Instant::now(),
+        };
+        let written = written.write_all(&receiver, &mut progress, &mut control);
         threads
             .join()
             .unwrap_or_else(|panic| resume_unwind(panic))?;
         written.map_err(StudyError::unwritable(&path))
     })?;
-    report(&progress);
+    control.report(&progress);
     Ok(progress)
 }
 
-/// Writes records as they arrive. Syncs with the disk after the longest wait and at the end. The
-/// progress counts only records that have reached the disk.
-fn write(
-    (path, file): (&Path, &mut File),
-    receiver: Receiver<String>,
+/// File of a process to which records are written.
+struct WrittenFile<'a> {
+    path: &'a Path,
+    file: &'a mut File,
+    /// Clock since the beginning of the computation.
     clock: Instant,
-    progress: &mut StudyProgress,
-    report: &mut dyn FnMut(&StudyProgress),
-) -> io::Result<()> {
-    let (mut synced, mut reported) = (Instant::now(), Instant::now());
-    let (mut pending, mut elapsed) = (0, Duration::ZERO);
-    loop {
-        let wait = if pending > 0 {
-            SYNC.saturating_sub(synced.elapsed())
+    /// Number of written records that may not have reached the disk.
+    pending: u64,
+    /// Time from the beginning to the last written records.
+    computed: Duration,
+    /// Time at which the last records reached the disk.
+    synced: Instant,
+}
+
+impl WrittenFile<'_> {
+    /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end.
+    /// The progress counts only records that have reached the disk.
+    fn write_all(
+        &mut self,
+        receiver: &Receiver<String>,
+        progress: &mut StudyProgress,
+        control: &mut Control<'_, StudyProgress>,
+    ) -> io::Result<()> {
+        let mut reported = Instant::now();
+        loop {
+            let first = receiver.recv_timeout(self.longest_wait());
+            let ended = first == Err(RecvTimeoutError::Disconnected);
+            if let Ok(first) = first {
+                let mut text = first;
+                text.extend(receiver.try_iter().take(WAITING));
+                self.write(&text)?;
+            }
+            if self.pending > 0 && (ended || self.synced.elapsed() >= SYNC) {
+                self.sync(progress)?;
+            }
+            if reported.elapsed() >= TICK {
+                self.check_exists()?;
+                control.report(&*progress);
+                reported = Instant::now();
+            }
+            if ended {
+                return Ok(());
+            }
+        }
+    }
+
+    fn longest_wait(&self) -> Duration {
+        if self.pending > 0 {
+            SYNC.saturating_sub(self.synced.elapsed())
         } else {
             TICK
-        };
-        let first = receiver.recv_timeout(wait);
-        let ended = first == Err(RecvTimeoutError::Disconnected);
-        if let Ok(first) = first {
-            let text: String = std::iter::once(first)
-                .chain(receiver.try_iter().take(WAITING))
-                .collect();
-            file.write_all(text.as_bytes())?;
-            elapsed = clock.elapsed();
-            pending += text.bytes().filter(|&byte| byte == b'\n').count() as u64;
         }
-        if pending > 0 && (ended || synced.elapsed() >= SYNC) {
-            file.sync_all()?;
-            (progress.done, progress.elapsed) = (progress.done + pending, elapsed);
-            (synced, pending) = (Instant::now(), 0);
-        }
-        if reported.elapsed() >= TICK {
-            if !path.exists() {
-                return Err(io::Error::other(
-                    "the file has been removed while the study was computed",
-                ));
-            }
-            report(progress);
-            reported = Instant::now();
-        }
-        if ended {
+    }
+
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        self.file.write_all(text.as_bytes())?;
+        self.computed = self.clock.elapsed();
+        self.pending += text.bytes().filter(|byte| *byte == b'\n').count() as u64;
+        Ok(())
+    }
+
+    fn sync(&mut self, progress: &mut StudyProgress) -> io::Result<()> {
+        self.file.sync_all()?;
+        progress.done += self.pending;
+        progress.elapsed = self.computed;
+        self.synced = Instant::now();
+        self.pending = 0;
+        Ok(())
+    }
+
+    fn check_exists(&self) -> io::Result<()> {
+        if self.path.exists() {
             return Ok(());
         }
+        let removed = "the file has been removed while the study was computed";
+        Err(io::Error::other(removed))
     }
 }

@@ -13,8 +13,8 @@ use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::recorder::with_recorder;
 use super::results::CountedWarning;
-use asperity_data::median;
-use asperity_scene::{CheckedScene, Scene, SceneErrors, Simulation};
+use asperity_data::{Control, median};
+use asperity_scene::{CheckedScene, RunError, Scene, SceneErrors, Simulation};
 use std::cmp::Reverse;
 
 /// Values of the results in SI units, in the order of [`Sensitivity::RESULTS`]; `None` for a result
@@ -78,6 +78,23 @@ pub struct Sensitivity {
 /// Results on one profile for the scene and for each changed scene; NaN for a missing result.
 type Solved = Vec<[f64; 3]>;
 
+/// The scene, or the scene with one of its numbers changed, as a plan without axes.
+struct Variant {
+    plan: Plan,
+    shapes: Shapes,
+    is_changed: bool,
+}
+
+/// A scene with all scenes in which one of its numbers is changed.
+struct Neighbourhood {
+    /// Numbers of the scene, without results.
+    influences: Vec<Influence>,
+    /// The scene itself, then each changed scene that is allowed, in the order of `influences`.
+    variants: Vec<Variant>,
+    /// Indices of the variants in the order in which they are computed on a profile.
+    order: Vec<usize>,
+}
+
 impl Sensitivity {
     /// Relative change by which each number of the scene is made smaller and larger. A whole number
     /// changes by at least 1, and a wavelength by at least one wave on the length.
@@ -96,29 +113,25 @@ impl Sensitivity {
     /// instead of a work of adhesion keeps κ when another number changes. Where the length changes,
     /// the numbers of waves on it stay, so wavelengths change with it.
     ///
-    /// `simulation` is the simulation of the first thread, and `jobs` is the number of threads,
-    /// which does not change the results. After each profile `report` receives the sensitivity over
-    /// the profiles so far.
+    /// `control` reports the sensitivity over the profiles computed so far after each profile.
     ///
     /// # Errors
-    /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
+    /// Returns an error if zero threads are requested, if a profile or its contact cannot be
+    /// computed, or if `control` stops the computation.
     ///
     /// ```
+    /// use asperity_data::Control;
     /// use asperity_scene::{Simulation, open};
     /// use asperity_study::Sensitivity;
     ///
     /// // F_a = (3/2)πγR of a sphere is in proportion to γ.
     /// let scene = open("jkr-sphere")?.set("numerics.points", "1024")?;
-    /// let found = Sensitivity::of(
-    ///     scene.scene(),
-    ///     (Simulation::default(), 1),
-    ///     &|| false,
-    ///     &mut |_| (),
-    /// )?;
+    /// let simulation = &mut Simulation::default();
+    /// let found = Sensitivity::of(scene.scene(), simulation, Control::default())?;
     /// let work = found
     ///     .influences
     ///     .iter()
-    ///     .find(|one| one.axis.path == "adhesion.work")
+    ///     .find(|influence| influence.axis.path == "adhesion.work")
     ///     .ok_or("no work")?;
     /// let larger = work.sides[1].1.ok_or("refused")?.medians[0].ok_or("no force")?;
     /// assert!((larger / found.present[0].ok_or("no force")? - 1.1).abs() < 1e-3);
@@ -126,129 +139,73 @@ impl Sensitivity {
     /// ```
     pub fn of(
         scene: &CheckedScene,
-        (simulation, jobs): (Simulation, usize),
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(&Sensitivity),
+        simulation: &mut Simulation,
+        mut control: Control<'_, Sensitivity>,
     ) -> Result<Sensitivity, StudyError> {
-        let simulation_for_warnings = simulation.another();
-        let lines = Ensemble::profiles_of(scene);
-        // The scene itself, then each changed scene that is allowed.
-        let mut plans = vec![(Shapes::Passes, Plan::of_scene(scene, lines, &Self::RESULTS))];
-        let mut influences = Vec::new();
-        for (axis, value) in numbers(scene) {
-            let allowed = Allowed::of(&axis, scene);
-            let value = computed(allowed, value);
-            let sides = [-1.0, 1.0].map(|sign| {
-                let (number, neighbour) = changed(scene, &axis, value, sign);
-                let plan = |scene: &CheckedScene| Plan::of_scene(scene, lines, &Self::RESULTS);
-                plans.extend(
-                    neighbour
-                        .iter()
-                        .map(|scene| (axis.target.shapes(), plan(scene))),
-                );
-                (number, neighbour.map(|_| Changed::default()))
-            });
-            influences.push(Influence { axis, value, sides });
-        }
-        // First the scenes that leave the profile as it is.
-        let mut order: Vec<usize> = (0..plans.len()).collect();
-        order.sort_by_key(|number| Reverse(plans[*number].0));
-        let solve = |simulation: &mut Simulation, line| {
-            let mut solved = vec![[f64::NAN; 3]; plans.len()];
-            for &number in &order {
-                let streak = Streak { cells: 0..1, line };
-                let records =
-                    with_recorder(
-                        &plans[number].1,
-                        simulation,
-                        stop,
-                        |recorder| match number {
-                            0 => recorder.record(&streak),
-                            // A changed scene may lie out of reach on this profile.
-                            _ => Ok(recorder
-                                .record_each(&streak)?
-                                .into_iter()
-                                .flatten()
-                                .collect()),
-                        },
-                    )?;
-                solved[number] = records.concat().try_into().unwrap_or(solved[number]);
-            }
-            Ok(solved)
-        };
-        let mut solved = vec![None; lines as usize];
-        let mut all = Sensitivity {
+        StudyError::check_threads(control.threads())?;
+        let profiles = Ensemble::profiles_of(scene);
+        let neighbourhood = Neighbourhood::of(scene, profiles);
+        let mut sensitivity = Sensitivity {
             profiles: 0,
             present: [None; 3],
             range: None,
-            influences,
+            influences: neighbourhood.influences.clone(),
             warnings: Vec::new(),
         };
-        let every: Vec<u64> = (0..lines).collect();
+        let stop = control.stop();
+        let mut solved = vec![None; profiles as usize];
+        let lines: Vec<u64> = (0..profiles).collect();
         on_profiles(
-            &plans[0].1,
-            &every,
-            (simulation, jobs),
-            solve,
-            &mut |line, one| {
-                solved[line as usize] = Some(one);
-                all.summarise(&solved.iter().flatten().collect::<Vec<_>>());
-                report(&all);
+            &neighbourhood.variants[0].plan,
+            &lines,
+            simulation,
+            control.threads(),
+            |simulation, line| neighbourhood.solve(simulation, line, stop),
+            &mut |line, results| {
+                solved[line as usize] = Some(results);
+                let known: Vec<&Solved> = solved.iter().flatten().collect();
+                sensitivity.summarise(&known);
+                control.report(&sensitivity);
             },
         )?;
-        let workers = (simulation_for_warnings, jobs);
-        all.warnings = warnings_on_profiles(scene, lines, workers, stop)?;
-        Ok(all)
+        let control = control.of_part();
+        sensitivity.warnings = warnings_on_profiles(scene, profiles, simulation, control)?;
+        Ok(sensitivity)
     }
 
     /// Sets the statistics over these profiles.
     fn summarise(&mut self, profiles: &[&Solved]) {
-        let values = |number: usize, result: usize| {
-            profiles
-                .iter()
-                .map(move |solved| solved[number][result])
-                .filter(|value| !value.is_nan())
-        };
-        let medians = |number| {
-            [0, 1, 2].map(|result| median(&mut values(number, result).collect::<Vec<_>>()))
-        };
         let several = profiles.len() > 1;
         self.profiles = profiles.len() as u64;
-        self.present = medians(0);
-        self.range = several.then(|| {
-            [f64::min, f64::max]
-                .map(|end: fn(f64, f64) -> f64| [0, 1, 2].map(|of| values(0, of).reduce(end)))
-        });
-        let sides = self
-            .influences
-            .iter_mut()
-            .flat_map(|influence| &mut influence.sides);
-        for (number, side) in (1..).zip(sides.filter_map(|(_, side)| side.as_mut())) {
-            let range = |result: usize| {
-                let change = |solved: &&Solved| solved[number][result] / solved[0][result] - 1.0;
-                let changes = || {
-                    profiles
-                        .iter()
-                        .map(change)
-                        .filter(|change| change.is_finite())
-                };
-                changes()
-                    .reduce(f64::min)
-                    .zip(changes().reduce(f64::max))
-                    .filter(|_| several)
-            };
-            *side = Changed {
-                medians: medians(number),
-                range: [0, 1, 2].map(range),
-            };
+        self.present = medians(profiles, 0);
+        self.range = None;
+        if several {
+            let smallest = RESULTS.map(|result| values(profiles, 0, result).reduce(f64::min));
+            let largest = RESULTS.map(|result| values(profiles, 0, result).reduce(f64::max));
+            self.range = Some([smallest, largest]);
+        }
+        let mut variant = 0;
+        for influence in &mut self.influences {
+            for (_, changed) in &mut influence.sides {
+                let Some(changed) = changed else { continue };
+                variant += 1;
+                changed.medians = medians(profiles, variant);
+                changed.range = [None; 3];
+                if several {
+                    changed.range =
+                        RESULTS.map(|result| range_of_change(profiles, variant, result));
+                }
+            }
         }
     }
 
     /// Returns the relative change of each result from [`Sensitivity::present`] to `values`. A
     /// change is `None` if a value is missing, or if the value in [`Sensitivity::present`] is zero.
     pub fn changes(&self, values: &Values) -> Values {
-        [0, 1, 2]
-            .map(|of| Some(values[of]? / self.present[of].filter(|present| *present != 0.0)? - 1.0))
+        RESULTS.map(|result| {
+            let present = self.present[result].filter(|present| *present != 0.0)?;
+            Some(values[result]? / present - 1.0)
+        })
     }
 
     /// Returns a sentence that states why the adhesion force has no changes; `None` if the scene
@@ -265,16 +222,133 @@ impl Sensitivity {
     /// [`Sensitivity::RESULTS`].
     pub fn ordered(&self, result: usize) -> Vec<&Influence> {
         let mut ordered: Vec<&Influence> = self.influences.iter().collect();
-        let size = |influence: &&Influence| {
-            let sides = influence
-                .sides
-                .iter()
-                .filter_map(|(_, side)| self.changes(&side.as_ref()?.medians)[result]);
-            sides.fold(0.0, |most: f64, one| most.max(one.abs()))
-        };
-        ordered.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        ordered.sort_by(|one, other| {
+            let change = self.largest_change(one, result);
+            self.largest_change(other, result).total_cmp(&change)
+        });
         ordered
     }
+
+    /// Returns the size of the larger one of the relative changes of a result on both sides; 0
+    /// without a change.
+    fn largest_change(&self, influence: &Influence, result: usize) -> f64 {
+        let mut largest: f64 = 0.0;
+        for (_, changed) in &influence.sides {
+            let Some(changed) = changed else { continue };
+            if let Some(change) = self.changes(&changed.medians)[result] {
+                largest = largest.max(change.abs());
+            }
+        }
+        largest
+    }
+}
+
+impl Neighbourhood {
+    fn of(scene: &CheckedScene, profiles: u64) -> Neighbourhood {
+        let plan_of = |scene: &Scene| Plan::of_scene(scene, profiles, &Sensitivity::RESULTS);
+        let mut variants = vec![Variant {
+            plan: plan_of(scene),
+            shapes: Shapes::Passes,
+            is_changed: false,
+        }];
+        let mut influences = Vec::new();
+        for (axis, value) in numbers(scene) {
+            let value = computed(Allowed::of(&axis, scene), value);
+            let sides = [-1.0, 1.0].map(|sign| {
+                let (number, neighbour) = changed(scene, &axis, value, sign);
+                let Some(neighbour) = neighbour else {
+                    return (number, None);
+                };
+                variants.push(Variant {
+                    plan: plan_of(&neighbour),
+                    shapes: axis.target.shapes(),
+                    is_changed: true,
+                });
+                (number, Some(Changed::default()))
+            });
+            influences.push(Influence { axis, value, sides });
+        }
+        // First the scenes that leave the profile as it is.
+        let mut order: Vec<usize> = (0..variants.len()).collect();
+        order.sort_by_key(|index| Reverse(variants[*index].shapes));
+        Neighbourhood {
+            influences,
+            variants,
+            order,
+        }
+    }
+
+    /// Computes all variants on the profile with the index `line`.
+    fn solve(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        stop: &Stop<'_>,
+    ) -> Result<Solved, RunError> {
+        let mut solved = vec![[f64::NAN; 3]; self.variants.len()];
+        for &index in &self.order {
+            if let Some(results) = self.variants[index].solve(simulation, line, stop)? {
+                solved[index] = results;
+            }
+        }
+        Ok(solved)
+    }
+}
+
+impl Variant {
+    /// Computes the results on the profile with the index `line`; `None` for a changed scene that
+    /// cannot be computed on this profile.
+    ///
+    /// # Errors
+    /// The unchanged scene cannot be computed, or `stop` returned true.
+    fn solve(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        stop: &Stop<'_>,
+    ) -> Result<Option<[f64; 3]>, RunError> {
+        let streak = Streak { cells: 0..1, line };
+        let records = with_recorder(&self.plan, simulation, stop, |recorder| {
+            if !self.is_changed {
+                return recorder.record(&streak);
+            }
+            let records = recorder.record_each(&streak)?;
+            Ok(records.into_iter().flatten().collect())
+        })?;
+        Ok(records.concat().try_into().ok())
+    }
+}
+
+/// Indices of [`Sensitivity::RESULTS`].
+const RESULTS: [usize; 3] = [0, 1, 2];
+
+/// Returns the values of a result of a variant on all profiles with a value.
+fn values(profiles: &[&Solved], variant: usize, result: usize) -> impl Iterator<Item = f64> {
+    profiles
+        .iter()
+        .map(move |solved| solved[variant][result])
+        .filter(|value| !value.is_nan())
+}
+
+fn medians(profiles: &[&Solved], variant: usize) -> Values {
+    RESULTS.map(|result| {
+        let mut values: Vec<f64> = values(profiles, variant, result).collect();
+        median(&mut values)
+    })
+}
+
+/// Returns the smallest and the largest relative change of a result among the profiles.
+fn range_of_change(profiles: &[&Solved], variant: usize, result: usize) -> Option<(f64, f64)> {
+    let mut changes = Vec::with_capacity(profiles.len());
+    for solved in profiles {
+        let change = solved[variant][result] / solved[0][result] - 1.0;
+        if change.is_finite() {
+            changes.push(change);
+        }
+    }
+    let smallest = changes.iter().copied().reduce(f64::min)?;
+    let largest = changes.iter().copied().reduce(f64::max)?;
+    Some((smallest, largest))
 }
 
 /// Returns the number with which a scene computes: of a wavelength a whole number fits on the
@@ -342,16 +416,12 @@ mod tests {
             .with(|scene| scene.numerics.points = 1 << 12)
             .unwrap();
         let mut reported = 0;
-        let found = Sensitivity::of(
-            &scene,
-            (Simulation::default(), jobs),
-            &|| false,
-            &mut |part| {
-                reported += 1;
-                assert_eq!(part.profiles, reported);
-            },
-        );
-        let found = found.unwrap();
+        let mut see = |part: &Sensitivity| {
+            reported += 1;
+            assert_eq!(part.profiles, reported);
+        };
+        let control = Control::default().on_threads(jobs).reporting_to(&mut see);
+        let found = Sensitivity::of(&scene, &mut Simulation::default(), control).unwrap();
         assert_eq!(
             (found.profiles, reported),
             (Ensemble::profiles_of(&scene), found.profiles)
@@ -450,9 +520,8 @@ mod tests {
             let document = with(&base, waves, "None").unwrap();
             let found = Sensitivity::of(
                 document.scene(),
-                (Simulation::default(), 1),
-                &|| false,
-                &mut |_| (),
+                &mut Simulation::default(),
+                Control::default(),
             )
             .unwrap();
             let influence = found
@@ -501,9 +570,8 @@ mod tests {
             let of_modes = with(&base, "None", &format!("({}, {})", modes[0], modes[1])).unwrap();
             let of_modes = Sensitivity::of(
                 of_modes.scene(),
-                (Simulation::default(), 1),
-                &|| false,
-                &mut |_| (),
+                &mut Simulation::default(),
+                Control::default(),
             )
             .unwrap();
             let by_modes = of_modes

@@ -3,10 +3,10 @@
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
-use super::profiles::Stop;
 use super::reference::{Reference, ReferenceEvent, ReferenceOptions};
 use super::statistics::Statistics;
 use asperity_contact::CurvePoint;
+use asperity_data::Control;
 use asperity_scene::{CheckedScene, Simulation};
 
 /// Force curves of the random squares of a [`Reference`].
@@ -31,41 +31,39 @@ pub struct SquareLoops {
 
 impl SquareLoops {
     /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`].
-    /// `simulation` knows the folder of the measured files of the scene, and `jobs` is the number
-    /// of threads. `report` receives the curves so far at the beginning, after each hundredth of
-    /// the computation, and after each square.
+    /// `simulation` knows the folder of the measured files of the scene. `control` reports the
+    /// curves so far at the beginning, after each hundredth of the computation, and after each
+    /// square.
     ///
     /// # Errors
     /// The errors are the same as those of [`Reference::of`].
     pub fn of(
         scene: &CheckedScene,
-        simulation: Simulation,
-        jobs: usize,
-        stop: &Stop<'_>,
-        report: &mut dyn FnMut(&SquareLoops),
+        simulation: &mut Simulation,
+        mut control: Control<'_, SquareLoops>,
     ) -> Result<SquareLoops, StudyError> {
         let options = ReferenceOptions::of(scene, None);
         let mut loops = SquareLoops::default();
-        let mut take_in = |event| {
-            if loops.take(event) {
-                report(&loops);
+        let reference_control = control.of_part();
+        let mut report = |event: &ReferenceEvent| {
+            if loops.take_in(event) {
+                control.report(&loops);
             }
         };
-        let reference = Reference::of(scene, options, simulation, jobs, stop, &mut take_in)?;
-        Ok(SquareLoops {
-            reference: Some(reference),
-            share: 1.0,
-            ..loops
-        })
+        let reference_control = reference_control.reporting_to(&mut report);
+        let reference = Reference::of(scene, options, simulation, reference_control)?;
+        loops.reference = Some(reference);
+        loops.share = 1.0;
+        Ok(loops)
     }
 
     /// Takes in an event. Returns true if there is something new to show.
-    fn take(&mut self, event: ReferenceEvent) -> bool {
+    fn take_in(&mut self, event: &ReferenceEvent) -> bool {
         match event {
-            ReferenceEvent::Begins { maps, .. } => self.maps = maps,
+            ReferenceEvent::Begins { maps, .. } => self.maps = *maps,
             ReferenceEvent::Profiles { .. } => return false,
             ReferenceEvent::ProfilesEnd { lines } => {
-                self.lines = lines;
+                self.lines.clone_from(lines);
                 return false;
             }
             ReferenceEvent::Loaded { share } => {
@@ -75,8 +73,8 @@ impl SquareLoops {
                 return (100.0 * self.share).floor() > before;
             }
             ReferenceEvent::Square { curve, headline } => {
-                self.curves.push(curve);
-                self.squares.push(headline);
+                self.curves.push(curve.clone());
+                self.squares.push(*headline);
             }
         }
         true
@@ -98,53 +96,70 @@ impl SquareLoops {
     /// adhesion. A band is three curves: mean force minus standard deviation, mean force, and mean
     /// force plus standard deviation.
     pub fn bands(&self) -> Vec<[Vec<CurvePoint>; 3]> {
-        let stages = |curve: &Vec<(f64, f64)>| {
-            let deepest = (0..curve.len())
-                .max_by(|a, b| curve[*a].0.total_cmp(&curve[*b].0))
-                .unwrap_or(0);
-            // A separated square has no force, and the first point of a loading is first touch.
-            let mut loading = curve[..curve.len().min(deepest + 1)].to_vec();
-            if loading.first().is_some_and(|first| first.0 > 0.0) {
-                loading.insert(0, (0.0, 0.0));
-            }
-            [loading, curve.iter().skip(deepest).rev().copied().collect()]
-        };
-        let stages: Vec<[Vec<(f64, f64)>; 2]> = self.curves.iter().map(stages).collect();
-        let band = |stage: usize| {
-            let parts: Vec<_> = stages
-                .iter()
-                .map(|of| &of[stage])
-                .filter(|part| part.len() > 1)
-                .collect();
-            let low = parts.iter().map(|part| part[0].0).min_by(f64::total_cmp)?;
-            let high = parts
-                .iter()
-                .map(|part| part[part.len() - 1].0)
-                .min_by(f64::total_cmp)?;
-            let mut band = [const { Vec::new() }; 3];
-            for at in 0..=BAND_POINTS {
-                let indentation = low + (high - low) * at as f64 / BAND_POINTS as f64;
-                let forces = parts
-                    .iter()
-                    .map(|part| force_at(part, indentation))
-                    .collect();
-                let forces = Statistics::of(forces, (f64::NEG_INFINITY, f64::INFINITY))?;
-                let spread = forces
-                    .spread
-                    .map_or(0.0, |spread| spread.standard_deviation);
-                for (curve, sign) in band.iter_mut().zip([-1.0, 0.0, 1.0]) {
-                    let force = forces.mean + sign * spread;
-                    curve.push(CurvePoint {
-                        indentation,
-                        force,
-                        ..CurvePoint::default()
-                    });
-                }
-            }
-            Some(band)
-        };
-        (0..2).filter_map(band).collect()
+        let loadings: Vec<Curve> = self.curves.iter().map(|curve| loading_of(curve)).collect();
+        let unloadings: Vec<Curve> = self
+            .curves
+            .iter()
+            .map(|curve| unloading_of(curve))
+            .collect();
+        [loadings, unloadings]
+            .iter()
+            .filter_map(|curves| band(curves))
+            .collect()
     }
+}
+
+/// Points with indentation in m and force in N.
+type Curve = Vec<(f64, f64)>;
+
+/// Returns the index of the last one of the deepest points of a curve.
+fn deepest(curve: &[(f64, f64)]) -> usize {
+    (0..curve.len())
+        .max_by(|one, other| curve[*one].0.total_cmp(&curve[*other].0))
+        .unwrap_or(0)
+}
+
+/// Returns the points of the loading in the order of their indentations.
+fn loading_of(curve: &[(f64, f64)]) -> Curve {
+    let mut loading = curve[..curve.len().min(deepest(curve) + 1)].to_vec();
+    // A separated square has no force, and the first point of a loading is first touch.
+    if loading.first().is_some_and(|first| first.0 > 0.0) {
+        loading.insert(0, (0.0, 0.0));
+    }
+    loading
+}
+
+/// Returns the points of the unloading in the order of their indentations.
+fn unloading_of(curve: &[(f64, f64)]) -> Curve {
+    curve.iter().skip(deepest(curve)).rev().copied().collect()
+}
+
+/// Returns the band of several curves, up to the end that all of them reach; `None` if no curve has
+/// two points.
+fn band(curves: &[Curve]) -> Option<[Vec<CurvePoint>; 3]> {
+    let curves: Vec<&Curve> = curves.iter().filter(|curve| curve.len() > 1).collect();
+    let beginnings = curves.iter().map(|curve| curve[0].0);
+    let ends = curves.iter().map(|curve| curve[curve.len() - 1].0);
+    let low = beginnings.min_by(f64::total_cmp)?;
+    let high = ends.min_by(f64::total_cmp)?;
+    let mut band = [const { Vec::new() }; 3];
+    for step in 0..=BAND_POINTS {
+        let indentation = low + (high - low) * step as f64 / BAND_POINTS as f64;
+        let forces = curves.iter().map(|curve| force_at(curve, indentation));
+        let forces = Statistics::of(forces.collect(), (f64::NEG_INFINITY, f64::INFINITY))?;
+        let deviation = forces
+            .spread
+            .map_or(0.0, |spread| spread.standard_deviation);
+        for (curve, sign) in band.iter_mut().zip([-1.0, 0.0, 1.0]) {
+            let force = forces.mean + sign * deviation;
+            curve.push(CurvePoint {
+                indentation,
+                force,
+                ..CurvePoint::default()
+            });
+        }
+    }
+    Some(band)
 }
 
 /// Steps of a band.
@@ -156,12 +171,13 @@ fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
     let after = points
         .partition_point(|point| point.0 < indentation)
         .clamp(1, points.len() - 1);
-    let [one, other] = [points[after - 1], points[after]];
-    let share = ((indentation - one.0) / (other.0 - one.0)).clamp(0.0, 1.0);
+    let (left, left_force) = points[after - 1];
+    let (right, right_force) = points[after];
+    let share = ((indentation - left) / (right - left)).clamp(0.0, 1.0);
     if share.is_nan() {
-        one.1
+        left_force
     } else {
-        one.1 + share * (other.1 - one.1)
+        left_force + share * (right_force - left_force)
     }
 }
 
@@ -179,14 +195,8 @@ mod tests {
             counts.push((loops.maps, loops.curves.len()));
             shares.push(loops.share);
         };
-        let loops = SquareLoops::of(
-            scene.scene(),
-            Simulation::default(),
-            1,
-            &|| false,
-            &mut report,
-        )
-        .unwrap();
+        let control = Control::default().on_threads(1).reporting_to(&mut report);
+        let loops = SquareLoops::of(scene.scene(), &mut Simulation::default(), control).unwrap();
         // There is progress before the only square is finished.
         assert_eq!((counts[0], shares[0]), ((1, 0), 0.0));
         assert_eq!(counts.last(), Some(&(1, 1)));
@@ -208,13 +218,8 @@ mod tests {
         assert_eq!(Some(ratio), loops.headline().map(|headline| headline.ratio));
         assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
         assert_eq!(loops.bands().len(), 2);
-        let stopped = SquareLoops::of(
-            scene.scene(),
-            Simulation::default(),
-            1,
-            &|| true,
-            &mut |_| (),
-        );
+        let control = Control::default().stopped_by(&|| true);
+        let stopped = SquareLoops::of(scene.scene(), &mut Simulation::default(), control);
         assert!(stopped.is_err());
     }
 

@@ -89,6 +89,7 @@ impl Folder {
     ///
     /// ```
     /// use asperity_study::folders::Status;
+    /// use asperity_data::Control;
     /// use asperity_study::{Folder, Plan, Quantity, Results, Shard, merge, run_study};
     ///
     /// let scene = asperity_scene::open("jkr-sphere")?.set("numerics.points", "256")?;
@@ -100,7 +101,7 @@ impl Folder {
     /// )?;
     /// let place = tempfile::tempdir()?;
     /// let folder = Folder::create(place.path(), &plan)?;
-    /// run_study(&folder, Shard::WHOLE, 2, &|| false, &mut |_| ())?;
+    /// run_study(&folder, Shard::WHOLE, Control::default().on_threads(2))?;
     /// assert_eq!(
     ///     (Status::of(&folder)?.missing, merge(&folder)?.records),
     ///     (0, 2)

@@ -2,17 +2,16 @@
 
 use super::merge::write_merged;
 use crate::cli::error::CliError;
-use crate::cli::progress::{ProgressLine, stop_by_signal};
+use crate::cli::progress::{ProgressLine, SignalWatch};
 use crate::cli::scene::{Overrides, threads};
-use asperity_data::memory_size;
+use asperity_data::{Control, memory_size};
 use asperity_report::progress_text;
 use asperity_study::folders::Status;
-use asperity_study::{Changes, Folder, Plan, Shard, merge, run_study};
+use asperity_study::{Changes, Folder, Plan, Shard, StudyProgress, merge, run_study};
 use clap::Args;
 use std::io;
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// Time between two lines of progress if standard error is no terminal.
@@ -76,35 +75,35 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Ok(());
     };
     let folder = Folder::create(output, &plan)?;
-    let stop = stop_by_signal()?;
-    let (mut line, mut last) = (ProgressLine::default(), None::<Instant>);
-    let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    let signal = || stop.load(Ordering::SeqCst);
-    let ended = run_study(
-        &folder,
-        shard,
-        jobs as usize,
-        &|| signal() != 0,
-        &mut |progress| {
-            let text = progress_text(progress);
-            let is_due =
-                progress.is_complete() || last.is_none_or(|last| last.elapsed() >= BETWEEN);
-            if is_due {
-                last = Some(Instant::now());
-            }
-            line.show(&text, is_due.then_some(&text));
-        },
-    );
+    let watch = SignalWatch::begin()?;
+    let stop = || watch.is_signalled();
+    let mut line = ProgressLine::default();
+    let mut printed = None::<Instant>;
+    let mut report = |progress: &StudyProgress| {
+        let text = progress_text(progress);
+        let is_due =
+            progress.is_complete() || printed.is_none_or(|printed| printed.elapsed() >= BETWEEN);
+        if is_due {
+            printed = Some(Instant::now());
+        }
+        line.show(&text, is_due.then_some(&text));
+    };
+    let control = Control::default()
+        .on_threads(jobs as usize)
+        .stopped_by(&stop)
+        .reporting_to(&mut report);
+    let ended = run_study(&folder, arguments.shard.unwrap_or(Shard::WHOLE), control);
     line.keep();
     let ended = ended?;
     if !ended.is_complete() {
-        let (done, total) = (ended.done, ended.total);
+        let StudyProgress { done, total, .. } = ended;
         let stopped = format!(
             "stopped: {done} of {total} records are complete; the same command continues the study"
         );
-        return Err(CliError::interrupted(&stop, stopped));
+        return Err(watch.interrupted(stopped));
     }
-    if arguments.shard.is_some() {
+    drop(watch);
+    if let Some(shard) = arguments.shard {
         let _ = writeln!(
             stderr,
             "all {} records of shard {} exist",

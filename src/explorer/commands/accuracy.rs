@@ -9,11 +9,12 @@ use crate::explorer::panes;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::snapshot::Preview;
 use crate::explorer::studies::{Study, ensemble_key};
-use asperity_data::parallel::threads;
+use asperity_data::Control;
 use asperity_scene::discretisation::{Choice, ChoiceError, choose, parse_tolerance};
-use asperity_scene::{CheckedScene, Document, Estimate, estimate};
+use asperity_scene::{CheckedScene, Document, Estimate, RunError, estimate};
 use asperity_study::Ensemble;
 use asperity_study::half_space::SquareLoops;
+use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -47,9 +48,10 @@ pub fn studies(app: &mut App) -> Vec<Study> {
             wanted.push(Study::new(
                 generation,
                 is_long,
-                move |_, stop, _: &mut dyn FnMut(Estimate)| {
-                    let known = estimate(&of.scene, Path::new(FOLDER), &of.outcome, stop);
-                    known.ok_or_else(|| "the error cannot be estimated".to_owned())
+                move |_, control: Control<'_, Estimate>| {
+                    let folder = Path::new(FOLDER);
+                    let known = estimate(&of.scene, folder, &of.outcome, control.stop());
+                    known.ok_or("the error cannot be estimated")
                 },
             ));
             wanted.extend(measured::study(app));
@@ -67,12 +69,9 @@ pub fn studies(app: &mut App) -> Vec<Study> {
 /// Computes the outcome of the scene with the value being typed.
 fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
-    Study::new(document.text(), false, move |simulation, stop, _| {
-        let outcome = simulation.run(&scene, stop, &mut |_, _, _| Ok(()));
-        Ok(Preview {
-            text,
-            outcome: outcome.map_err(|error| error.to_string())?,
-        })
+    Study::new(document.text(), false, move |simulation, control| {
+        let outcome = simulation.run(&scene, control.stop(), &mut |_, _, _| Ok(()))?;
+        Ok::<_, RunError>(Preview { text, outcome })
     })
 }
 
@@ -81,12 +80,8 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     let profiles = Ensemble::profiles_of(&scene);
     (profiles > 1).then(|| {
-        Study::new(key, is_long, move |simulation, stop, report| {
-            let solver = (std::mem::take(simulation), threads());
-            let found = Ensemble::of(&scene, &[], profiles, solver, stop, &mut |_, part| {
-                report(part())
-            });
-            found.map_err(|error| error.to_string())
+        Study::new(key, is_long, move |simulation, control| {
+            Ensemble::of(&scene, &[], profiles, simulation, control)
         })
     })
 }
@@ -94,26 +89,24 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
 /// Computes loops of random squares in three dimensions.
 fn squares(app: &App) -> Study {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
-    Study::new(key, true, move |simulation, stop, report| {
-        let own = std::mem::take(simulation);
-        let found = SquareLoops::of(&scene, own, threads(), stop, &mut |part| {
-            report(part.clone())
-        });
-        found.map_err(|error| error.to_string())
+    Study::new(key, true, move |simulation, control| {
+        SquareLoops::of(&scene, simulation, control)
     })
 }
 
 /// Searches the smallest number of springs of a scene for a tolerance.
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
-    Study::new(generation, false, move |_, stop, report| {
-        let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut |points| {
-            report(Choosing {
+    Study::new(generation, false, move |_, mut control| {
+        let stop = control.stop();
+        let mut report = |points: u64| {
+            control.report(Choosing {
                 tolerance,
                 tried: Some(points),
                 found: None,
             });
-        });
-        Ok(Choosing {
+        };
+        let found = choose(&scene, Path::new(FOLDER), tolerance, stop, &mut report);
+        Ok::<_, Infallible>(Choosing {
             tolerance,
             tried: None,
             found: Some(found),

@@ -12,6 +12,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use asperity_data::{Control, format_rounded, one_unit};
 use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
+use std::convert::Infallible;
 use std::sync::Arc;
 
 /// Number of computed curves between two progress reports of a fit.
@@ -27,34 +28,35 @@ pub fn study(app: &App) -> Option<Study> {
     Some(match app.studies.value::<Fitting>() {
         Some(Fitting { free, .. }) => {
             let free = free.clone();
-            Study::new(app.edit.generation, true, move |_, stop, report| {
-                let mut count = |evaluations: u64| {
+            Study::new(app.edit.generation, true, move |_, mut control| {
+                let control_of_fit = control.of_part();
+                let mut count = |evaluations: &u64| {
                     if evaluations.is_multiple_of(REPORTED) {
-                        report(Fitting {
+                        control.report(Fitting {
                             free: free.clone(),
-                            evaluations,
+                            evaluations: *evaluations,
                             found: None,
                         });
                     }
                 };
                 let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
-                let found = fit.run(
-                    &curve,
-                    Control::default().stopped_by(stop).reporting_to(&mut count),
-                );
+                let found = fit.run(&curve, control_of_fit.reporting_to(&mut count));
                 let found = found.map(Arc::new).map_err(|error| error.to_string());
-                Ok(Fitting {
+                Ok::<_, Infallible>(Fitting {
                     free: free.clone(),
                     evaluations: 0,
                     found: Some(found),
                 })
             })
         }
-        None => Study::new(app.edit.generation, true, move |_, stop, _| {
-            let fit = Fit::of(&document).free(Parameter::Offset);
-            let found = fit.run(&curve, Control::default().stopped_by(stop));
-            found.map(Arc::new).map_err(|error| error.to_string())
-        }),
+        None => Study::new(
+            app.edit.generation,
+            true,
+            move |_, control: Control<'_, Arc<FitResult>>| {
+                let fit = Fit::of(&document).free(Parameter::Offset);
+                fit.run(&curve, control.of_part()).map(Arc::new)
+            },
+        ),
     })
 }
 

@@ -7,10 +7,10 @@ use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use asperity_contact::Move;
-use asperity_data::parallel::threads;
 use asperity_report::found_in_words;
 use asperity_scene::text::ron_float;
 use asperity_study::{Ensemble, Found, Question};
+use std::convert::Infallible;
 use std::sync::Arc;
 
 /// The target that the prompt proposes.
@@ -93,14 +93,11 @@ pub fn study(app: &App) -> Option<Study> {
     Some(Study::new(
         key.clone(),
         false,
-        move |simulation, stop, _| {
-            let mut simulation = std::mem::take(simulation);
+        move |simulation, control| {
             let profiles = Ensemble::profiles_of(&scene);
-            let found = Question::new(&scene, &path, condition, profiles, &mut simulation)
-                .and_then(|question| {
-                    Found::of(question, (simulation, threads()), stop, &mut |_| ())
-                });
-            Ok(Sought {
+            let found = Question::new(&scene, &path, condition, profiles, simulation)
+                .and_then(|question| Found::of(question, simulation, control.of_part()));
+            Ok::<_, Infallible>(Sought {
                 key,
                 found: found.map_err(|error| error.to_string()),
             })

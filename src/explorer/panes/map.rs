@@ -12,6 +12,7 @@ use crate::explorer::theme::Meaning;
 use asperity_data::{format_range, format_rounded, grouped};
 use asperity_plot::{Chart, Figure, Ink, Layer, SHADES, Shape, Sign};
 use asperity_report::{study_curves, study_figure, study_map};
+use asperity_study::StudyError;
 use asperity_study::maps::{Grid, GridCell, GridPlace, LiveMap};
 use asperity_study::{Axis, Plan, Quantity, Statistics};
 use ratatui::layout::Size;
@@ -49,12 +50,15 @@ fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
         plan.scene.numerics.points > MOST_SPRINGS,
     );
     let begun = app.studies.value::<Live>().map(|live| live.map.clone());
-    Some(Study::new(key, is_long, move |_, stop, report| {
-        let mut map = begun
-            .map_or_else(|| LiveMap::new(plan), Ok)
-            .map_err(|error| error.to_string())?;
-        map.compute(stop, &mut |map| report(Live::of(map)));
-        Ok(Live::of(&map))
+    Some(Study::new(key, is_long, move |simulation, mut control| {
+        let mut map = match begun {
+            Some(begun) => begun,
+            None => LiveMap::new(plan)?,
+        };
+        let control_of_map = control.of_part();
+        let mut report = |map: &LiveMap| control.report(Live::of(map));
+        map.compute(simulation, control_of_map.reporting_to(&mut report));
+        Ok::<_, StudyError>(Live::of(&map))
     }))
 }
 

@@ -4,6 +4,7 @@
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
 use crate::explorer::panel::{Body, Panel};
+use crate::explorer::snapshot::SolvedScene;
 use crate::explorer::studies::Study;
 use crate::explorer::text::wrapped;
 use crate::explorer::theme::Meaning;
@@ -27,23 +28,14 @@ pub static ROW: PaneRow = PaneRow {
     },
     report,
     studies: |app, computed| {
-        let (begun, computed) = (
-            app.studies.value::<PreloadCurve>().cloned(),
-            Arc::clone(computed),
-        );
+        let begun = app.studies.value::<PreloadCurve>().cloned();
+        let computed = Arc::clone(computed);
         let scale = app.view.preloads;
         let key = format!("{} {scale:?}", computed.generation);
-        vec![Study::new(key, false, move |simulation, stop, report| {
-            let report: &mut dyn FnMut(&PreloadCurve) = &mut |curve| report(curve.clone());
-            PreloadCurve::compute(
-                (&computed.scene, &computed.outcome),
-                scale,
-                begun,
-                simulation,
-                stop,
-                report,
-            )
-            .map_err(|error| error.to_string())
+        vec![Study::new(key, false, move |simulation, control| {
+            let SolvedScene { scene, outcome, .. } = &*computed;
+            let control = control.on_threads(1);
+            PreloadCurve::of(scene, outcome, scale, begun, simulation, control)
         })]
     },
     help: &[(

@@ -6,7 +6,6 @@ use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::studies::Study;
 use crate::explorer::text::{Part, filled};
-use asperity_data::parallel::threads;
 use asperity_plot::{Figure, Label};
 use asperity_report::{SensitivityReport, sensitivity_chart, sensitivity_table};
 use asperity_study::Sensitivity;
@@ -34,12 +33,7 @@ pub static ROW: PaneRow = PaneRow {
         vec![Study::new(
             computed.generation,
             false,
-            move |simulation, stop, report| {
-                let simulation = (std::mem::take(simulation), threads());
-                let found =
-                    Sensitivity::of(&scene, simulation, stop, &mut |part| report(part.clone()));
-                found.map_err(|error| error.to_string())
-            },
+            move |simulation, control| Sensitivity::of(&scene, simulation, control),
         )]
     },
     help: &[(

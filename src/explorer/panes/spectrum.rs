@@ -22,9 +22,8 @@ pub static ROW: PaneRow = PaneRow {
     panel,
     studies: |app, computed| {
         let solved = Arc::clone(computed);
-        let spectra = Study::new(computed.generation, false, move |simulation, _, _| {
-            let spectra = SceneSpectra::new(&solved.scene, &solved.outcome, simulation);
-            spectra.map_err(|error| error.to_string())
+        let spectra = Study::new(computed.generation, false, move |simulation, _| {
+            SceneSpectra::new(&solved.scene, &solved.outcome, simulation)
         });
         let profiles = is_sampled(&computed.scene).then(|| profiles(app, computed));
         [spectra].into_iter().chain(profiles).collect()
@@ -148,21 +147,16 @@ fn profiles(app: &App, computed: &SolvedScene) -> Study {
         .cloned()
         .unwrap_or_default();
     let scene = Arc::clone(&computed.scene);
-    Study::new(computed.generation, false, move |_, stop, report| {
-        let mut solve = || -> Result<(), RunError> {
-            let faces = read_faces(&scene.measured_paths(Path::new("")))?;
-            let line = EquivalentLine::new(&faces, &scene.measured_options())?;
-            let first = scene.seed().unwrap_or(0);
-            while found.profiles.len() < PROFILES {
-                let seed = first.wrapping_add(found.profiles.len() as u64);
-                found
-                    .profiles
-                    .push(ProfileAdhesion::solve(&scene, &line, seed, stop)?);
-                report(found.clone());
-            }
-            Ok(())
-        };
-        solve().map_err(|error| error.to_string())?;
-        Ok(found)
+    Study::new(computed.generation, false, move |_, mut control| {
+        let faces = read_faces(&scene.measured_paths(Path::new("")))?;
+        let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+        let first = scene.seed().unwrap_or(0);
+        while found.profiles.len() < PROFILES {
+            let seed = first.wrapping_add(found.profiles.len() as u64);
+            let profile = ProfileAdhesion::solve(&scene, &line, seed, control.stop())?;
+            found.profiles.push(profile);
+            control.report(&found);
+        }
+        Ok::<_, RunError>(found)
     })
 }

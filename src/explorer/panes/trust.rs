@@ -47,19 +47,21 @@ pub struct Costs {
 /// begins anew.
 fn study(computed: &SolvedScene) -> Study {
     let scene = Arc::clone(&computed.scene);
-    Study::new(computed.generation, true, move |_, stop, report| {
+    Study::new(computed.generation, true, move |_, mut control| {
         let mut costs = Costs::default();
-        let measured = measure(&scene, Path::new(""), BUDGET, stop, &mut |progress| {
+        let stop = control.stop();
+        let mut report = |progress: Progress<'_>| {
             match progress {
                 Progress::Trying(knob, setting) => {
                     costs.trying = Some(format!("{}: {setting}", knob.name()))
                 }
                 Progress::Rows(table) => costs.table = Some(table.clone()),
             }
-            report(costs.clone());
-        });
-        Ok(Costs {
-            table: Some(measured?),
+            control.report(&costs);
+        };
+        let table = measure(&scene, Path::new(""), BUDGET, stop, &mut report)?;
+        Ok::<_, String>(Costs {
+            table: Some(table),
             trying: None,
         })
     })

@@ -1,6 +1,7 @@
 //! Studies of a measured file: its content is part of the plan.
 
 use super::{compute, tables};
+use asperity::data::Control;
 use asperity::study::{Changes, Folder, Plan, Shard, StudyError, merge, run_study};
 use std::fs;
 use std::path::Path;
@@ -106,7 +107,7 @@ fn a_file_that_has_changed_is_refused() {
     };
     check(begin(place.path(), &plan).unwrap_err());
     // Also if the folder was opened before.
-    check(run_study(&folder, Shard::WHOLE, 1, &|| false, &mut |_| ()).unwrap_err());
+    check(run_study(&folder, Shard::WHOLE, Control::default().on_threads(1)).unwrap_err());
     // With the file restored, the study continues.
     fs::write(&line, profile(1e-7)).unwrap();
     compute(&begin(place.path(), &plan).unwrap(), 1, Shard::WHOLE);
@@ -139,7 +140,8 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
         }
         false
     };
-    let ended = run_study(&other, Shard::WHOLE, 1, &change, &mut |_| ()).unwrap();
+    let control = Control::default().on_threads(1).stopped_by(&change);
+    let ended = run_study(&other, Shard::WHOLE, control).unwrap();
     assert!(ended.is_complete() && asked.into_inner() > 2);
     merge(&other).unwrap();
     assert_eq!(tables(&other), whole);

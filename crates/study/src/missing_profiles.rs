@@ -1,0 +1,83 @@
+//! The profiles that a study in memory lacks, and their computation.
+
+use super::cells::Streak;
+use super::error::StudyError;
+use super::plan::Plan;
+use super::profiles::{Stop, on_profiles};
+use super::recorder::{Recorded, with_recorder};
+use asperity_data::Warning;
+use asperity_scene::{RunError, Simulation};
+
+/// Profiles of a plan that are still to be computed, each in all cells of the plan.
+pub(super) struct MissingProfiles {
+    pub plan: Plan,
+    /// Indices of the profiles.
+    pub lines: Vec<u64>,
+    /// What happens to a cell that cannot be computed.
+    pub failures: Failures,
+}
+
+/// What happens to a cell that cannot be computed on a profile.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Failures {
+    /// It ends the computation.
+    End,
+    /// The reason is kept in place of the values.
+    Keep,
+}
+
+/// Records of one profile in all cells of a plan.
+pub(super) struct SolvedProfile {
+    pub line: u64,
+    pub records: Vec<Recorded>,
+    /// Premises that are not met, each list with the number of the cell.
+    pub warnings: Vec<(u64, Vec<Warning>)>,
+}
+
+impl MissingProfiles {
+    /// Computes the profiles on at most `threads` threads. `receive` gets each of them on the
+    /// calling thread.
+    ///
+    /// # Errors
+    /// A profile or its contact cannot be computed, or `stop` returned true.
+    pub fn solve(
+        &self,
+        simulation: &mut Simulation,
+        threads: usize,
+        stop: &Stop<'_>,
+        receive: &mut dyn FnMut(SolvedProfile),
+    ) -> Result<(), StudyError> {
+        let solve = |simulation: &mut Simulation, line| self.solve_line(simulation, line, stop);
+        on_profiles(
+            &self.plan,
+            &self.lines,
+            simulation,
+            threads,
+            solve,
+            &mut |_, solved| receive(solved),
+        )
+    }
+
+    fn solve_line(
+        &self,
+        simulation: &mut Simulation,
+        line: u64,
+        stop: &Stop<'_>,
+    ) -> Result<SolvedProfile, RunError> {
+        let streak = Streak {
+            cells: 0..self.plan.cells(),
+            line,
+        };
+        with_recorder(&self.plan, simulation, stop, |recorder| {
+            let records = match self.failures {
+                Failures::End => recorder.record(&streak)?.into_iter().map(Ok).collect(),
+                Failures::Keep => recorder.record_each(&streak)?,
+            };
+            Ok(SolvedProfile {
+                line,
+                records,
+                warnings: recorder.take_warnings(),
+            })
+        })
+    }
+}
