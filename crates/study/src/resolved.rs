@@ -6,7 +6,7 @@ use super::spatial::Body;
 use asperity_half_space::check_cells;
 use asperity_scene::{CheckedScene, Roughness, RunError, Scene, Simulation};
 use asperity_surface::Amplitude;
-use asperity_surface::lines::MeasuredRoughness;
+use asperity_surface::lines::{MeasuredRoughness, ModeRange};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -123,12 +123,13 @@ impl Resolved {
             };
             resolved.roughen(spectrum, (kept.first, kept.last), amplitude);
         } else if let Some(line) = simulation.equivalent_line() {
-            let (first, whole) = line.modes(scene.length, usize::MAX)?;
-            let last = keep(first, whole)?;
+            let mut modes = line.modes(scene.length, usize::MAX)?;
+            modes.last = keep(modes.first, modes.last)?;
+            let ModeRange { first, last } = modes;
             let line = line.up_to(TAU * last as f64 / scene.length);
             changed.numerics.points = points(last);
             resolved.measured = Some(Arc::new(MeasuredRoughness::Equivalent(line.clone())));
-            let amplitude = line.amplitude_of_modes(scene.length, (first, last));
+            let amplitude = line.amplitude_of_modes(scene.length, modes);
             resolved.roughen(Spectrum::Measured(line), (first, last), amplitude);
         }
         resolved.line = changed

@@ -7,8 +7,8 @@ use std::path::Path;
 use thiserror::Error;
 
 /// Formats that are read, for messages.
-const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these in gzip; others saved as GWY \
-                                  or X3P in Gwyddion";
+const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these \
+                       in gzip; others saved as GWY or X3P in Gwyddion";
 
 /// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count
 /// from 0, after decompression.
@@ -122,31 +122,26 @@ impl SurfaceError {
         }
     }
 
-    fn find<T>(&self, of: impl Fn(&Place) -> Option<T>) -> Option<T> {
-        self.place().all().find_map(of)
+    /// Returns what the outermost place that has it says, such as a line.
+    fn find<T>(&self, said_by: impl Fn(&Place) -> Option<T>) -> Option<T> {
+        self.place().all().find_map(said_by)
     }
 
     /// Returns the number of the line with the fault, from 1; `None` if the place is not a line of
     /// a text.
     pub fn line(&self) -> Option<usize> {
-        self.find(|place| {
-            if let Place::Line(number) = place {
-                Some(*number)
-            } else {
-                None
-            }
+        self.find(|place| match place {
+            Place::Line(number) => Some(*number),
+            _ => None,
         })
     }
 
     /// Returns the index of the surface with the fault, from 0; `None` if the fault lies in all
     /// surfaces together.
     pub fn surface(&self) -> Option<usize> {
-        self.find(|place| {
-            if let Place::Surface(index, _) = place {
-                Some(*index)
-            } else {
-                None
-            }
+        self.find(|place| match place {
+            Place::Surface(index, _) => Some(*index),
+            _ => None,
         })
     }
 
@@ -161,12 +156,9 @@ impl SurfaceError {
 
     /// Returns the path of the file with the fault, if a scene names this file.
     pub fn file(&self) -> Option<String> {
-        self.find(|place| {
-            if let Place::FileOf(_, file, _) = place {
-                Some(file.clone())
-            } else {
-                None
-            }
+        self.find(|place| match place {
+            Place::FileOf(_, file, _) => Some(file.clone()),
+            _ => None,
         })
     }
 
@@ -218,26 +210,22 @@ impl From<ReadError> for SurfaceError {
 
 impl From<TextFault> for SurfaceError {
     fn from(fault: TextFault) -> Self {
-        let (place, found, allowed) = match fault {
+        match fault {
             TextFault::NotText { line, byte } => {
                 let found = format!("byte {byte} of the line is zero, so this is no text");
-                (Place::Line(line), found, FORMATS.to_owned())
+                refused(Place::Line(line), found, FORMATS)
             }
             TextFault::LongLine { line } => {
-                let most = format!("{} bytes", TextFault::LONGEST_LINE);
-                (
-                    Place::Line(line),
-                    format!("longer than {most}"),
-                    format!("at most {most}"),
-                )
+                let most = TextFault::LONGEST_LINE;
+                let found = format!("longer than {most} bytes");
+                refused(Place::Line(line), found, format!("at most {most} bytes"))
             }
-            TextFault::OutOfMemory(error) => return error.into(),
+            TextFault::OutOfMemory(error) => error.into(),
             other => {
                 let allowed = "numbers with decimal points, or without separators of thousands";
-                (Place::File, other.to_string(), allowed.to_owned())
+                refused(Place::File, other, allowed)
             }
-        };
-        refused(place, found, allowed)
+        }
     }
 }
 

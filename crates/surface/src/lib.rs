@@ -55,6 +55,7 @@ pub mod lines {
     pub use crate::line::modes::phases;
     pub use crate::line::rigid_line::{Histogram, Line};
     pub use crate::line::roughness::Synthesizer;
+    pub use crate::line::spectrum::ModeRange;
     pub use crate::line::table::Rows;
 }
 

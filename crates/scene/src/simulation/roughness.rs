@@ -4,7 +4,9 @@ use super::outcome::RunError;
 use crate::analysis::premises::MeasuredFacts;
 use crate::scene::fields::MOST_POINTS;
 use crate::scene::model::{SPRINGS_PER_WAVE, Scene};
-use asperity_surface::lines::{MeasuredOptions, MeasuredRoughness, Synthesizer, read_faces};
+use asperity_surface::lines::{
+    MeasuredOptions, MeasuredRoughness, ModeRange, Synthesizer, read_faces,
+};
 use asperity_surface::{Amplitude, EquivalentLine, SelfAffine, SurfaceError};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -156,7 +158,7 @@ impl RoughnessMaker {
                 let heights = self
                     .synthesizer
                     .synthesize_waves(&of_mode, modes, seed, points, shift, memory)?;
-                self.phases_drawn += modes.1 + 1 - modes.0;
+                self.phases_drawn += modes.last + 1 - modes.first;
                 let amplitude = line.amplitude_of_modes(length, modes);
                 let facts = MeasuredFacts {
                     scan: TAU / line.range()[0],
@@ -168,7 +170,7 @@ impl RoughnessMaker {
                     heights,
                     unit: None,
                     measured: Some(amplitude),
-                    modes: Some(modes),
+                    modes: Some((modes.first, modes.last)),
                     facts: Some(facts),
                 })
             }
@@ -208,21 +210,16 @@ pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
 }
 
 /// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a
-/// profile of this length in m, with these first and last modes and this rms height in m.
-fn long_waves(
-    line: &EquivalentLine,
-    length: f64,
-    (first, last): (u64, u64),
-    rms_height: f64,
-) -> f64 {
+/// profile of this length in m, with these modes and this rms height in m.
+fn long_waves(line: &EquivalentLine, length: f64, modes: ModeRange, rms_height: f64) -> f64 {
     let mut squared_height = 0.0;
-    for mode in first..=last {
+    for mode in modes.first..=modes.last {
         squared_height += 0.5 * line.amplitude(mode, length).powi(2);
         if squared_height >= LONG_WAVES * rms_height * rms_height {
             return mode as f64;
         }
     }
-    last as f64
+    modes.last as f64
 }
 
 /// Returns the root mean square of heights in m about their mean.

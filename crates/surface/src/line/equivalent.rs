@@ -2,7 +2,7 @@
 
 use super::measured::{Face, MeasuredOptions, MeasuredProfile, TRANSFORM_BYTES};
 use super::roughness::Synthesizer;
-use super::spectrum::Amplitude;
+use super::spectrum::{Amplitude, ModeRange, ModeSquare};
 use crate::error::{Place, SurfaceError, refused};
 use crate::spectrum::analysis::Analysis;
 use crate::spectrum::isotropic::IsotropicSpectrum;
@@ -59,12 +59,11 @@ impl EquivalentLine {
     /// Returns [`SurfaceError`] for a face without a file, and for a file that holds no surface or
     /// has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
-        let spectra = faces
-            .iter()
-            .map(|face| Ok(options.analyse(face)?.isotropic));
-        Ok(EquivalentLine {
-            faces: spectra.collect::<Result<_, SurfaceError>>()?,
-        })
+        let mut spectra = Vec::new();
+        for face in faces {
+            spectra.push(options.analyse(face)?.isotropic);
+        }
+        Ok(EquivalentLine { faces: spectra })
     }
 
     /// Computes the heights in m of a random profile of this length in m, at the middles of
@@ -74,24 +73,23 @@ impl EquivalentLine {
     /// Returns an error if no wave of the spectrum fits the length and is resolved by the points,
     /// or if the memory is too small.
     pub fn heights(&self, length: f64, points: usize, seed: u64) -> Result<Vec<f64>, SurfaceError> {
-        let (modes, of_mode) = (self.modes(length, points)?, |mode: u64| {
-            self.amplitude(mode, length)
-        });
+        let modes = self.modes(length, points)?;
         check_room(TRANSFORM_BYTES * points as u64).map_err(SurfaceError::of_springs)?;
-        Synthesizer::default().synthesize_waves(&of_mode, modes, seed, points, 0.0, Vec::new())
+        let amplitude = |mode: u64| self.amplitude(mode, length);
+        Synthesizer::default().synthesize_waves(&amplitude, modes, seed, points, 0.0, Vec::new())
     }
 
     /// Returns the line with a random error of the spectrum of each face, drawn from the
     /// distribution of the errors of its fit and multiplied by `share`. `number` is the seed: equal
     /// numbers give equal errors.
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
-        let of_face = |(face, spectrum): (u64, &IsotropicSpectrum)| {
+        let mut faces = Vec::new();
+        for (index, spectrum) in (0_u64..).zip(&self.faces) {
             // Faces are independent of each other.
-            spectrum.drawn(number ^ face.rotate_right(1), share)
-        };
-        EquivalentLine {
-            faces: (0..).zip(&self.faces).map(of_face).collect(),
+            let number_of_face = number ^ index.rotate_right(1);
+            faces.push(spectrum.drawn(number_of_face, share));
         }
+        EquivalentLine { faces }
     }
 
     /// Computes the moments of the line, such as the rms height, with their standard errors.
@@ -107,16 +105,20 @@ impl EquivalentLine {
     /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
     /// wave number that the spectra of all faces have, the last the largest of any face.
     pub fn range(&self) -> [f64; 2] {
-        let ranges = self.faces.iter().map(IsotropicSpectrum::range);
-        ranges.fold([0.0, 0.0], |[first, last], [low, high]| {
-            [first.max(low), last.max(high)]
-        })
+        let mut first = 0.0_f64;
+        let mut last = 0.0_f64;
+        for face in &self.faces {
+            let [low, high] = face.range();
+            first = first.max(low);
+            last = last.max(high);
+        }
+        [first, last]
     }
 
     /// Returns the first and the last mode k of a line of the length L = `length` in m on `points`
     /// springs. Mode k is the wave with the wave number q = 2πk/L. The modes are the waves of the
     /// spectrum that fit the line and that the springs resolve. Returns an error if there is none.
-    pub fn modes(&self, length: f64, points: usize) -> Result<(u64, u64), SurfaceError> {
+    pub fn modes(&self, length: f64, points: usize) -> Result<ModeRange, SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
         let first = (low * waves * (1.0 - ROUNDING)).ceil().max(1.0);
@@ -124,15 +126,19 @@ impl EquivalentLine {
             .floor()
             .min((points / 2) as f64);
         if first > last {
-            let [long, short] = [low, high].map(|wave_number| TAU / wave_number);
-            let fault = format!(
-                "no wave of the spectrum, from {short:e} to {long:e} m, fits on length = {length:e} m with \
-                 numerics.points = {points}"
+            let longest = TAU / low;
+            let shortest = TAU / high;
+            let found = format!(
+                "no wave of the spectrum, from {shortest:e} to {longest:e} m, fits on length = \
+                 {length:e} m with numerics.points = {points}"
             );
             let allowed = "at least 2 springs for each of at least one wave";
-            return Err(refused(Place::File, fault, allowed));
+            return Err(refused(Place::File, found, allowed));
         }
-        Ok((first as u64, last as u64))
+        Ok(ModeRange {
+            first: first as u64,
+            last: last as u64,
+        })
     }
 
     /// Returns the same line without the waves whose wave number is above this one, in rad/m.
@@ -167,24 +173,30 @@ impl EquivalentLine {
 
     fn squared_amplitude(&self, waves: f64, length: f64) -> f64 {
         let wave_number = TAU * waves / length;
-        let power = |face: &IsotropicSpectrum| {
+        let mut power = 0.0;
+        for face in &self.faces {
+            let [_, end] = face.range();
             // A wave may exceed the end by rounding.
-            let end = face.range()[1];
-            face.line(if wave_number <= end * (1.0 + ROUNDING) {
-                wave_number.min(end)
+            let is_at_end = wave_number <= end * (1.0 + ROUNDING);
+            power += if is_at_end {
+                face.line(wave_number.min(end))
             } else {
-                wave_number
-            })
-        };
-        4.0 * self.faces.iter().map(power).sum::<f64>() / length
+                face.line(wave_number)
+            };
+        }
+        4.0 * power / length
     }
 
     /// Computes the roughness amplitude, such as the rms height, of a line of this length in m that
-    /// has only the modes `first..=last`.
-    pub fn amplitude_of_modes(&self, length: f64, (first, last): (u64, u64)) -> Amplitude {
-        let squares = |mode: u64| (mode, 0.5 * self.amplitude(mode, length).powi(2));
+    /// has only these modes.
+    pub fn amplitude_of_modes(&self, length: f64, modes: ModeRange) -> Amplitude {
+        let square = |mode: u64| ModeSquare {
+            mode,
+            square: 0.5 * self.amplitude(mode, length).powi(2),
+        };
         // Starts with the smallest amplitudes.
-        Amplitude::from_modes((first..=last).rev().map(squares), length)
+        let modes = (modes.first..=modes.last).rev();
+        Amplitude::from_modes(modes.map(square), length)
     }
 }
 
@@ -205,15 +217,15 @@ impl MeasuredRoughness {
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn new(faces: &[Face], options: &MeasuredOptions) -> Result<Self, SurfaceError> {
-        match faces {
-            [face] if options.as_line.is_some() && face.len() == 1 => {
-                let (path, content) = &face[0];
-                let profile = MeasuredProfile::new(content, options);
-                let profile = profile.map_err(|error| error.in_measured(path))?;
-                Ok(MeasuredRoughness::Profile(profile))
-            }
-            _ => EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent),
+        if let [face] = faces
+            && let [(path, content)] = &face[..]
+            && options.as_line.is_some()
+        {
+            let profile = MeasuredProfile::new(content, options);
+            let profile = profile.map_err(|error| error.in_measured(path))?;
+            return Ok(MeasuredRoughness::Profile(profile));
         }
+        EquivalentLine::new(faces, options).map(MeasuredRoughness::Equivalent)
     }
 }
 
@@ -259,12 +271,9 @@ mod tests {
     fn a_surface_has_the_rms_height_of_its_line() {
         let side = 256e-6;
         let line = line_with(&continued()).up_to(64.0 * TAU / side);
-        let (first, last) = line.modes(side, 4096).unwrap();
-        assert_eq!((first, last), (1, 64));
-        let of_line = line
-            .amplitude_of_modes(side, (first, last))
-            .rms_height
-            .powi(2);
+        let modes = line.modes(side, 4096).unwrap();
+        assert_eq!((modes.first, modes.last), (1, 64));
+        let of_line = line.amplitude_of_modes(side, modes).rms_height.powi(2);
         let waves = (-70..=70_i32)
             .flat_map(|x| (-70..=70_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
         let of_surface: f64 = waves
@@ -281,9 +290,10 @@ mod tests {
     fn the_line_has_the_waves_that_scan_and_springs_resolve() {
         let line = line_with(&MeasuredOptions::default());
         let scan = 256e-6;
-        assert_eq!(line.modes(scan, 1024).unwrap(), (1, 127));
-        assert_eq!(line.modes(scan, 64).unwrap(), (1, 32));
-        assert_eq!(line.modes(4.0 * scan, 4096).unwrap().0, 4);
+        let modes = |first: u64, last: u64| ModeRange { first, last };
+        assert_eq!(line.modes(scan, 1024).unwrap(), modes(1, 127));
+        assert_eq!(line.modes(scan, 64).unwrap(), modes(1, 32));
+        assert_eq!(line.modes(4.0 * scan, 4096).unwrap().first, 4);
         assert!(
             line.modes(scan, 1)
                 .unwrap_err()
@@ -298,7 +308,7 @@ mod tests {
         );
         let further = continued();
         let longer = line_with(&further);
-        assert_eq!(longer.modes(scan, 1024).unwrap(), (1, 512));
+        assert_eq!(longer.modes(scan, 1024).unwrap(), modes(1, 512));
     }
 
     #[test]
@@ -311,7 +321,8 @@ mod tests {
         };
         let both = faces(&one, &other);
         let length = 256e-6;
-        assert_eq!(both.modes(length, 4096).unwrap(), (1, 512));
+        let modes = both.modes(length, 4096).unwrap();
+        assert_eq!((modes.first, modes.last), (1, 512));
         for mode in [1, 127, 128, 512] {
             let [a, b, sum] =
                 [&one, &other, &both].map(|line| line.amplitude(mode, length).powi(2));

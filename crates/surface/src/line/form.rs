@@ -69,30 +69,26 @@ impl Form {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
         };
+        let path = folder.join(file);
         let in_file = |error: SurfaceError| {
-            error.within(|place| {
-                Place::FileOf("form.file", folder.join(file).display().to_string(), place)
-            })
+            error.within(|place| Place::FileOf("form.file", path.display().to_string(), place))
         };
         if rows.0.get().is_none() {
-            let unit = Some(unit.as_str())
-                .filter(|unit| !unit.is_empty())
-                .map(str::parse)
-                .transpose();
-            let unit = unit.map_err(in_file)?;
-            let table = FormTable::read(&folder.join(file), unit).map_err(in_file)?;
+            let unit = if unit.is_empty() {
+                None
+            } else {
+                Some(unit.parse().map_err(in_file)?)
+            };
+            let table = FormTable::read(&path, unit).map_err(in_file)?;
             rows.0.get_or_init(|| table);
         }
         let reach = self.table().map_or(0.0, FormTable::reach);
         if 0.5 * length <= reach * (1.0 + 1e-9) {
             return Ok(());
         }
-        let (fault, most) = (format!("the table ends at r = {reach:e} m"), 2.0 * reach);
-        Err(in_file(refused(
-            Place::File,
-            fault,
-            format!("length at most {most:e} m"),
-        )))
+        let found = format!("the table ends at r = {reach:e} m");
+        let allowed = format!("length at most {:e} m", 2.0 * reach);
+        Err(in_file(refused(Place::File, found, allowed)))
     }
 
     /// Returns the table of a [`Form::Table`]; `None` for other forms, and before [`Form::load`]
@@ -301,8 +297,7 @@ impl Form {
 }
 
 /// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
-/// has the equivalent profile κₙ
-/// |x|ⁿ.
+/// has the equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
     // Logarithms of Γ: the quotient remains finite where its parts would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
@@ -312,6 +307,7 @@ pub fn power_law_factor(exponent: f64) -> f64 {
 /// Argument above which the asymptotic series of H₀ is accurate to rounding. Its smallest term is
 /// about e^−z.
 const LARGE: f64 = 40.0;
+
 /// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up
 /// to `LARGE`.
 const NODES: usize = 56;
@@ -327,7 +323,8 @@ pub fn struve_0(z: f64) -> f64 {
         return FRAC_2_PI * terms.sum::<f64>();
     }
     // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1), down to rounding.
-    let (mut sum, mut term) = (0.0, z.recip());
+    let mut sum = 0.0;
+    let mut term = z.recip();
     for k in 0..LARGE as u32 {
         sum += term;
         let next = -term * ((2.0 * f64::from(k) + 1.0) / z).powi(2);

@@ -1,7 +1,7 @@
 //! Measured surfaces as roughness: the profile of a file as an equivalent line, or a random
 //! equivalent line with the measured spectrum.
 
-use super::spectrum::Amplitude;
+use super::spectrum::{Amplitude, ModeSquare};
 use crate::error::{Place, SurfaceError, refused};
 use crate::spectrum::analysis::{Analysis, AnalysisOptions, analyse};
 use crate::topography::open::{content, parse, parse_all};
@@ -60,10 +60,13 @@ impl MeasuredProfile {
 
     /// Returns the length in m that the profile covers.
     pub fn length(&self) -> f64 {
-        self.cell()
-            .map_or_else(|| self.span(), |cell| cell * self.positions.len() as f64)
+        match self.cell() {
+            Some(cell) => cell * self.positions.len() as f64,
+            None => self.span(),
+        }
     }
 
+    /// Returns the distance in m from the first to the last point.
     fn span(&self) -> f64 {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
@@ -72,68 +75,65 @@ impl MeasuredProfile {
     /// = 0.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
-        first_uneven(&self.positions, 0.5 * cell, cell)
-            .is_none()
-            .then_some(cell)
+        let is_even = first_uneven(&self.positions, 0.5 * cell, cell).is_none();
+        is_even.then_some(cell)
     }
 
-    /// Computes the root mean square height (m) about the mean and the root mean square gradient of
-    /// the polyline through the measured points.
-    fn rms_height_and_gradient(&self) -> (f64, f64) {
+    /// Computes the root mean square height about the mean and the root mean square gradient of the
+    /// polyline through the measured points.
+    fn polyline_moments(&self) -> PolylineMoments {
         let length = self.span();
+        let mean = self.pieces().map(|piece| piece.integral()).sum::<f64>() / length;
+        let square = self
+            .pieces()
+            .map(|piece| piece.squared_about(mean))
+            .sum::<f64>();
+        let gradient = self
+            .pieces()
+            .map(|piece| piece.squared_gradient())
+            .sum::<f64>();
+        PolylineMoments {
+            rms_height: (square / length).sqrt(),
+            rms_gradient: (gradient / length).sqrt(),
+        }
+    }
+
+    /// Returns the pieces of the polyline between neighbouring points.
+    fn pieces(&self) -> impl Iterator<Item = Piece> {
         // Differences of heights, not heights: an offset may be far larger than the roughness.
         let level = self.heights[0];
-        let pieces = || {
-            let heights = self
-                .heights
-                .windows(2)
-                .map(|z| (z[0] - level, z[1] - level));
-            self.positions
-                .windows(2)
-                .zip(heights)
-                .map(|(x, (a, b))| (x[1] - x[0], a, b))
-        };
-        let mean = pieces().map(|(dx, a, b)| dx * (a + b) / 2.0).sum::<f64>() / length;
-        let square = pieces()
-            .map(|(dx, a, b)| (a - mean, b - mean, dx))
-            .map(|(a, b, dx)| dx * (a * a + a * b + b * b) / 3.0)
-            .sum::<f64>();
-        let gradient = pieces()
-            .map(|(dx, a, b)| (b - a) * (b - a) / dx)
-            .sum::<f64>();
-        ((square / length).sqrt(), (gradient / length).sqrt())
+        let positions = self.positions.windows(2);
+        positions
+            .zip(self.heights.windows(2))
+            .map(move |(x, z)| Piece {
+                width: x[1] - x[0],
+                from: z[0] - level,
+                to: z[1] - level,
+            })
     }
 
     /// Computes the rms height, the rms gradient, the rms curvature and the mean wave number of the
     /// profile.
     pub fn amplitude(&self) -> Result<Amplitude, SurfaceError> {
-        let (rms_height, rms_gradient) = self.rms_height_and_gradient();
+        let moments = self.polyline_moments();
         let points = self.positions.len();
         check_room(TRANSFORM_BYTES * points as u64)?;
-        let begins = self.begins(self.length()).unwrap_or(self.positions[0]);
-        let mut heights = self.heights_from(begins, self.length() / points as f64, points, 0.0)?;
-        let curvature = rms_curvature(&heights, self.length() / points as f64);
+        let length = self.length();
+        let spacing = length / points as f64;
+        let begins = self.begins(length).unwrap_or(self.positions[0]);
+        let mut heights = self.heights_from(begins, spacing, points, 0.0)?;
+        let rms_curvature = rms_curvature(&heights, spacing);
         join_ends(&mut heights);
-        let plan = plan_real_forward(points);
-        let mut modes = plan.make_output_vec();
-        plan.process(&mut heights, &mut modes)
-            .map_err(|error| SurfaceError::Transform(error.to_string()))?;
-        let squares = (1_u64..).zip(&modes[1..]).map(|(mode, coefficient)| {
-            // For a wave of two points both exponentials are in one coefficient.
-            let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
-            (
-                mode,
-                exponentials * (coefficient / points as f64).norm_sqr(),
-            )
-        });
-        let of_modes = Amplitude::from_modes(squares, self.length());
-        let mean = of_modes.mean_wave_number * (of_modes.rms_height / rms_height).powi(2);
-        let mean_wave_number = if mean.is_finite() { mean } else { 0.0 };
+        let modes = modes(heights)?;
+
+        let of_modes = Amplitude::from_modes(modes.into_iter(), length);
+        let height_ratio = of_modes.rms_height / moments.rms_height;
+        let mean = of_modes.mean_wave_number * height_ratio.powi(2);
         Ok(Amplitude {
-            rms_height,
-            rms_gradient,
-            rms_curvature: curvature,
-            mean_wave_number,
+            rms_height: moments.rms_height,
+            rms_gradient: moments.rms_gradient,
+            rms_curvature,
+            mean_wave_number: if mean.is_finite() { mean } else { 0.0 },
         })
     }
 
@@ -155,15 +155,14 @@ impl MeasuredProfile {
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn sample(&self, length: f64, points: usize, shift: f64) -> Result<Vec<f64>, SurfaceError> {
-        let begins = self.begins(length).map_err(|covers| {
-            let fault = format!("the profile covers {covers:e} m");
-            refused(
-                Place::File,
-                fault,
-                format!("at least length = {length:e} m"),
-            )
-        })?;
-        Ok(self.heights_from(begins, length / points as f64, points, shift)?)
+        match self.begins(length) {
+            Ok(begins) => Ok(self.heights_from(begins, length / points as f64, points, shift)?),
+            Err(covers) => {
+                let found = format!("the profile covers {covers:e} m");
+                let allowed = format!("at least length = {length:e} m");
+                Err(refused(Place::File, found, allowed))
+            }
+        }
     }
 
     /// Computes the heights in m at the centres of `points` cells of this width (m), displaced by
@@ -176,17 +175,16 @@ impl MeasuredProfile {
         shift: f64,
     ) -> Result<Vec<f64>, OutOfMemory> {
         let places = (0..points).map(|index| begins + (index as f64 + 0.5 - shift) * cell);
-        gathered(
-            points,
-            interpolated(&self.positions, &self.heights, self.level(), places),
-        )
+        let heights = interpolated(&self.positions, &self.heights, self.level(), places);
+        gathered(points, heights)
     }
 
     /// Returns the position in m at which a line of this length (m) begins on the profile. If the
     /// profile is too short, the error is the length that it covers in m.
     fn begins(&self, length: f64) -> Result<f64, f64> {
         let points = self.positions.len() as f64;
-        let (first, distance) = (self.positions[0], self.span() / (points - 1.0));
+        let first = self.positions[0];
+        let distance = self.span() / (points - 1.0);
         let is_even_from = |first: f64| first_uneven(&self.positions, first, distance).is_none();
         let begins = if is_even_from(0.5 * distance) {
             0.0
@@ -210,15 +208,69 @@ impl MeasuredProfile {
     /// it are exact, else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
-        let (low, high) = (0.5 * first.abs(), 2.0 * first.abs());
         // By Sterbenz' lemma.
-        let is_exact = |height: &f64| (low..=high).contains(&(height * first.signum()));
+        let exact = 0.5 * first.abs()..=2.0 * first.abs();
+        let is_exact = |height: &f64| exact.contains(&(height * first.signum()));
         if self.heights.iter().all(is_exact) {
             first
         } else {
             0.0
         }
     }
+}
+
+/// Moments of the polyline through the points of a profile.
+struct PolylineMoments {
+    /// Root mean square height in m about the mean.
+    rms_height: f64,
+    rms_gradient: f64,
+}
+
+/// A piece of the polyline through the points of a profile. Lengths are in m.
+struct Piece {
+    width: f64,
+    /// Heights at its ends.
+    from: f64,
+    to: f64,
+}
+
+impl Piece {
+    fn integral(&self) -> f64 {
+        self.width * (self.from + self.to) / 2.0
+    }
+
+    /// Returns the integral of the squared height above a mean.
+    fn squared_about(&self, mean: f64) -> f64 {
+        let from = self.from - mean;
+        let to = self.to - mean;
+        self.width * (from * from + from * to + to * to) / 3.0
+    }
+
+    /// Returns the integral of the squared gradient.
+    fn squared_gradient(&self) -> f64 {
+        let rise = self.to - self.from;
+        rise * rise / self.width
+    }
+}
+
+/// Returns the mean squares of the modes of heights at the points of a periodic profile.
+fn modes(mut heights: Vec<f64>) -> Result<Vec<ModeSquare>, SurfaceError> {
+    let points = heights.len();
+    let plan = plan_real_forward(points);
+    let mut coefficients = plan.make_output_vec();
+    plan.process(&mut heights, &mut coefficients)
+        .map_err(|error| SurfaceError::Transform(error.to_string()))?;
+    let modes = (1_u64..)
+        .zip(&coefficients[1..])
+        .map(|(mode, coefficient)| {
+            // For a wave of two points both exponentials are in one coefficient.
+            let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
+            ModeSquare {
+                mode,
+                square: exponentials * (coefficient / points as f64).norm_sqr(),
+            }
+        });
+    Ok(modes.collect())
 }
 
 /// Computes the root mean square curvature in 1/m of heights at this spacing in m, from second
@@ -238,9 +290,9 @@ fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
     let slope = (beside - (heights[0] - heights[last])) / heights.len() as f64;
-    (0..)
-        .zip(heights)
-        .for_each(|(index, height): (u32, _)| *height -= slope * f64::from(index));
+    for (index, height) in (0_u32..).zip(heights) {
+        *height -= slope * f64::from(index);
+    }
 }
 
 /// Paths and contents of the measured files of one face, one of the two surfaces that touch each
@@ -250,14 +302,16 @@ pub type Face = Vec<(PathBuf, Vec<u8>)>;
 /// Reads the files with these paths into memory. `faces` has the paths of the files of each
 /// [`Face`].
 pub fn read_faces(faces: &[Vec<PathBuf>]) -> Result<Vec<Face>, SurfaceError> {
-    let read = |path: &PathBuf| match content(path) {
-        Ok(content) => Ok((path.clone(), content)),
-        Err(error) => Err(error.in_measured(path)),
-    };
-    faces
-        .iter()
-        .map(|face| face.iter().map(read).collect())
-        .collect()
+    faces.iter().map(|face| read_face(face)).collect()
+}
+
+fn read_face(paths: &[PathBuf]) -> Result<Face, SurfaceError> {
+    let mut face = Vec::new();
+    for path in paths {
+        let content = content(path).map_err(|error| error.in_measured(path))?;
+        face.push((path.clone(), content));
+    }
+    Ok(face)
 }
 
 impl MeasuredOptions {
@@ -266,16 +320,19 @@ impl MeasuredOptions {
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
-        let (mut surfaces, mut files) = (Vec::new(), Vec::new());
+        let mut surfaces = Vec::new();
+        // Path of the file of each surface.
+        let mut paths: Vec<&Path> = Vec::new();
         for (path, content) in face {
-            let read =
-                parse_all(content, &self.reading).map_err(|error| error.in_measured(path))?;
-            files.resize(files.len() + read.len(), path);
-            surfaces.extend(read);
+            let of_file = parse_all(content, &self.reading);
+            let of_file = of_file.map_err(|error| error.in_measured(path))?;
+            paths.resize(paths.len() + of_file.len(), path);
+            surfaces.extend(of_file);
         }
         analyse(&surfaces, &self.spectrum).map_err(|error| {
-            let file = files.get(error.surface().unwrap_or(0));
-            error.in_measured(file.map_or(Path::new(""), |path| path))
+            let index = error.surface().unwrap_or(0);
+            let path = paths.get(index).copied();
+            error.in_measured(path.unwrap_or(Path::new("")))
         })
     }
 }
@@ -375,7 +432,10 @@ mod tests {
             "point 2: a slope of 2e9 from the point before; allowed: at most 1e9"
         );
         let steepest = parsed("-1e9 1e9\n-999999998 -1e9\n1e9 1e9").unwrap();
-        let (height, gradient) = steepest.rms_height_and_gradient();
+        let PolylineMoments {
+            rms_height: height,
+            rms_gradient: gradient,
+        } = steepest.polyline_moments();
         assert!(height.is_finite() && gradient.is_finite() && steepest.length() == 2e9);
     }
 
@@ -428,7 +488,10 @@ mod tests {
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),
             ("6e-5 5\n1 5\n3 5", 0.0, 0.0),
         ] {
-            let (height, gradient) = parsed(text).unwrap().rms_height_and_gradient();
+            let PolylineMoments {
+                rms_height: height,
+                rms_gradient: gradient,
+            } = parsed(text).unwrap().polyline_moments();
             assert!(
                 (height - f64::sqrt(square)).abs() < 1e-15 && (gradient - slope).abs() < 1e-15,
                 "{text}"

@@ -15,9 +15,8 @@ const BLOCK: usize = 64;
 /// is below 1e-18. For |x| ≤ 1/1024 six terms suffice.
 const TERMS: usize = 10;
 
-/// (sin y − y)/y³ and (cos y − 1 + y²/2)/y⁴ as polynomials in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest
-/// power first. These are minimax approximations. The errors of sine and cosine are at most 4e-18
-/// in addition to rounding.
+/// (sin y − y)/y³ as a polynomial in y² for |y| ≤ π/4 (1 + 2⁻⁹), lowest power first. It is a
+/// minimax approximation. The error of the sine is at most 4e-18 in addition to rounding.
 const SINE: [f64; 6] = [
     -0.166_666_666_666_666_32,
     0.008_333_333_333_322_418,
@@ -26,6 +25,8 @@ const SINE: [f64; 6] = [
     -2.505_075_838_419_456_7e-8,
     1.589_681_178_661_149_6e-10,
 ];
+
+/// (cos y − 1 + y²/2)/y⁴ in the same way.
 const COSINE: [f64; 6] = [
     0.041_666_666_666_666_6,
     -0.001_388_888_888_887_413_1,
@@ -94,24 +95,27 @@ impl Modes {
         for (((coefficient, word), amplitude), count) in
             block.iter_mut().zip(words).zip(amplitudes).zip(COUNTS)
         {
-            let (sine, cosine) = sine_and_cosine(fraction(*word) + self.advance * (before + count));
+            let turns = fraction(*word) + self.advance * (before + count);
+            let SineAndCosine { sine, cosine } = sine_and_cosine(turns);
             *coefficient = Complex64::new(amplitude * cosine, amplitude * sine);
         }
     }
 
     /// Returns half the amplitudes of the block that follows the mode `before`.
     fn half_amplitudes(&self, before: u64) -> [f64; BLOCK] {
-        // Below a roll-off each mode is computed by itself.
-        match if (before as f64) < self.spectrum.roll_off_mode {
-            0
-        } else {
-            before
-        } {
-            0..512 => std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64)),
+        if (before as f64) < self.spectrum.roll_off_mode {
+            return self.half_amplitudes_one_by_one(before);
+        }
+        match before {
+            0..512 => self.half_amplitudes_one_by_one(before),
             512..2048 => self.half_amplitudes_in_series::<16, TERMS>(before),
             2048..32_768 => self.half_amplitudes_in_series::<64, TERMS>(before),
             _ => self.half_amplitudes_in_series::<64, 6>(before),
         }
+    }
+
+    fn half_amplitudes_one_by_one(&self, before: u64) -> [f64; BLOCK] {
+        std::array::from_fn(|lane| self.half_amplitude(before + 1 + lane as u64))
     }
 
     /// Returns half the amplitudes of the block that follows the mode `before`. Each is expanded
@@ -124,7 +128,8 @@ impl Modes {
         let mut amplitudes = [0.0; BLOCK];
         let mut middle = before + SPAN as u64 / 2;
         for span in amplitudes.as_chunks_mut::<SPAN>().0 {
-            let (at_middle, inverse) = (self.half_amplitude(middle), (middle as f64).recip());
+            let at_middle = self.half_amplitude(middle);
+            let inverse = (middle as f64).recip();
             for (amplitude, count) in span.iter_mut().zip(COUNTS) {
                 let x = (count - (SPAN / 2) as f64) * inverse;
                 *amplitude = at_middle + at_middle * (x * polynomial(&self.series[..COUNT], x));
@@ -139,9 +144,14 @@ impl Modes {
     }
 }
 
+struct SineAndCosine {
+    sine: f64,
+    cosine: f64,
+}
+
 /// Computes the sine and the cosine of 2π `turns`, for `turns` from 0 to 2.
 #[inline(always)]
-fn sine_and_cosine(turns: f64) -> (f64, f64) {
+fn sine_and_cosine(turns: f64) -> SineAndCosine {
     // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits.
     // So the nearest quarter is found to 2⁻¹⁰ in any rounding of the sum.
     const ALIGN: f64 = 6_597_069_766_656.0;
@@ -156,11 +166,11 @@ fn sine_and_cosine(turns: f64) -> (f64, f64) {
     let swap = 0_u64.wrapping_sub(quarters & 1);
     let sine_sign = (quarters & 2) << 62;
     let cosine_sign = (quarters.wrapping_add(1) & 2) << 62;
-    let chosen = |one: u64, other: u64| (one & !swap) | (other & swap);
-    (
-        f64::from_bits(chosen(sine, cosine) ^ sine_sign),
-        f64::from_bits(chosen(cosine, sine) ^ cosine_sign),
-    )
+    let chosen = |unswapped: u64, swapped: u64| (unswapped & !swap) | (swapped & swap);
+    SineAndCosine {
+        sine: f64::from_bits(chosen(sine, cosine) ^ sine_sign),
+        cosine: f64::from_bits(chosen(cosine, sine) ^ cosine_sign),
+    }
 }
 
 /// Computes Σ c_i x^i for an even number of coefficients. Even and odd powers are summed
@@ -239,7 +249,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for word in (0..200_000_u64).map(|index| index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) {
             let turns = fraction(word) + (word & 1) as f64 * 0.75;
-            let (sine, cosine) = sine_and_cosine(turns);
+            let SineAndCosine { sine, cosine } = sine_and_cosine(turns);
             // Within an eighth of a turn the angle is as exact as its turns.
             let quarters = (4.0 * turns).round();
             let (s, c) = (TAU * (turns - 0.25 * quarters)).sin_cos();
@@ -251,7 +261,8 @@ mod tests {
         assert!(worst <= 2.3e-16, "{worst:e}");
         for quarter in 0..8 {
             let expected = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][quarter % 4];
-            assert_eq!(sine_and_cosine(0.25 * quarter as f64), expected);
+            let SineAndCosine { sine, cosine } = sine_and_cosine(0.25 * quarter as f64);
+            assert_eq!((sine, cosine), expected);
         }
     }
 

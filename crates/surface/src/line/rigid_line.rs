@@ -67,10 +67,12 @@ impl Line {
         form: Option<&Form>,
         scale: f64,
     ) -> Result<Self, SurfaceError> {
-        let (points, spacing) = (gaps.len(), length / gaps.len() as f64);
-        let under = form.map_or(0..points as u64, |form| {
-            form.springs_under(length, points as u64)
-        });
+        let points = gaps.len();
+        let spacing = length / points as f64;
+        let under = match form {
+            Some(form) => form.springs_under(length, points as u64),
+            None => 0..points as u64,
+        };
         if under.is_empty() {
             return Err(no_springs(spacing));
         }
@@ -78,28 +80,20 @@ impl Line {
         gaps.truncate(under.end as usize);
         gaps.drain(..first);
         match form {
-            None => gaps.iter_mut().for_each(|z| *z *= scale),
+            None => gaps.iter_mut().for_each(|height| *height *= scale),
             Some(form) => {
-                // Whole cells from the axis: exact, so that the profile is as symmetric as its
-                // form.
-                let axis = Form::spring_on_axis(points as u64) as f64;
-                let depths = form
-                    .table()
-                    .map(|table| table.depths(spacing, points / 2 + 1))
-                    .transpose()?;
-                let depth = |index: usize| match &depths {
-                    Some(depths) => depths[index.abs_diff(points / 2)],
-                    None => form.mdr_profile((index as f64 - axis) * spacing),
-                };
-                (first..)
-                    .zip(&mut gaps)
-                    .for_each(|(index, z)| *z = scale * *z - depth(index));
+                let depths = Depths::new(form, points, spacing)?;
+                for (index, height) in (first..).zip(&mut gaps) {
+                    *height = scale * *height - depths.depth(index);
+                }
             }
         }
+
         let not_finite = |index| not_finite(first + index);
         let summit = largest(&gaps).map_err(not_finite)?;
-        gaps.iter_mut()
-            .for_each(|height| *height = summit - *height);
+        for height in &mut gaps {
+            *height = summit - *height;
+        }
         let deepest = largest(&gaps).map_err(not_finite)?;
         Ok(Line {
             gaps: Arc::new(gaps),
@@ -140,6 +134,42 @@ impl Line {
     }
 }
 
+/// Depths of the equivalent profile of a form at the springs.
+struct Depths<'a> {
+    form: &'a Form,
+    points: usize,
+    spacing: f64,
+    /// Depths of a table at the springs from its axis on.
+    of_table: Option<Vec<f64>>,
+}
+
+impl<'a> Depths<'a> {
+    fn new(form: &'a Form, points: usize, spacing: f64) -> Result<Self, SurfaceError> {
+        let of_table = match form.table() {
+            Some(table) => Some(table.depths(spacing, points / 2 + 1)?),
+            None => None,
+        };
+        Ok(Depths {
+            form,
+            points,
+            spacing,
+            of_table,
+        })
+    }
+
+    fn depth(&self, index: usize) -> f64 {
+        match &self.of_table {
+            Some(depths) => depths[index.abs_diff(self.points / 2)],
+            None => {
+                // Whole cells from the axis: exact, so that the profile is as symmetric as its
+                // form.
+                let axis = Form::spring_on_axis(self.points as u64) as f64;
+                self.form.mdr_profile((index as f64 - axis) * self.spacing)
+            }
+        }
+    }
+}
+
 /// Returns the largest value. The error is the index of the first value that is not finite.
 fn largest(values: &[f64]) -> Result<f64, usize> {
     // In parallel: a sequence of comparisons would wait for each one.
@@ -155,10 +185,8 @@ fn largest(values: &[f64]) -> Result<f64, usize> {
     whole.iter().for_each(|eight| take(eight));
     take(rest);
     if !all_finite {
-        return Err(values
-            .iter()
-            .position(|value| !value.is_finite())
-            .unwrap_or(0));
+        let index = values.iter().position(|value| !value.is_finite());
+        return Err(index.unwrap_or(0));
     }
     Ok(largest.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
@@ -187,9 +215,12 @@ impl Histogram {
         let mut counts = vec![0; bins.max(1)];
         let last = counts.len() - 1;
         let scale = counts.len() as f64 / (high - low);
-        for height in heights.filter(|height| (low..=high).contains(height)) {
-            // The conversion to an integer maps NaN, 0/0 here, to zero.
-            counts[(((height - low) * scale) as usize).min(last)] += 1;
+        for height in heights {
+            if (low..=high).contains(&height) {
+                // The conversion to an integer maps NaN, 0/0 here, to zero.
+                let bin = ((height - low) * scale) as usize;
+                counts[bin.min(last)] += 1;
+            }
         }
         Histogram { low, high, counts }
     }
@@ -198,22 +229,16 @@ impl Histogram {
 /// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells
 /// of this width in m.
 fn no_springs(spacing: f64) -> SurfaceError {
+    let found = "no spring lies under the punch";
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
-    refused(
-        Place::Field("form.radius"),
-        "no spring lies under the punch",
-        allowed,
-    )
+    refused(Place::Field("form.radius"), found, allowed)
 }
 
 /// Returns the error of the first height that is not finite, at the spring with this index.
 fn not_finite(spring: usize) -> SurfaceError {
+    let found = "the line has a height that is not finite";
     let allowed = "a form and roughness whose heights are finite";
-    refused(
-        Place::Point(spring + 1),
-        "the line has a height that is not finite",
-        allowed,
-    )
+    refused(Place::Point(spring + 1), found, allowed)
 }
 
 #[cfg(test)]

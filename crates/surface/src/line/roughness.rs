@@ -2,7 +2,7 @@
 //! transform.
 
 use super::modes::{Modes, phases};
-use super::spectrum::SelfAffine;
+use super::spectrum::{ModeRange, SelfAffine};
 use crate::error::SurfaceError;
 use asperity_data::{in_parallel, memory};
 use asperity_fourier::{Complex64, ComplexToReal, plan_real_inverse};
@@ -33,9 +33,8 @@ struct Transform {
 impl Transform {
     fn planned(points: usize) -> Result<Self, SurfaceError> {
         let plan = plan_real_inverse(points);
-        let zeros = |count| memory::resized(Vec::new(), count, Complex64::ZERO);
-        let coefficients = zeros(points / 2 + 1)?;
-        let scratch = zeros(plan.get_scratch_len())?;
+        let coefficients = memory::resized(Vec::new(), points / 2 + 1, Complex64::ZERO)?;
+        let scratch = memory::resized(Vec::new(), plan.get_scratch_len(), Complex64::ZERO)?;
         Ok(Transform {
             points,
             plan,
@@ -58,26 +57,30 @@ impl Synthesizer {
         memory: Vec<f64>,
     ) -> Result<Vec<f64>, SurfaceError> {
         let modes = Modes::new(spectrum, seed, points, 0.5 - shift);
-        let draw = |first: usize, drawn: &mut [Complex64]| {
+        let range = ModeRange {
+            first: spectrum.first,
+            last: spectrum.last,
+        };
+        self.transform(range, points, memory, |first, coefficients| {
+            let is_worth_a_thread = coefficients.len() >= MANY_MODES;
+            let middle = coefficients.len() / 2;
+            let (lower, upper) = coefficients.split_at_mut(middle);
             // Another thread draws the modes from the middle on.
-            let middle = drawn.len() / 2;
-            let (lower, upper) = drawn.split_at_mut(middle);
             in_parallel(
-                lower.len() + upper.len() >= MANY_MODES,
+                is_worth_a_thread,
                 || modes.draw((first + middle) as u64, upper),
                 || modes.draw(first as u64, lower),
             );
-        };
-        self.transform((spectrum.first, spectrum.last), points, memory, draw)
+        })
     }
 
-    /// Sums cosine waves with k = `first..=last` periods over the length. Their amplitudes
-    /// `amplitude`(k) are in m, and their phases come from the seed. `last` is at most `points`/2.
-    /// The heights are at the same positions as the heights of [`Self::synthesize`].
+    /// Sums the cosine waves with k periods over the length, for all `modes` k. Their amplitudes
+    /// `amplitude`(k) are in m, and their phases come from the seed. The last mode is at most
+    /// `points`/2. The heights are at the same positions as the heights of [`Self::synthesize`].
     pub fn synthesize_waves(
         &mut self,
         amplitude: &dyn Fn(u64) -> f64,
-        (first, last): (u64, u64),
+        modes: ModeRange,
         seed: u64,
         points: usize,
         shift: f64,
@@ -85,36 +88,40 @@ impl Synthesizer {
     ) -> Result<Vec<f64>, SurfaceError> {
         // Phase advance of mode 1 at the first point of the grid.
         let advance = TAU * (0.5 - shift) / points as f64;
-        self.transform((first, last), points, memory, |_, drawn| {
-            for ((mode, phase), coefficient) in (first..).zip(phases(seed, first)).zip(drawn) {
-                *coefficient =
-                    Complex64::from_polar(0.5 * amplitude(mode), phase + advance * mode as f64);
+        let first = modes.first;
+        self.transform(modes, points, memory, |_, coefficients| {
+            let with_phases = coefficients.iter_mut().zip(phases(seed, first));
+            for (mode, (coefficient, phase)) in (first..).zip(with_phases) {
+                let phase = phase + advance * mode as f64;
+                *coefficient = Complex64::from_polar(0.5 * amplitude(mode), phase);
             }
         })
     }
 
-    /// Computes the heights of the modes `first..=last`. `draw` fills in their coefficients ½ A_k
-    /// e^(iφ), from the mode `first` on.
+    /// Computes the heights of these modes. `draw` fills in their coefficients ½ A_k e^(iφ), from
+    /// the mode of its first argument on.
     fn transform(
         &mut self,
-        (first, last): (u64, u64),
+        modes: ModeRange,
         points: usize,
         memory: Vec<f64>,
         draw: impl FnOnce(usize, &mut [Complex64]),
     ) -> Result<Vec<f64>, SurfaceError> {
-        let kept = self.transform.take().filter(|kept| kept.points == points);
-        let mut transform = kept.map_or_else(|| Transform::planned(points), Ok)?;
+        let mut transform = match self.transform.take() {
+            Some(kept) if kept.points == points => kept,
+            _ => Transform::planned(points)?,
+        };
         let mut heights = memory::resized(memory, points, 0.0)?;
 
         let coefficients = transform.coefficients.as_mut_slice();
-        let nyquist = 2 * last == points as u64;
-        let (first, end) = (first as usize, (last as usize).saturating_add(1));
+        let end = (modes.last as usize).saturating_add(1);
         let end = end.min(coefficients.len());
-        let first = first.min(end);
+        let first = (modes.first as usize).min(end);
         coefficients[..first].fill(Complex64::ZERO);
         coefficients[end..].fill(Complex64::ZERO);
         draw(first, &mut coefficients[first..end]);
-        if nyquist {
+        let has_nyquist = 2 * modes.last == points as u64;
+        if has_nyquist {
             // At the grid's Nyquist wave vector both exponentials of the cosine coincide.
             coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
         }

@@ -78,7 +78,7 @@ impl SelfAffine {
     /// assert!((wave.gradient_per_height(1.0) / TAU - 1.0).abs() < 1e-12);
     /// ```
     pub fn gradient_per_height(&self, length: f64) -> f64 {
-        std::f64::consts::TAU / length * (self.moment(2) / self.moment(0)).sqrt()
+        TAU / length * (self.moment(2) / self.moment(0)).sqrt()
     }
 
     /// Returns the roughness amplitude of a profile that has this spectrum, the rms height 1 m and
@@ -95,7 +95,8 @@ impl SelfAffine {
     /// assert!(amplitude.rms_height == 1e-7 && amplitude.rms_gradient > 0.0);
     /// ```
     pub fn unit_amplitude(&self, length: f64) -> Amplitude {
-        let (unit, height) = (std::f64::consts::TAU / length, self.moment(0));
+        let unit = TAU / length;
+        let height = self.moment(0);
         Amplitude {
             rms_height: 1.0,
             rms_gradient: self.gradient_per_height(length),
@@ -110,33 +111,37 @@ impl SelfAffine {
     ///
     /// Returns 0 for a single mode.
     pub fn continuum_gradient_per_height(&self, length: f64) -> f64 {
-        let (low, high) = (self.first as f64, self.last as f64);
-        let between = self.roll_off_mode.max(low).min(high);
-        let integral = |power: i32| {
-            let decays = integral_of_power(self.exponent(power), between, high);
-            if between == low {
-                return decays;
-            }
-            decays + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, between)
-        };
-        let height = integral(0);
+        let height = self.continuum_moment(0);
         if height == 0.0 {
             return 0.0;
         }
-        std::f64::consts::TAU / length * (integral(2) / height).sqrt()
+        TAU / length * (self.continuum_moment(2) / height).sqrt()
+    }
+
+    /// Computes ∫ k^power A_k² dk from the first to the last mode with the relative amplitudes.
+    fn continuum_moment(&self, power: i32) -> f64 {
+        let low = self.first as f64;
+        let high = self.last as f64;
+        let roll_off = self.roll_off_mode.max(low).min(high);
+        let above = integral_of_power(self.exponent(power), roll_off, high);
+        if roll_off == low {
+            return above;
+        }
+        above + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, roll_off)
     }
 
     /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error
     /// of a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
-        let begins = (self.roll_off_mode.ceil() as u64)
+        let first_above = (self.roll_off_mode.ceil() as u64)
             .max(self.first)
             .min(self.last.saturating_add(1));
-        let decays = sum_of_powers(self.exponent(power), begins, self.last);
-        if begins == self.first {
-            return decays;
+        let above = sum_of_powers(self.exponent(power), first_above, self.last);
+        if first_above == self.first {
+            return above;
         }
-        decays + self.flat_level() * sum_of_powers(f64::from(power) + 1.0, self.first, begins - 1)
+        let below = sum_of_powers(f64::from(power) + 1.0, self.first, first_above - 1);
+        above + self.flat_level() * below
     }
 
     /// Returns the exponent of k in k^power A_k² for modes above the roll-off.
@@ -148,6 +153,22 @@ impl SelfAffine {
     fn flat_level(&self) -> f64 {
         self.roll_off_mode.powf(-2.0 - 2.0 * self.hurst)
     }
+}
+
+/// The modes of a profile, from the first to the last one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ModeRange {
+    /// First mode, the longest wave.
+    pub first: u64,
+    /// Last mode, the shortest wave.
+    pub last: u64,
+}
+
+/// Mean square height of a mode.
+pub(crate) struct ModeSquare {
+    pub mode: u64,
+    /// A_k²/2 in m² of mode k.
+    pub square: f64,
 }
 
 /// Roughness amplitude of a profile: rms height, gradient and curvature, and the mean wave number.
@@ -187,11 +208,14 @@ impl Amplitude {
         }
     }
 
-    /// Computes the amplitude of modes k with these mean squares A_k²/2 (m²) on a length in m. The
-    /// smallest come first, for accuracy.
-    pub(crate) fn from_modes(squares: impl Iterator<Item = (u64, f64)>, length: f64) -> Self {
-        let (mut height, mut slope, mut gradient, mut curvature) = (0.0, 0.0, 0.0, 0.0);
-        for (mode, square) in squares {
+    /// Computes the amplitude of a profile with these modes on a length in m. The smallest come
+    /// first, for accuracy.
+    pub(crate) fn from_modes(modes: impl Iterator<Item = ModeSquare>, length: f64) -> Self {
+        let mut height = 0.0;
+        let mut slope = 0.0;
+        let mut gradient = 0.0;
+        let mut curvature = 0.0;
+        for ModeSquare { mode, square } in modes {
             let wave_number = TAU * mode as f64 / length;
             height += square;
             slope += square * wave_number;
@@ -309,7 +333,10 @@ mod tests {
             // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
             let squares = (first..=last).rev().map(|mode| {
                 let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
-                (mode, mode as f64 * power)
+                ModeSquare {
+                    mode,
+                    square: mode as f64 * power,
+                }
             });
             let summed = Amplitude::from_modes(squares.clone(), length);
             let (expected, found) = (
@@ -328,7 +355,8 @@ mod tests {
                 );
             }
             let level = spectrum.relative_amplitude(first).powi(2) / (first as f64);
-            for (mode, square) in squares.map(|(mode, square)| (mode, square * level)) {
+            for ModeSquare { mode, square } in squares {
+                let square = square * level;
                 let found = spectrum.relative_amplitude(mode).powi(2);
                 let first_square = (first as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
                 assert!(
@@ -345,7 +373,7 @@ mod tests {
                     .map(|q| q.powi(power + 2) * (q / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst))
                     .sum()
             };
-            let expected = std::f64::consts::TAU / length * (integral(2) / integral(0)).sqrt();
+            let expected = TAU / length * (integral(2) / integral(0)).sqrt();
             let found = spectrum.continuum_gradient_per_height(length);
             assert!(
                 first == last || (found / expected - 1.0).abs() < 1e-7,

@@ -16,14 +16,20 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 /// Number of points of the interpolation of the rows far inside, with an error of 1e-15.
 const NODES: usize = 20;
+
 /// Number of points at which the equivalent profile is searched for its falling part.
 const STEPS: usize = 1024;
+
 /// Smallest allowed distance of two rows over the radius of the last row. The digits of a file
 /// resolve no smaller one.
 const CLOSEST: f64 = 1e-9;
 
+/// Decrease of the depth over the largest depth up to which it may result from rounded numbers.
+const ROUNDED: f64 = 1e-9;
+
 /// Sine of the angle of an interval between rows below which power series are accurate to rounding.
 const NARROW: f64 = 0.05;
+
 /// Power series of (arcsin s)/s in s².
 const ARCSINE: [f64; 6] = [
     1.0,
@@ -33,14 +39,19 @@ const ARCSINE: [f64; 6] = [
     105.0 / 3456.0,
     945.0 / 42240.0,
 ];
+
 /// Power series of (1 − cos δ)/δ² in δ².
 const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
+
 /// Power series of (δ − sin δ)/δ³ in δ².
 const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 / 362880.0];
+
 /// Power series of ∫ sin² over δ³ in δ².
 const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
+
 /// Power series of ∫ (1 − cos)² over δ⁵ in δ².
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
+
 /// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the
 /// angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
@@ -49,8 +60,36 @@ static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_ci
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
-    /// Coefficients of f′ between each row and the next, in powers of the distance from the row.
-    slopes: Vec<[f64; 3]>,
+    /// The cubic between each row and the next.
+    cubics: Vec<Cubic>,
+}
+
+/// Depth between two rows as a cubic of the distance s from the first one: f′ = a + b s + c s².
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cubic {
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+impl Cubic {
+    /// Creates the cubic between two rows with these slopes, from the slope of the secant.
+    fn between(width: f64, secant: f64, from: f64, to: f64) -> Self {
+        Cubic {
+            a: from,
+            b: (6.0 * secant - 4.0 * from - 2.0 * to) / width,
+            c: 3.0 * (from + to - 2.0 * secant) / width / width,
+        }
+    }
+
+    /// Returns the difference of the depth from the depth of the first row.
+    fn depth(&self, distance: f64) -> f64 {
+        distance * (self.a + distance * (self.b / 2.0 + distance * (self.c / 3.0)))
+    }
+
+    fn slope(&self, distance: f64) -> f64 {
+        self.a + distance * (self.b + distance * self.c)
+    }
 }
 
 /// Rows of a [`Form::Table`](crate::Form::Table), empty until its file is read.
@@ -59,28 +98,29 @@ pub struct Rows(pub(super) Arc<OnceLock<FormTable>>);
 
 impl PartialEq for Rows {
     fn eq(&self, other: &Self) -> bool {
-        self.0
-            .get()
-            .zip(other.0.get())
-            .is_none_or(|(one, other)| one == other)
+        match (self.0.get(), other.0.get()) {
+            (Some(table), Some(other)) => table == other,
+            // What is not read yet may be equal.
+            _ => true,
+        }
     }
 }
 
 impl FormTable {
     /// Reads a table of two columns in m, unless the file states a unit or `unit` is given.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
-        let convention = Some(Unit::METRE);
         let options = ReadOptions {
             unit,
-            convention,
+            convention: Some(Unit::METRE),
             interpolate: true,
             ..ReadOptions::default()
         };
         let surface = parse(&content(path)?, &options)?;
         if let Some(row) = surface.first_missing() {
+            let found = "the depth is missing";
             return Err(refused(
                 Place::Point(row + 1),
-                "the depth is missing",
+                found,
                 "a number in each row",
             ));
         }
@@ -102,58 +142,20 @@ impl FormTable {
     /// # Ok::<(), asperity_surface::SurfaceError>(())
     /// ```
     pub fn new(radii: Vec<f64>, depths: &[f64]) -> Result<Self, SurfaceError> {
-        let (rows, reach) = (radii.len(), radii.last().copied().unwrap_or(0.0));
-        let row = |index: usize| Place::Point(index + 1);
-        if rows < 2 || depths.len() != rows {
-            let fault = format!("{rows} radii and {} depths", depths.len());
-            return Err(refused(
-                Place::File,
-                fault,
-                "two or more rows of a radius and a depth",
-            ));
+        check_rows(&radii, depths)?;
+        let rows = radii.len();
+        let mut widths = Vec::new();
+        let mut secants = Vec::new();
+        for row in 1..rows {
+            let width = radii[row] - radii[row - 1];
+            widths.push(width);
+            secants.push((depths[row] - depths[row - 1]) / width);
         }
-        let is_finite = |index: &usize| radii[*index].is_finite() && depths[*index].is_finite();
-        if let Some(index) = (0..rows).find(|index| !is_finite(index)) {
-            return Err(refused(
-                row(index),
-                "a number that is not finite",
-                "finite numbers",
-            ));
-        }
-        if radii[0] != 0.0 {
-            let fault = format!("r = {:e} m", radii[0]);
-            return Err(refused(
-                row(0),
-                fault,
-                "r = 0, the axis of the body, in the first row",
-            ));
-        }
-        let widths: Vec<f64> = radii.windows(2).map(|r| r[1] - r[0]).collect();
-        let least = CLOSEST * reach;
-        if let Some(index) = widths
-            .iter()
-            .position(|&width| !(width >= least && width > 0.0))
-        {
-            let fault = format!("r = {:e} m after {:e} m", radii[index + 1], radii[index]);
-            let allowed = format!(
-                "ascending radii at least {least:e} m, a billionth of the last one, beyond each other"
-            );
-            return Err(refused(row(index + 1), fault, allowed));
-        }
-        let secants: Vec<f64> = depths
-            .windows(2)
-            .zip(&widths)
-            .map(|(f, width)| (f[1] - f[0]) / width)
-            .collect();
         let slope = |row: usize| limited_slope(&radii, &secants, row);
-        let cubic = |row: usize| {
-            let (width, secant) = (widths[row], secants[row]);
-            let [from, to] = [slope(row), slope(row + 1)];
-            let bend = (6.0 * secant - 4.0 * from - 2.0 * to) / width;
-            [from, bend, 3.0 * (from + to - 2.0 * secant) / width / width]
-        };
-        let slopes = (0..widths.len()).map(cubic).collect();
-        Ok(FormTable { radii, slopes })
+        let cubic =
+            |row: usize| Cubic::between(widths[row], secants[row], slope(row), slope(row + 1));
+        let cubics = (0..rows - 1).map(cubic).collect();
+        Ok(FormTable { radii, cubics })
     }
 
     /// Returns the radius in m of the last row, the largest radius of the table.
@@ -164,30 +166,26 @@ impl FormTable {
     /// Returns the depth f(r) in m at a radius in m. Beyond the last row the body goes on with its
     /// last slope.
     pub(super) fn depth(&self, radius: f64) -> f64 {
-        let along = |row: usize, distance: f64| {
-            let [a, b, c] = self.slopes[row];
-            distance * (a + distance * (b / 2.0 + distance * (c / 3.0)))
-        };
-        let last = self.slopes.len() - 1;
-        let row = self
-            .radii
-            .partition_point(|start| *start <= radius)
-            .clamp(1, last + 1)
-            - 1;
+        let rows_inside = self.radii.partition_point(|start| *start <= radius);
+        let row = rows_inside.clamp(1, self.cubics.len()) - 1;
         let before: f64 = (0..row)
-            .map(|row| along(row, self.radii[row + 1] - self.radii[row]))
+            .map(|row| self.cubics[row].depth(self.radii[row + 1] - self.radii[row]))
             .sum();
         let beyond = (radius - self.reach()).max(0.0);
         let width = radius - beyond - self.radii[row];
-        let [a, b, c] = self.slopes[row];
-        before + along(row, width) + beyond * (a + width * (b + width * c))
+        let cubic = &self.cubics[row];
+        before + cubic.depth(width) + beyond * cubic.slope(width)
     }
 
     /// Returns the curvature at the summit in 1/m; `None` for a pointed tip.
     pub(super) fn summit_curvature(&self) -> Option<f64> {
-        let [slope, curvature, _] = self.slopes[0];
+        let Cubic {
+            a: slope,
+            b: curvature,
+            ..
+        } = self.cubics[0];
         let is_round = slope.abs() <= 0.1 * (curvature * self.radii[1]).abs();
-        Some(curvature).filter(|curvature| is_round && *curvature >= 0.0)
+        (is_round && curvature >= 0.0).then_some(curvature)
     }
 
     /// Computes the contribution of the interval after a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to
@@ -197,17 +195,17 @@ impl FormTable {
     /// − u (1 − cos δ), where u is the radius of the row and c = √(x² − u²). No term cancels,
     /// however close the rows.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
-        let (u, [a, b, c]) = (self.radii[row], self.slopes[row]);
-        // Of a point on the row, rounding may leave x below u.
+        let u = self.radii[row];
+        let Cubic { a, b, c } = self.cubics[row];
+        // For a point on the row, rounding may leave x below u.
         if end <= u {
             return 0.0;
         }
         let root = |r: f64| ((x - r).max(0.0) * (x + r)).sqrt();
-        let [from, to] = [root(u), root(end)];
+        let from = root(u);
+        let to = root(end);
         let sine = (end - u) * (end + u) / (end * from + u * to);
         if sine < NARROW {
-            let series =
-                |terms: &[f64], z: f64| terms.iter().rev().fold(0.0, |sum, term| sum * z + term);
             let angle = sine * series(&ARCSINE, sine * sine);
             let z = angle * angle;
             let versine = z * series(&VERSINE, z);
@@ -239,50 +237,28 @@ impl FormTable {
 
     /// Returns the depth g in m of the equivalent profile at a distance from the axis in m.
     pub(super) fn mdr_profile(&self, x: f64) -> f64 {
-        let gap = self.radii[1..self.slopes.len()].partition_point(|&r| r <= x);
+        let gap = self.radii[1..self.cubics.len()].partition_point(|&r| r <= x);
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
     /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing`
     /// (m) from the axis, the first on the axis.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
-        // One depth takes a square root for each row nearer the axis. If many depths lie between
-        // two rows, the contributions of rows at least one interval away are therefore interpolated
-        // by a polynomial.
         let mut depths = emptied(Vec::new(), count)?;
-        for gap in 0..self.slopes.len() {
-            let (low, high) = (self.radii[gap], self.radii[gap + 1]);
-            let is_last = gap + 1 == self.slopes.len();
+        for gap in 0..self.cubics.len() {
+            let is_last = gap + 1 == self.cubics.len();
             let end = if is_last {
                 count
             } else {
-                ((high / spacing).ceil() as usize).min(count)
+                let next = self.radii[gap + 1] / spacing;
+                (next.ceil() as usize).min(count)
             };
             let points = depths.len()..end.max(depths.len());
-            let mut near = 0;
-            let mut series = [0.0; NODES];
-            if points.len() > 2 * NODES {
-                near = self.radii[1..=gap].partition_point(|&r| r <= low - (high - low));
-                let angle = |node: usize| (node as f64 + 0.5) * PI / NODES as f64;
-                for node in 0..NODES {
-                    let x = 0.5 * (low + high) + 0.5 * (high - low) * angle(node).cos();
-                    let far = self.parts(0..near, x);
-                    let term = |(order, sum): (usize, &mut f64)| {
-                        *sum += 2.0 / NODES as f64 * far * (order as f64 * angle(node)).cos();
-                    };
-                    series.iter_mut().enumerate().for_each(term);
-                }
-            }
+            let far = FarParts::new(self, gap, points.len());
             depths.extend(points.map(|point| {
                 let x = point as f64 * spacing;
-                let at = 2.0 * (2.0 * x - low - high) / (high - low);
-                // Clenshaw's sum of Chebyshev polynomials.
-                let (one, two) = series[1..]
-                    .iter()
-                    .rev()
-                    .fold((0.0, 0.0), |(one, two), term| (term + at * one - two, one));
-                let far = 0.5 * series[0] + 0.5 * at * one - two;
-                x * (far + self.parts(near..gap, x) + self.part(gap, x, x))
+                let near = self.parts(far.rows..gap, x);
+                x * (far.sum(x) + near + self.part(gap, x, x))
             }));
         }
         Ok(depths)
@@ -294,12 +270,103 @@ impl FormTable {
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;
-        // Rounded numbers of a file.
-        let slack = 1e-9 * depths.iter().copied().fold(0.0, f64::max);
-        depths
-            .windows(2)
-            .position(|pair| pair[1] < pair[0] - slack)
-            .map(|place| place as f64 * step)
+        // The numbers of a file are rounded.
+        let slack = ROUNDED * depths.iter().copied().fold(0.0, f64::max);
+        let mut pairs = depths.windows(2);
+        let place = pairs.position(|pair| pair[1] < pair[0] - slack)?;
+        Some(place as f64 * step)
+    }
+}
+
+/// Returns an error that names the row at fault unless the rows are a table.
+fn check_rows(radii: &[f64], depths: &[f64]) -> Result<(), SurfaceError> {
+    let rows = radii.len();
+    if rows < 2 || depths.len() != rows {
+        let found = format!("{rows} radii and {} depths", depths.len());
+        let allowed = "two or more rows of a radius and a depth";
+        return Err(refused(Place::File, found, allowed));
+    }
+    for row in 0..rows {
+        if !radii[row].is_finite() || !depths[row].is_finite() {
+            let found = "a number that is not finite";
+            return Err(refused(Place::Point(row + 1), found, "finite numbers"));
+        }
+    }
+    if radii[0] != 0.0 {
+        let found = format!("r = {:e} m", radii[0]);
+        let allowed = "r = 0, the axis of the body, in the first row";
+        return Err(refused(Place::Point(1), found, allowed));
+    }
+    let least = CLOSEST * radii[rows - 1];
+    for row in 1..rows {
+        let width = radii[row] - radii[row - 1];
+        if width < least || width <= 0.0 {
+            let found = format!("r = {:e} m after {:e} m", radii[row], radii[row - 1]);
+            let allowed = format!(
+                "ascending radii at least {least:e} m, a billionth of the last one, beyond each other"
+            );
+            return Err(refused(Place::Point(row + 1), found, allowed));
+        }
+    }
+    Ok(())
+}
+
+/// Returns the value of a power series.
+fn series(terms: &[f64], z: f64) -> f64 {
+    terms.iter().rev().fold(0.0, |sum, term| sum * z + term)
+}
+
+/// Contributions to g(x)/x of the rows far inside x.
+///
+/// One depth takes a square root for each row nearer the axis. If many depths lie between two rows,
+/// the contributions of rows at least one interval away are therefore interpolated by a polynomial.
+struct FarParts {
+    /// Number of rows whose contributions are interpolated.
+    rows: usize,
+    /// Interval of x in m.
+    low: f64,
+    high: f64,
+    /// Coefficients of Chebyshev polynomials.
+    coefficients: [f64; NODES],
+}
+
+impl FarParts {
+    /// Prepares the contributions at `points` places in the interval after row `gap`.
+    fn new(table: &FormTable, gap: usize, points: usize) -> Self {
+        let low = table.radii[gap];
+        let high = table.radii[gap + 1];
+        let mut far = FarParts {
+            rows: 0,
+            low,
+            high,
+            coefficients: [0.0; NODES],
+        };
+        if points <= 2 * NODES {
+            return far;
+        }
+        far.rows = table.radii[1..=gap].partition_point(|&r| r <= low - (high - low));
+        for node in 0..NODES {
+            let angle = (node as f64 + 0.5) * PI / NODES as f64;
+            let x = 0.5 * (low + high) + 0.5 * (high - low) * angle.cos();
+            let sum = table.parts(0..far.rows, x);
+            for (order, coefficient) in far.coefficients.iter_mut().enumerate() {
+                *coefficient += 2.0 / NODES as f64 * sum * (order as f64 * angle).cos();
+            }
+        }
+        far
+    }
+
+    /// Returns the sum of the contributions at x in m, by Clenshaw's sum of Chebyshev polynomials.
+    fn sum(&self, x: f64) -> f64 {
+        let twice_place = 2.0 * (2.0 * x - self.low - self.high) / (self.high - self.low);
+        let mut sum = 0.0;
+        let mut sum_before = 0.0;
+        for coefficient in self.coefficients[1..].iter().rev() {
+            let next = coefficient + twice_place * sum - sum_before;
+            sum_before = sum;
+            sum = next;
+        }
+        0.5 * self.coefficients[0] + 0.5 * twice_place * sum - sum_before
     }
 }
 
@@ -309,24 +376,24 @@ impl FormTable {
 /// Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let last = secants.len() - 1;
-    let one = row.saturating_sub(1).min(last.saturating_sub(1));
-    let other = (one + 1).min(last);
+    // Two secants beside or near the row.
+    let inner = row.saturating_sub(1).min(last.saturating_sub(1));
+    let outer = (inner + 1).min(last);
     let middle = |secant: usize| 0.5 * (radii[secant] + radii[secant + 1]);
-    let apart = middle(other) - middle(one);
-    let rise = if apart > 0.0 {
-        (secants[other] - secants[one]) / apart
+    let distance = middle(outer) - middle(inner);
+    let rise = if distance > 0.0 {
+        (secants[outer] - secants[inner]) / distance
     } else {
         0.0
     };
-    let parabola = secants[one] + rise * (radii[row] - middle(one));
-    let beside = [secants[row.saturating_sub(1)], secants[row.min(last)]];
-    let most = 3.0 * beside[0].abs().min(beside[1].abs());
-    let agree = beside
-        .iter()
-        .all(|secant| (*secant > 0.0) == (parabola > 0.0));
-    if agree {
-        parabola.clamp(-most, most)
-    } else {
-        0.0
+    let parabola = secants[inner] + rise * (radii[row] - middle(inner));
+
+    let before = secants[row.saturating_sub(1)];
+    let after = secants[row.min(last)];
+    let ascends = parabola > 0.0;
+    if (before > 0.0) != ascends || (after > 0.0) != ascends {
+        return 0.0;
     }
+    let most = 3.0 * before.abs().min(after.abs());
+    parabola.clamp(-most, most)
 }

@@ -129,15 +129,7 @@ pub fn analyse(
     if surfaces.is_empty() {
         return Err(refused(Place::File, "no surface", "at least one"));
     }
-    let mut points = PointResults::default();
-    let mut powers = Powers::default();
-    for (index, surface) in surfaces.iter().enumerate() {
-        let levelled = LevelledSurface::new(index, surface, options, 0)?;
-        levelled.check_rough(surface)?;
-        points.add(&levelled, options.tip_radius);
-        powers.add(&levelled)?;
-    }
-
+    let Measured { points, powers } = measure(surfaces, options)?;
     let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
     let fits = SpectrumFits::new(&powers, has_gaps, options.end)?;
     let observations = powers.observations(fits.last_wave_number());
@@ -186,6 +178,24 @@ pub fn analyse(
         apart,
         displaced: points.displaced,
     })
+}
+
+/// What follows from the surfaces without a fit.
+#[derive(Default)]
+struct Measured {
+    points: PointResults,
+    powers: Powers,
+}
+
+fn measure(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Measured, SurfaceError> {
+    let mut measured = Measured::default();
+    for (index, surface) in surfaces.iter().enumerate() {
+        let levelled = LevelledSurface::new(index, surface, options, 0)?;
+        levelled.check_rough(surface)?;
+        measured.points.add(&levelled, options.tip_radius);
+        measured.powers.add(&levelled)?;
+    }
+    Ok(measured)
 }
 
 fn is_finite(line: &LineMoments) -> bool {

@@ -3,82 +3,116 @@
 use crate::topography::surface::Detrend;
 use asperity_data::Cholesky;
 
+/// Exponents of x and y of a monomial.
+#[derive(Clone, Copy)]
+struct Monomial {
+    x: i32,
+    y: i32,
+}
+
 impl Detrend {
-    /// Returns the exponents of x and y of the monomials that are removed from a profile or a map.
-    fn monomials(self, is_map: bool) -> Vec<[i32; 2]> {
+    /// Returns the monomials that are removed from a profile or a map.
+    fn monomials(self, is_map: bool) -> Vec<Monomial> {
         let degrees = match self {
             Detrend::None => 0..0,
             Detrend::Mean => 0..1,
             Detrend::Tilt => 0..2,
             Detrend::Curvature => 0..3,
         };
-        let of_degree = |degree: i32| (0..=degree).map(move |y| [degree - y, y]);
-        degrees
-            .flat_map(of_degree)
-            .filter(|[_, y]| is_map || *y == 0)
-            .collect()
+        let mut monomials = Vec::new();
+        for degree in degrees {
+            let largest_y = if is_map { degree } else { 0 };
+            for y in 0..=largest_y {
+                monomials.push(Monomial { x: degree - y, y });
+            }
+        }
+        monomials
     }
 
     /// Removes the least-squares polynomial from heights in rows of `columns` points.
     pub(crate) fn remove(self, heights: &mut [f64], columns: usize) {
-        let rows = heights.len() / columns.max(1);
+        let columns = columns.max(1);
+        let rows = heights.len() / columns;
         let monomials = self.monomials(rows > 1);
-        // From −1 to 1, and relative to the first height: powers and sums keep their digits.
-        let place =
-            |index: usize, count: usize| 2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0;
-        let level = heights
-            .first()
-            .copied()
-            .filter(|_| !monomials.is_empty())
-            .unwrap_or_default();
-        heights.iter_mut().for_each(|height| *height -= level);
-        // Sums over the grid are products of sums along its axes.
-        let powers = |count: usize| -> [f64; 5] {
-            std::array::from_fn(|power| {
-                (0..count)
-                    .map(|index| place(index, count).powi(power as i32))
-                    .sum()
-            })
+        if monomials.is_empty() {
+            return;
+        }
+        let Some(&level) = heights.first() else {
+            return;
         };
-        let (along, between) = (powers(columns), powers(rows));
-        let size = monomials.len();
-        let mut matrix = vec![0.0; size * size];
-        for (row, a) in monomials.iter().enumerate() {
-            for (column, b) in monomials.iter().enumerate() {
-                let [x, y] = [0, 1].map(|axis| (a[axis] + b[axis]) as usize);
-                matrix[row * size + column] = along[x] * between[y];
-            }
+        // Relative to the first height, sums keep their digits.
+        for height in heights.iter_mut() {
+            *height -= level;
         }
-        let mut right = vec![0.0; size];
-        for (row, heights) in heights.chunks_exact(columns.max(1)).enumerate() {
-            let y = place(row, rows);
-            let sums: [f64; 3] = std::array::from_fn(|power| {
-                let terms = heights
-                    .iter()
-                    .enumerate()
-                    .map(|(column, z)| z * place(column, columns).powi(power as i32));
-                terms.sum()
-            });
-            for (value, [a, b]) in right.iter_mut().zip(&monomials) {
-                *value += sums[*a as usize] * y.powi(*b);
-            }
-        }
-        let Some(factor) = Cholesky::new(matrix, size) else {
+        let matrix = normal_matrix(&monomials, columns, rows);
+        let right = right_side(&monomials, heights, columns);
+        let Some(factor) = Cholesky::new(matrix, monomials.len()) else {
             return;
         };
         let coefficients = factor.solve(right);
-        for (row, heights) in heights.chunks_exact_mut(columns.max(1)).enumerate() {
+        for (row, heights) in heights.chunks_exact_mut(columns).enumerate() {
             let y = place(row, rows);
             for (column, height) in heights.iter_mut().enumerate() {
                 let x = place(column, columns);
-                let terms = coefficients
+                let polynomial: f64 = coefficients
                     .iter()
                     .zip(&monomials)
-                    .map(|(c, [a, b])| c * x.powi(*a) * y.powi(*b));
-                *height -= terms.sum::<f64>();
+                    .map(|(coefficient, power)| coefficient * x.powi(power.x) * y.powi(power.y))
+                    .sum();
+                *height -= polynomial;
             }
         }
     }
+}
+
+/// Returns the place of a point on an axis from −1 to 1, so that powers keep their digits.
+fn place(index: usize, count: usize) -> f64 {
+    2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0
+}
+
+/// Returns the sums of the powers 0 to 4 of the places on an axis.
+fn sums_of_powers(count: usize) -> [f64; 5] {
+    std::array::from_fn(|power| {
+        (0..count)
+            .map(|index| place(index, count).powi(power as i32))
+            .sum()
+    })
+}
+
+/// Returns the matrix of the normal equations. Sums over the grid are products of sums along its
+/// axes.
+fn normal_matrix(monomials: &[Monomial], columns: usize, rows: usize) -> Vec<f64> {
+    let along = sums_of_powers(columns);
+    let between = sums_of_powers(rows);
+    let mut matrix = Vec::new();
+    for a in monomials {
+        for b in monomials {
+            let x = (a.x + b.x) as usize;
+            let y = (a.y + b.y) as usize;
+            matrix.push(along[x] * between[y]);
+        }
+    }
+    matrix
+}
+
+/// Returns the right side of the normal equations.
+fn right_side(monomials: &[Monomial], heights: &[f64], columns: usize) -> Vec<f64> {
+    let rows = heights.len() / columns;
+    let mut right = vec![0.0; monomials.len()];
+    for (row, heights) in heights.chunks_exact(columns).enumerate() {
+        let y = place(row, rows);
+        // Sums along the row of the height times a power of x.
+        let sums: [f64; 3] = std::array::from_fn(|power| {
+            let terms = heights.iter().enumerate();
+            terms
+                .map(|(column, z)| z * place(column, columns).powi(power as i32))
+                .sum()
+        });
+        for (value, power) in right.iter_mut().zip(monomials) {
+            *value += sums[power.x as usize] * y.powi(power.y);
+        }
+    }
+    right
 }
 
 #[cfg(test)]

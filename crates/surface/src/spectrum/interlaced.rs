@@ -1,9 +1,10 @@
 //! Maps whose rows alternate between two scans, trace and retrace, that are displaced against each
 //! other along the rows.
 
-/// Largest number of compared pairs of neighbouring rows, of each order, and the largest
-/// displacement searched, in points.
+/// Largest number of pairs of neighbouring rows that are compared, of each order.
 const MOST_PAIRS: usize = 128;
+
+/// Largest displacement searched, in points.
 const REACH: usize = 16;
 
 /// Largest share of the mean square difference of neighbouring rows that may remain after the
@@ -17,32 +18,48 @@ const LEFT: f64 = 0.75;
 /// displacement from each row to the next. The latter results from a lay askew to the rows or from
 /// a drift. A displacement whose sign alternates from row to row comes from two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
-    let rows = heights.len() / columns;
-    let reach = REACH.min(columns / 8);
-    let row = |number: usize| &heights[number * columns..][..columns];
-    let [from_even, from_odd] = [0, 1].map(|first| {
-        let pairs = rows.saturating_sub(1 + first).div_ceil(2);
-        let mut differences = [0.0; 2 * REACH + 1];
-        for pair in (0..pairs).step_by(pairs.div_ceil(MOST_PAIRS).max(1)) {
-            let (one, next) = (row(first + 2 * pair), row(first + 2 * pair + 1));
-            let one = &one[reach..columns - reach];
-            for (moved, sum) in differences.iter_mut().enumerate().take(2 * reach + 1) {
-                *sum += variance(one.iter().zip(&next[moved..]).map(|(z, beside)| beside - z));
-            }
-        }
-        let least = (0..=2 * reach)
-            .min_by(|one, other| differences[*one].total_cmp(&differences[*other]))?;
-        (differences[least] < LEFT * differences[reach]).then_some(least as f64 - reach as f64)
-    });
-    let (one, other) = (from_even?, from_odd?);
-    (one * other < 0.0 && (one + other).abs() <= 1.0).then_some(0.5 * (one - other).abs())
+    // Of odd rows against the even rows before them, and of even rows against the odd rows before.
+    let of_odd = displacement_of_pairs(heights, columns, 0)?;
+    let of_even = displacement_of_pairs(heights, columns, 1)?;
+    let has_two_scans = of_odd * of_even < 0.0 && (of_odd + of_even).abs() <= 1.0;
+    has_two_scans.then_some(0.5 * (of_odd - of_even).abs())
 }
 
-/// Sums the squares of values about their mean, because rows may differ in their mean height.
-fn variance(values: impl Iterator<Item = f64>) -> f64 {
-    let (count, sum, squares) = values.fold((0.0, 0.0, 0.0), |(count, sum, squares), value| {
-        (count + 1.0, sum + value, squares + value * value)
-    });
+/// Returns the number of points by which the second row of each pair is displaced against the first
+/// one. The pairs begin at the rows `first`, `first` + 2, … `None` if the rows are not much more
+/// alike after a displacement.
+fn displacement_of_pairs(heights: &[f64], columns: usize, first: usize) -> Option<f64> {
+    let rows = heights.len() / columns;
+    let reach = REACH.min(columns / 8);
+    let pairs = rows.saturating_sub(1 + first).div_ceil(2);
+    let row = |number: usize| &heights[number * columns..][..columns];
+    let mut differences = [0.0; 2 * REACH + 1];
+    for pair in (0..pairs).step_by(pairs.div_ceil(MOST_PAIRS).max(1)) {
+        let number = first + 2 * pair;
+        let inner = &row(number)[reach..columns - reach];
+        let next = row(number + 1);
+        for (moved, sum) in differences.iter_mut().enumerate().take(2 * reach + 1) {
+            *sum += squares_about_mean(inner, &next[moved..]);
+        }
+    }
+    let least = (0..=2 * reach)
+        .min_by(|moved, other| differences[*moved].total_cmp(&differences[*other]))?;
+    let is_certain = differences[least] < LEFT * differences[reach];
+    is_certain.then_some(least as f64 - reach as f64)
+}
+
+/// Sums the squares of the differences of two rows about their mean, because rows may differ in
+/// their mean height.
+fn squares_about_mean(row: &[f64], next: &[f64]) -> f64 {
+    let mut count = 0.0;
+    let mut sum = 0.0;
+    let mut squares = 0.0;
+    for (height, next) in row.iter().zip(next) {
+        let difference = next - height;
+        count += 1.0;
+        sum += difference;
+        squares += difference * difference;
+    }
     squares - sum * sum / count
 }
 

@@ -150,14 +150,17 @@ impl BandSums {
     }
 }
 
+fn band_number(wave: &Wave) -> f64 {
+    (BANDS_PER_DECADE * wave.wave_number.log10()).floor()
+}
+
 /// Returns the observations of the spectrum of a map up to a wave number in rad/m.
 pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     let least = least_of_map(map) * (1.0 - 1e-9);
     let first = map.waves.partition_point(|wave| wave.wave_number < least);
     let end = map.waves.partition_point(|wave| wave.wave_number <= last);
-    let band = |wave: &Wave| (BANDS_PER_DECADE * wave.wave_number.log10()).floor();
     let bands: Vec<BandSums> = map.waves[first..end.max(first)]
-        .chunk_by(|wave, next| band(wave) == band(next))
+        .chunk_by(|wave, next| band_number(wave) == band_number(next))
         .map(BandSums::new)
         .collect();
 

@@ -24,21 +24,41 @@ pub struct PointStatistics {
     pub kurtosis: f64,
 }
 
+/// Sum of squared slopes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct SlopeSum {
+    squares: f64,
+    count: usize,
+}
+
+impl SlopeSum {
+    fn add(&mut self, slope: f64) {
+        self.squares += slope * slope;
+        self.count += 1;
+    }
+
+    fn mean_square(&self) -> f64 {
+        self.squares / self.count.max(1) as f64
+    }
+}
+
+/// Sums over the points of one or more surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sums {
     points: usize,
     squares: f64,
     cubes: f64,
     fourths: f64,
-    /// Sum of the squared slopes along and between rows, and the number of slopes.
-    slopes: [(f64, usize); 2],
+    slopes_along: SlopeSum,
+    slopes_between: SlopeSum,
     has_profile: bool,
 }
 
 impl Sums {
-    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points. The
-    /// points are at these distances (m) along and between the rows.
-    pub fn add(&mut self, heights: &[f64], columns: usize, [along, between]: [f64; 2]) {
+    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points.
+    /// `distances` are the distances (m) of the points along and between the rows.
+    pub fn add(&mut self, heights: &[f64], columns: usize, distances: [f64; 2]) {
+        let [along, between] = distances;
         let level = heights[0];
         let mean = level + heights.iter().map(|z| z - level).sum::<f64>() / heights.len() as f64;
         self.points += heights.len();
@@ -48,31 +68,33 @@ impl Sums {
             self.cubes += z * z * z;
             self.fourths += (z * z) * (z * z);
         }
-        let mut add = |axis: usize, difference: f64| {
-            self.slopes[axis].0 += difference * difference;
-            self.slopes[axis].1 += 1;
-        };
         for row in heights.chunks_exact(columns) {
-            row.windows(2)
-                .for_each(|pair| add(0, (pair[1] - pair[0]) / along));
+            for pair in row.windows(2) {
+                self.slopes_along.add((pair[1] - pair[0]) / along);
+            }
+        }
+        for (height, next) in heights.iter().zip(heights.iter().skip(columns)) {
+            self.slopes_between.add((next - height) / between);
         }
         let rows = heights.len() / columns;
-        for (below, above) in heights.iter().zip(heights.iter().skip(columns)) {
-            add(1, (above - below) / between);
-        }
         self.has_profile |= rows < 2;
     }
 
     pub fn statistics(&self) -> PointStatistics {
         let count = self.points as f64;
         let square = self.squares / count;
-        let mean_square = |(sum, count): (f64, usize)| sum / count.max(1) as f64;
-        let [along, between] = self.slopes.map(mean_square);
+        let along = self.slopes_along.mean_square();
+        let between = self.slopes_between.mean_square();
+        let rms_gradient = if self.has_profile {
+            None
+        } else {
+            Some((along + between).sqrt())
+        };
         PointStatistics {
             points: self.points,
             rms_height: square.sqrt(),
             rms_slope: along.sqrt(),
-            rms_gradient: (!self.has_profile).then(|| (along + between).sqrt()),
+            rms_gradient,
             skewness: self.cubes / count / square.powf(1.5),
             kurtosis: self.fourths / count / (square * square),
         }
@@ -100,47 +122,47 @@ pub(crate) fn reliability_cutoff(
     if is_reliable(1) {
         return None;
     }
+    // The smallest reliable scale is searched in steps of a fifth, at least of one, and then by
+    // bisection between the last unreliable scale and the first reliable one.
     let most = (columns - 1) / 4;
-    let (mut bad, mut good) = (1, None);
-    while good.is_none() && bad < most {
-        // In steps of a fifth, at least of one.
-        let next = (bad + bad / 5 + 1).min(most);
+    let mut unreliable = 1;
+    let mut reliable = None;
+    while reliable.is_none() && unreliable < most {
+        let next = (unreliable + unreliable / 5 + 1).min(most);
         if is_reliable(next) {
-            good = Some(next)
+            reliable = Some(next);
         } else {
-            bad = next
+            unreliable = next;
         }
     }
-    let Some(mut good) = good else {
+    let Some(mut reliable) = reliable else {
         return Some(0.5 * columns as f64 * spacing);
     };
-    while good - bad > 1 {
-        let middle = bad + (good - bad) / 2;
+    while reliable - unreliable > 1 {
+        let middle = unreliable + (reliable - unreliable) / 2;
         if is_reliable(middle) {
-            good = middle
+            reliable = middle;
         } else {
-            bad = middle
+            unreliable = middle;
         }
     }
-    Some(2.0 * good as f64 * spacing)
+    Some(2.0 * reliable as f64 * spacing)
 }
 
+/// Returns the smallest curvature in 1/m of all rows, over stencils of three points that are
+/// `scale` points apart.
 fn smallest_curvature(heights: &[f64], columns: usize, scale: usize, spacing: f64) -> f64 {
+    let mut smallest = f64::INFINITY;
+    for row in heights.chunks_exact(columns) {
+        let middles = &row[scale.min(row.len())..];
+        let rights = &row[(2 * scale).min(row.len())..];
+        for ((left, middle), right) in row.iter().zip(middles).zip(rights) {
+            let difference = (left - middle) + (right - middle);
+            smallest = smallest.min(difference);
+        }
+    }
     let step = scale as f64 * spacing;
-    let smallest = |row: &[f64]| {
-        let stencils = row
-            .iter()
-            .zip(&row[scale.min(row.len())..])
-            .zip(&row[(2 * scale).min(row.len())..]);
-        stencils
-            .map(|((left, middle), right)| (left - middle) + (right - middle))
-            .fold(f64::INFINITY, f64::min)
-    };
-    heights
-        .chunks_exact(columns)
-        .map(smallest)
-        .fold(f64::INFINITY, f64::min)
-        / (step * step)
+    smallest / (step * step)
 }
 
 #[cfg(test)]
