@@ -129,7 +129,7 @@ impl EquivalentLine {
             let longest = TAU / low;
             let shortest = TAU / high;
             let found = format!(
-                "no wave of the spectrum, from {longest:e} to {shortest:e} m, fits on length = \
+                "no wave of the spectrum, from {shortest:e} to {longest:e} m, fits on length = \
                  {length:e} m with numerics.points = {points}"
             );
             let allowed = "at least 2 springs for each of at least one wave";
