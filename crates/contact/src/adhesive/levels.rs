@@ -58,60 +58,45 @@ pub struct Span {
 
 impl Span {
     /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the
-    /// springs `lowest..=highest`.
+    /// springs of `limits`, the leftmost and the rightmost one.
     #[inline]
-    pub fn up_to(&self, gaps: &[f64], level: f64, [lowest, highest]: [u32; 2]) -> Self {
-        let Span {
-            gap,
-            mut first,
-            mut last,
-        } = *self;
-        while first > lowest as usize && gaps[first - 1] < level {
-            first -= 1;
+    pub fn up_to(&self, gaps: &[f64], level: f64, limits: [u32; 2]) -> Self {
+        let [leftmost, rightmost] = limits;
+        let mut span = *self;
+        while span.first > leftmost as usize && gaps[span.first - 1] < level {
+            span.first -= 1;
         }
-        while last < highest as usize && gaps[last + 1] <= level {
-            last += 1;
+        while span.last < rightmost as usize && gaps[span.last + 1] <= level {
+            span.last += 1;
         }
-        Span {
-            gap: larger(gap, larger(gaps[first], gaps[last])),
-            first,
-            last,
-        }
+        span.gap = larger(span.gap, larger(gaps[span.first], gaps[span.last]));
+        span
     }
 
     /// Returns the index of the wall. The wall is the spring with the smaller gap of the two
     /// springs beside the span; it attaches next. `None` if the span fills the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
-        match (self.first.checked_sub(1), gaps.get(self.last + 1)) {
-            (Some(left), Some(&right)) => Some(if right <= gaps[left] {
-                self.last + 1
-            } else {
-                left
-            }),
-            (Some(left), None) => Some(left),
-            (None, Some(_)) => Some(self.last + 1),
-            (None, None) => None,
+        let left = self.first.checked_sub(1);
+        let right = self.last + 1;
+        match (left, gaps.get(right)) {
+            (Some(left), Some(&right_gap)) if gaps[left] < right_gap => Some(left),
+            (_, Some(_)) => Some(right),
+            (left, None) => left,
         }
     }
 
     /// Returns this span extended by `wall`, the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
-        let gap = gaps[wall];
+        let mut span = *self;
+        span.gap = gaps[wall];
         if wall > self.last {
-            Span {
-                gap,
-                last: wall,
-                ..*self
-            }
+            span.last = wall;
         } else {
-            Span {
-                gap,
-                first: wall,
-                ..*self
-            }
+            span.first = wall;
         }
+        span
     }
 
     /// Returns this span extended by its wall, or unchanged if it fills the profile.
@@ -157,6 +142,14 @@ pub struct Levels {
     pub top: f64,
 }
 
+/// Returns the growth in 1/m of the share of a cell that fills over this height of the level in m.
+/// A cell that fills at once, or too fast for a number, has no growth.
+#[inline]
+fn growth_over(height: f64) -> f64 {
+    let growth = height.recip();
+    if growth < f64::INFINITY { growth } else { 0.0 }
+}
+
 /// Sums over the two cells at the edges of a patch, which are only partly in contact, at one
 /// indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -186,15 +179,10 @@ impl EdgeSum {
     }
 
     pub fn total(&self) -> EdgeCells {
-        let EdgeSum {
-            length,
-            compression,
-            squares,
-        } = *self;
         EdgeCells {
-            length: length.total(),
-            compression: compression.total(),
-            squares: squares.total(),
+            length: self.length.total(),
+            compression: self.compression.total(),
+            squares: self.squares.total(),
         }
     }
 }
@@ -220,24 +208,27 @@ impl EdgeCell {
     /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The
     /// level is between the largest gap of the span and the gap of its wall.
     #[inline]
-    pub fn of(gaps: &[f64], &Span { first, last, .. }: &Span, level: f64) -> [Self; 2] {
-        let before = if first > 0 {
-            gaps[first - 1]
+    pub fn of_span(gaps: &[f64], span: &Span, level: f64) -> [Self; 2] {
+        let before = if span.first > 0 {
+            gaps[span.first - 1]
         } else {
             f64::INFINITY
         };
-        let after = gaps.get(last + 1).copied().unwrap_or(f64::INFINITY);
+        let after = gaps.get(span.last + 1).copied().unwrap_or(f64::INFINITY);
         [
-            EdgeCell::new(gaps[first], before, level),
-            EdgeCell::new(gaps[last], after, level),
+            EdgeCell::new(gaps[span.first], before, level),
+            EdgeCell::new(gaps[span.last], after, level),
         ]
     }
 
+    /// Creates the cell between the last spring of a span with the gap `inside` and the first
+    /// spring beside it with the gap `outside`. All values are in m.
     #[inline]
     fn new(inside: f64, outside: f64, level: f64) -> Self {
-        let (height, above) = (outside - inside, level - inside);
+        let height = outside - inside;
+        let above = level - inside;
         if height == f64::INFINITY {
-            // Half a cell as level as its spring at the end of the foundation.
+            // At the end of the foundation half a cell has the gap of its spring everywhere.
             return EdgeCell {
                 outside,
                 share: 0.5,
@@ -246,22 +237,24 @@ impl EdgeCell {
                 squares: 0.5 * above * above,
             };
         }
-        // Level cells count at once, and cells too steep for a growth have none.
-        let growth = Some(height.recip())
-            .filter(|&growth| growth < f64::INFINITY)
-            .unwrap_or(0.0);
-        let (share, above) = match above < height {
-            true if growth > 0.0 => (above * growth, above),
-            true => (above / height, above),
-            false => (1.0, height),
-        };
-        let carries = above * share;
+        let growth = growth_over(height);
+        let mut filled = height;
+        let mut share = 1.0;
+        if above < height {
+            filled = above;
+            share = if growth > 0.0 {
+                above * growth
+            } else {
+                above / height
+            };
+        }
+        let carries = filled * share;
         EdgeCell {
             outside,
             share,
             growth,
             carries,
-            squares: carries * above * (1.0 / 3.0),
+            squares: carries * filled * (1.0 / 3.0),
         }
     }
 
@@ -277,19 +270,15 @@ impl Levels {
     /// cells at the lowest level.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
-        let cells = EdgeCell::of(gaps, span, span.gap);
+        let cells = EdgeCell::of_span(gaps, span, span.gap);
         let [left, right] = cells;
-        let length = (span.last - span.first) as f64 + (left.share + right.share);
-        let (growth, top) = (left.growth + right.growth, left.outside.min(right.outside));
-        (
-            Levels {
-                gap: span.gap,
-                length,
-                growth,
-                top,
-            },
-            cells,
-        )
+        let levels = Levels {
+            gap: span.gap,
+            length: (span.last - span.first) as f64 + (left.share + right.share),
+            growth: left.growth + right.growth,
+            top: left.outside.min(right.outside),
+        };
+        (levels, cells)
     }
 
     /// Returns the length in cells at the level `gap + rise` in m.
@@ -339,11 +328,10 @@ impl Levels {
     pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
         let root = 0.5 * stretch * self.growth;
+        let released = (self.gap + rise) - stretch * length.sqrt();
         // φ rises with the level where √ℓ exceeds half of stretch × growth.
-        (
-            (self.gap + rise) - stretch * length.sqrt(),
-            root * root <= length,
-        )
+        let slides = root * root <= length;
+        (released, slides)
     }
 }
 
@@ -358,9 +346,10 @@ pub struct Slider {
     cells: f64,
     /// Length of the edge cells in contact at the level of the largest gap, in cells.
     edges: f64,
-    /// Compression in cells times m, and squared compression in cells times m², of the edge cells.
-    /// Both are taken where the level and the indentation equal the largest gap.
+    /// Compression of the edge cells in cells times m, where the level and the indentation equal
+    /// the largest gap.
     compression: f64,
+    /// Squared compression of the edge cells in cells times m², also there.
     squares: f64,
 }
 
@@ -393,19 +382,13 @@ impl Slider {
     /// Creates the cell between two springs with these gaps in m, without adhesion. It fills from
     /// the smaller gap to the larger one.
     #[inline]
-    pub fn of_cell(one: f64, other: f64) -> Self {
-        let (gap, top) = if one < other {
-            (one, other)
-        } else {
-            (other, one)
-        };
-        let growth = Some((top - gap).recip())
-            .filter(|growth| growth.is_finite())
-            .unwrap_or(0.0);
+    pub fn of_cell(left: f64, right: f64) -> Self {
+        let gap = smaller(right, left);
+        let top = larger(left, right);
         Self::without_adhesion(Levels {
             gap,
             length: 0.0,
-            growth,
+            growth: growth_over(top - gap),
             top,
         })
     }
@@ -463,11 +446,11 @@ impl Slider {
     /// the number of whole cells, with y = √ℓ and k = stretch × growth. The derivative only grows
     /// with the indentation, so the force is convex between events.
     pub fn stiffness(&self, indentation: f64) -> f64 {
-        let (levels, above) = (self.levels, indentation - self.levels.gap);
-        let (rise, fall) = (
-            levels.free_rise(self.stretch, above),
-            self.stretch * levels.growth,
-        );
+        let levels = self.levels;
+        let above = indentation - levels.gap;
+        let rise = levels.free_rise(self.stretch, above);
+        // k of the formula above.
+        let fall = self.stretch * levels.growth;
         if fall <= 0.0 {
             // Edges that do not move, or that bear no stretch.
             return self.edges + levels.growth * rise;
@@ -478,7 +461,7 @@ impl Slider {
         if rises > 0.0 {
             levels.length_at(rise) * (2.0 * root - 3.0 * fall) / rises - self.cells
         } else {
-            // Edges of a fragment about to detach run away at once.
+            // The edges of a patch that is about to detach recede without bound.
             f64::NEG_INFINITY
         }
     }

@@ -2,11 +2,12 @@
 //! patches between these events.
 
 use super::levels::{Levels, Span, larger, smaller};
-use super::run::{Ground, Held, Listed, Run};
+use super::run::{Ground, HeldPatch, Run, RunList};
 use super::tree::{Branch, Node};
 use crate::error::ContactError;
 use asperity_data::{gathered, push, resized};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// Closing thresholds of the nodes of a contact tree, for a loading from separation.
 ///
@@ -26,28 +27,54 @@ pub struct Closing {
 /// A loading that begins with patches in contact.
 struct Loading<'a, const SLIDES: bool> {
     ground: &'a Ground<'a, SLIDES>,
-    held: &'a [Held],
+    held: &'a [HeldPatch],
     closes: Cow<'a, [f64]>,
     known: &'a [[u32; 2]],
-    listed: Listed,
+    listed: RunList,
 }
 
 /// Beginning of a branch, from which the branch is followed upwards.
 #[derive(Clone, Copy)]
-struct Start {
+struct BranchStart {
+    /// Indentation in m at which the branch begins.
     closes: f64,
+    /// First and last spring that certainly attach there.
     known: [u32; 2],
     gap: f64,
 }
 
+/// Result of following a branch up to the spring at which it merges.
+struct Reached {
+    /// Indentation in m at which the branch attaches that spring.
+    closes: f64,
+    /// First and last spring that the branch certainly holds at its smallest span.
+    known: [u32; 2],
+}
+
 /// A branch visited on the walk down from the root.
-#[derive(Clone, Copy, Debug)]
-struct Climb {
+#[derive(Clone, Debug)]
+struct Visit {
     branch: Branch,
     /// Indentation in m at which the branch merges into a larger patch.
     merges: f64,
+    /// Spring at which the branch merges.
     parent: usize,
-    held: [usize; 2],
+    /// Indices of the held patches on and below the branch.
+    held: Range<usize>,
+}
+
+/// A walk up one branch, from span to span.
+struct Ascent {
+    branch: Branch,
+    /// Indentation in m at which the branch merges into a larger patch.
+    merges: f64,
+    span: Span,
+    /// Indentation in m from which the span is in contact.
+    closes: f64,
+    /// Height in m of the pinned edges of a held patch above its largest gap.
+    pin: Option<f64>,
+    /// Levels of the span below, while its run may go on.
+    below: Option<Levels>,
 }
 
 impl Closing {
@@ -58,56 +85,59 @@ impl Closing {
             known: resized(Vec::new(), count, [0; 2])?,
             evaluations: 0,
         };
-        let square = ground.square();
         for index in 0..count {
             let node = ground.tree.nodes[index];
-            let (rank, right) = (node.rank as usize, node.right as usize);
-            let left = node.size as usize - 1 - right;
-            let mut closes = f64::INFINITY;
-            let mut known = [0; 2];
-            let parts = [
-                (left, index.saturating_sub(1 + right)),
-                (right, index.saturating_sub(1)),
-            ];
-            for (side, (size, child)) in parts.into_iter().enumerate() {
-                // Both kinds of branches are read: a choice would often be mispredicted.
-                let place = ground.tree.turns[2 * (rank + side)];
-                let lowest = ground.gaps[place as usize];
-                let (of_node, known_of_node) = (closing.closes[child], closing.known[child]);
-                let is_leaf = size == 0;
-                let closed = if is_leaf { lowest } else { of_node };
-                let mut reach = if is_leaf { [place; 2] } else { known_of_node };
-                let need = node.gap - closed;
-                let taken = if need * need
-                    <= square * ground.least_length(reach[0] as usize, reach[1] as usize)
-                {
-                    closed
-                } else {
-                    let gap = if is_leaf {
-                        closed
-                    } else {
-                        ground.tree.nodes[child].gap
-                    };
-                    let start = Start {
-                        closes: closed,
-                        known: reach,
-                        gap,
-                    };
-                    let place = ground.tree.maximum(&node);
-                    let (taken, walked) = ground.climb(start, place, &mut closing.evaluations);
-                    reach = walked;
-                    if !is_leaf {
-                        closing.known[child] = walked;
-                    }
-                    taken
-                };
-                known[side] = reach[side];
-                closes = smaller(closes, taken);
-            }
-            closing.closes[index] = closes;
-            closing.known[index] = known;
+            let left_end = index.saturating_sub(1 + node.right as usize);
+            let right_end = index.saturating_sub(1);
+            let left = closing.close_part(ground, &node, 0, left_end);
+            let right = closing.close_part(ground, &node, 1, right_end);
+            closing.closes[index] = smaller(left.closes, right.closes);
+            closing.known[index] = [left.known[0], right.known[1]];
         }
         Ok(closing)
+    }
+
+    /// Finds where the left (`side` 0) or the right part (1) of a node attaches the spring of the
+    /// node. `child` is the node of that part, and any node if the part is a leaf.
+    #[inline]
+    fn close_part<const SLIDES: bool>(
+        &mut self,
+        ground: &Ground<'_, SLIDES>,
+        node: &Node,
+        side: usize,
+        child: usize,
+    ) -> Reached {
+        let size_of_parts = node.size - 1;
+        let size = if side == 0 {
+            size_of_parts - node.right
+        } else {
+            node.right
+        };
+        let is_leaf = size == 0;
+        // Both kinds of parts are read: the processor would often mispredict a branch.
+        let place = ground.tree.turns[2 * (node.rank as usize + side)];
+        let lowest = ground.gaps[place as usize];
+        let closes_of_child = self.closes[child];
+        let known_of_child = self.known[child];
+        let closes = if is_leaf { lowest } else { closes_of_child };
+        let known = if is_leaf { [place; 2] } else { known_of_child };
+        let need = node.gap - closes;
+        let sure_length = ground.least_length(known[0] as usize, known[1] as usize);
+        if need * need <= ground.square() * sure_length {
+            return Reached { closes, known };
+        }
+        let gap = if is_leaf {
+            closes
+        } else {
+            ground.tree.nodes[child].gap
+        };
+        let start = BranchStart { closes, known, gap };
+        let parent = ground.tree.maximum(node);
+        let reached = ground.climb(start, parent, &mut self.evaluations);
+        if !is_leaf {
+            self.known[child] = reached.known;
+        }
+        reached
     }
 
     /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the
@@ -115,23 +145,22 @@ impl Closing {
     pub fn list<const SLIDES: bool>(
         &self,
         ground: &Ground<'_, SLIDES>,
-        held: &[Held],
-    ) -> Result<Listed, ContactError> {
+        held: &[HeldPatch],
+    ) -> Result<RunList, ContactError> {
         let mut closes = Cow::Borrowed(self.closes.as_slice());
         if !held.is_empty() {
             closes = Cow::Owned(gathered(self.closes.len(), self.closes.iter().copied())?);
         }
-        let listed = Listed {
-            runs: Vec::new(),
-            end: f64::NEG_INFINITY,
-            evaluations: 0,
-        };
         let mut loading = Loading {
             ground,
             held,
             closes,
             known: &self.known,
-            listed,
+            listed: RunList {
+                runs: Vec::new(),
+                end: f64::NEG_INFINITY,
+                evaluations: 0,
+            },
         };
         loading.close_around()?;
         loading.list()?;
@@ -140,53 +169,54 @@ impl Closing {
 }
 
 impl<const SLIDES: bool> Loading<'_, SLIDES> {
-    /// Splits the range `begin..end` of held patches into the patches left and right of a spring.
-    fn split(&self, [begin, end]: [usize; 2], spring: usize) -> [[usize; 2]; 2] {
-        let inside = &self.held[begin..end];
-        let middle = begin + inside.partition_point(|held| (held.first as usize) < spring);
-        [[begin, middle], [middle, end]]
+    /// Splits a range of held patches into the patches left and right of a spring.
+    fn split(&self, held: &Range<usize>, spring: usize) -> [Range<usize>; 2] {
+        let inside = &self.held[held.clone()];
+        let left_count = inside.partition_point(|patch| (patch.first as usize) < spring);
+        let middle = held.start + left_count;
+        [held.start..middle, middle..held.end]
     }
 
-    /// Returns the held patch of the range `begin..end` that lies on this very branch, not on a
-    /// branch below it.
-    fn held_on(&self, [begin, end]: [usize; 2], branch: Branch) -> Option<&Held> {
-        self.held
-            .get(begin)
-            .filter(|held| end - begin == 1 && held.branch == branch)
+    /// Returns the held patch of a range that lies on this very branch, not on a branch below it.
+    fn held_on(&self, held: &Range<usize>, branch: Branch) -> Option<&HeldPatch> {
+        if held.len() != 1 {
+            return None;
+        }
+        let patch = self.held.get(held.start)?;
+        (patch.branch == branch).then_some(patch)
     }
 
     /// Finds when the nodes around held patches close. All other nodes close as on a loading from
     /// separation.
     fn close_around(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
-        let mut waiting = vec![(tree.root(), [0, self.held.len()])];
+        let all = 0..self.held.len();
+        let mut waiting = vec![(tree.root(), all)];
         let mut around = Vec::new();
         // A node comes before those in its parts.
         while let Some((branch, held)) = waiting.pop() {
-            if let (Ok(node), None, true) = (
-                branch.origin(),
-                self.held_on(held, branch),
-                held[0] < held[1],
-            ) {
-                let parts = tree
-                    .parts(node)
-                    .into_iter()
-                    .zip(self.split(held, tree.maximum(&tree.nodes[node])));
-                for part in parts.clone() {
-                    push(&mut waiting, part)?;
-                }
-                push(&mut around, (node, held))?;
+            let Ok(node) = branch.origin() else {
+                continue;
+            };
+            if held.is_empty() || self.held_on(&held, branch).is_some() {
+                continue;
             }
+            let held_in_parts = self.split(&held, tree.maximum(&tree.nodes[node]));
+            for part in tree.parts(node).into_iter().zip(held_in_parts) {
+                push(&mut waiting, part)?;
+            }
+            push(&mut around, (node, held))?;
         }
         for (node, held) in around.into_iter().rev() {
-            let place = tree.maximum(&tree.nodes[node]);
+            let spring = tree.maximum(&tree.nodes[node]);
+            let held_in_parts = self.split(&held, spring);
             let mut closes = f64::INFINITY;
-            for (part, held) in tree.parts(node).into_iter().zip(self.split(held, place)) {
-                let start = self.start(part, self.held_on(held, part));
-                let (taken, _) = self
+            for (part, held) in tree.parts(node).into_iter().zip(held_in_parts) {
+                let start = self.start(part, self.held_on(&held, part));
+                let reached = self
                     .ground
-                    .climb(start, place, &mut self.listed.evaluations);
-                closes = smaller(closes, taken);
+                    .climb(start, spring, &mut self.listed.evaluations);
+                closes = smaller(closes, reached.closes);
             }
             self.closes.to_mut()[node] = closes;
         }
@@ -195,28 +225,29 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
 
     /// Returns the beginning of a branch: the patch held on the branch, or else the span at which
     /// the branch closes.
-    fn start(&self, branch: Branch, held: Option<&Held>) -> Start {
-        let Ground { tree, gaps, .. } = *self.ground;
-        if let Some(held) = held {
-            let known = [held.first, held.last];
-            return Start {
+    fn start(&self, branch: Branch, held: Option<&HeldPatch>) -> BranchStart {
+        let ground = self.ground;
+        if let Some(patch) = held {
+            let known = [patch.first, patch.last];
+            return BranchStart {
                 closes: f64::NEG_INFINITY,
                 known,
-                gap: self.ground.span(branch, known).gap,
+                gap: ground.span(branch, known).gap,
             };
         }
         match branch.origin() {
-            Ok(node) => Start {
+            Ok(node) => BranchStart {
                 closes: self.closes[node],
                 known: self.known[node],
-                gap: tree.nodes[node].gap,
+                gap: ground.tree.nodes[node].gap,
             },
             Err(rank) => {
-                let place = tree.minimum(rank);
-                Start {
-                    closes: gaps[place],
-                    known: [place as u32; 2],
-                    gap: gaps[place],
+                let spring = ground.tree.minimum(rank);
+                let gap = ground.gaps[spring];
+                BranchStart {
+                    closes: gap,
+                    known: [spring as u32; 2],
+                    gap,
                 }
             }
         }
@@ -225,45 +256,38 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
     /// Lists the runs of the loading, and finds the smallest indentation of full contact in m.
     fn list(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
-        let held = [0, self.held.len()];
-        let mut branches = vec![Climb {
+        let mut visits = vec![Visit {
             branch: tree.root(),
             merges: f64::INFINITY,
             parent: usize::MAX,
-            held,
+            held: 0..self.held.len(),
         }];
-        while let Some(climb) = branches.pop() {
-            let Climb {
-                branch,
-                merges,
-                held,
-                ..
-            } = climb;
-            let state = self.held_on(held, branch).copied();
-            let start = self.start(branch, state.as_ref());
-            let node = branch.origin().ok().map(|index| (index, tree.nodes[index]));
-            let lowest = node.map_or(start.gap, |(_, node)| node.lowest);
+        while let Some(visit) = visits.pop() {
+            let held = self.held_on(&visit.held, visit.branch).copied();
+            let start = self.start(visit.branch, held.as_ref());
+            let node = visit.branch.origin().ok();
+            let lowest = node.map_or(start.gap, |node| tree.nodes[node].lowest);
             // What is in contact already stays so, however far it is stretched.
-            if lowest >= merges && held[0] == held[1] {
+            if lowest >= visit.merges && visit.held.is_empty() {
                 continue;
             }
-            if start.closes < merges {
-                self.climb(&climb, start, state.and_then(|held| held.pin))?;
+            if start.closes < visit.merges {
+                self.climb(&visit, start, held.and_then(|patch| patch.pin))?;
             }
-            if let (Some((index, node)), None) = (node, state) {
-                let merges = smaller(start.closes, merges);
-                let parent = tree.maximum(&node);
-                for (branch, held) in tree.parts(index).into_iter().zip(self.split(held, parent)) {
-                    push(
-                        &mut branches,
-                        Climb {
-                            branch,
-                            merges,
-                            parent,
-                            held,
-                        },
-                    )?;
-                }
+            // Nothing inside a held patch is listed.
+            let (Some(node), None) = (node, held) else {
+                continue;
+            };
+            let parent = tree.maximum(&tree.nodes[node]);
+            let held_in_parts = self.split(&visit.held, parent);
+            for (branch, held) in tree.parts(node).into_iter().zip(held_in_parts) {
+                let part = Visit {
+                    branch,
+                    merges: smaller(start.closes, visit.merges),
+                    parent,
+                    held,
+                };
+                push(&mut visits, part)?;
             }
         }
         Ok(())
@@ -273,118 +297,143 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
     /// edges of a held patch above its largest gap.
     fn climb(
         &mut self,
-        climb: &Climb,
-        start: Start,
-        mut pin: Option<f64>,
+        visit: &Visit,
+        start: BranchStart,
+        pin: Option<f64>,
     ) -> Result<(), ContactError> {
-        let (
-            ground,
-            Listed {
-                runs,
-                end: complete,
-                evaluations,
-            },
-        ) = (self.ground, &mut self.listed);
+        let ground = self.ground;
         let gaps = ground.gaps;
         let square = ground.square();
-        let mut span = ground.lowest(start);
-        let mut closes = start.closes;
-        let listed = runs.len();
-        // The levels of the span below, while its run may go on.
-        let mut below: Option<Levels> = None;
+        let runs_before = self.listed.runs.len();
+        let mut ascent = Ascent {
+            branch: visit.branch,
+            merges: visit.merges,
+            span: ground.lowest(start),
+            closes: start.closes,
+            pin,
+            below: None,
+        };
         loop {
-            let Some(wall) = span.wall(gaps) else {
-                *complete = closes;
-                if closes < climb.merges {
-                    push(runs, Run::new(climb.branch, &span, closes, climb.merges))?;
-                }
+            let Some(wall) = ascent.span.wall(gaps) else {
+                self.list_full_contact(&ascent)?;
                 break;
             };
-            let need = gaps[wall] - closes;
-            let mut attaches = closes;
-            if need * need > square * ground.least_length(span.first, span.last) {
-                *evaluations += 1;
-                let levels = ground.levels(&span);
-                attaches = larger(closes, ground.attachment(&levels, gaps[wall]));
-                let end = smaller(attaches, climb.merges);
-                if let Some(rise) = pin.take() {
-                    let released = smaller(levels.release(ground.stretch, rise).0, end);
-                    push(
-                        runs,
-                        Run {
-                            pin: rise,
-                            ..Run::new(climb.branch, &span, closes, released)
-                        },
-                    )?;
-                    closes = released;
-                }
-                if closes < end {
-                    match (runs.last_mut(), below) {
-                        (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
-                            (run.to, run.top) = (end, span.ends());
-                        }
-                        _ => push(runs, Run::new(climb.branch, &span, closes, end))?,
-                    }
-                    below = Some(levels);
-                } else {
-                    below = None;
-                }
+            let Span { first, last, .. } = ascent.span;
+            let need = gaps[wall] - ascent.closes;
+            let mut attaches = ascent.closes;
+            if need * need > square * ground.least_length(first, last) {
+                attaches = self.list_span(&mut ascent, gaps[wall])?;
             } else {
-                below = None;
+                ascent.below = None;
             }
-            if wall == climb.parent || attaches >= climb.merges {
+            if wall == visit.parent || attaches >= visit.merges {
                 break;
             }
-            span = span.with(gaps, wall);
-            closes = attaches;
+            ascent.span = ascent.span.with(gaps, wall);
+            ascent.closes = attaches;
         }
-        runs[listed..].reverse();
+        self.listed.runs[runs_before..].reverse();
         Ok(())
+    }
+
+    /// Lists the patch on the span that fills the profile.
+    fn list_full_contact(&mut self, ascent: &Ascent) -> Result<(), ContactError> {
+        self.listed.end = ascent.closes;
+        if ascent.closes < ascent.merges {
+            let run = Run::new(ascent.branch, &ascent.span, ascent.closes, ascent.merges);
+            push(&mut self.listed.runs, run)?;
+        }
+        Ok(())
+    }
+
+    /// Lists the patch on the present span of a walk. Returns the indentation in m at which the
+    /// span attaches its wall, whose gap is `wall_gap` in m.
+    #[inline]
+    fn list_span(&mut self, ascent: &mut Ascent, wall_gap: f64) -> Result<f64, ContactError> {
+        let ground = self.ground;
+        let RunList {
+            runs, evaluations, ..
+        } = &mut self.listed;
+        *evaluations += 1;
+        let Ascent {
+            branch,
+            merges,
+            span,
+            ..
+        } = *ascent;
+        let levels = ground.levels(&span);
+        let attaches = larger(ascent.closes, ground.attachment(&levels, wall_gap));
+        let end = smaller(attaches, merges);
+        if let Some(rise) = ascent.pin.take() {
+            let (released, _) = levels.release(ground.stretch, rise);
+            let released = smaller(released, end);
+            let mut pinned = Run::new(branch, &span, ascent.closes, released);
+            pinned.pin = rise;
+            push(runs, pinned)?;
+            ascent.closes = released;
+        }
+        if ascent.closes >= end {
+            ascent.below = None;
+            return Ok(attaches);
+        }
+        match (runs.last_mut(), ascent.below) {
+            (Some(run), Some(lower)) if ground.slides_on(&lower, &levels) => {
+                run.to = end;
+                run.top = span.ends();
+            }
+            _ => push(runs, Run::new(branch, &span, ascent.closes, end))?,
+        }
+        ascent.below = Some(levels);
+        Ok(attaches)
     }
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
-    /// Returns the largest φ (m) of a branch from its beginning up to the spring `parent`, but at
-    /// least the threshold of the branch. Also returns the first and the last spring that the
-    /// branch certainly holds at its smallest span.
+    /// Follows a branch from its beginning up to the spring `parent`. The branch attaches that
+    /// spring at its largest φ (m), but not before it begins.
     ///
     /// On a span with n cells known inside, φ at a gap b is at most b − s√n. Most spans therefore
     /// need no evaluation.
     #[inline(never)]
-    fn climb(&self, start: Start, parent: usize, evaluations: &mut u64) -> (f64, [u32; 2]) {
+    fn climb(&self, start: BranchStart, parent: usize, evaluations: &mut u64) -> Reached {
         let gaps = self.gaps;
-        let square = self.square();
-        let may_rise = |closes: f64, gap: f64, span: &Span| {
-            let need = gap - closes;
-            need > 0.0 && need * need > square * self.least_length(span.first, span.last)
-        };
         let mut span = self.lowest(start);
-        let ends = span.ends();
+        let known = span.ends();
         let mut closes = start.closes;
         // At the top first: φ is mostly largest there.
         let top = self.below(&span, parent);
-        if may_rise(closes, gaps[parent], &top) {
+        if self.may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;
             closes = larger(closes, self.attaches_at(&top, gaps[parent]));
         }
-        if !may_rise(closes, top.gap, &span) {
-            return (closes, ends);
+        if !self.may_rise(closes, top.gap, &span) {
+            return Reached { closes, known };
         }
         span = span.up_to(gaps, self.sure_level(&span, closes), top.ends());
         while let Some(wall) = span.wall(gaps).filter(|&wall| wall != parent) {
-            if may_rise(closes, gaps[wall], &span) {
+            if self.may_rise(closes, gaps[wall], &span) {
                 *evaluations += 1;
                 closes = larger(closes, self.attaches_at(&span, gaps[wall]));
             }
             span = span.with(gaps, wall);
         }
-        (closes, ends)
+        Reached { closes, known }
+    }
+
+    /// Returns true if a span may attach a spring of this gap only above the indentation `closes`.
+    /// Both are in m.
+    #[inline]
+    fn may_rise(&self, closes: f64, gap: f64, span: &Span) -> bool {
+        let need = gap - closes;
+        need > 0.0 && need * need > self.square() * self.least_length(span.first, span.last)
     }
 
     /// Returns the smallest span of a branch, around the springs that attach at its beginning.
     #[inline]
-    fn lowest(&self, Start { gap, known, .. }: Start) -> Span {
-        let [mut first, mut last] = known.map(|spring| spring as usize);
+    fn lowest(&self, start: BranchStart) -> Span {
+        let gap = start.gap;
+        let mut first = start.known[0] as usize;
+        let mut last = start.known[1] as usize;
         while first > 0 && self.gaps[first - 1] < gap {
             first -= 1;
         }
@@ -396,19 +445,15 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
 
     /// Returns the largest span of a branch, which ends beside the spring `parent`.
     fn below(&self, span: &Span, parent: usize) -> Span {
-        let (at, end) = (parent as u32, self.gaps.len() as u32 - 1);
+        let parent_gap = self.gaps[parent];
+        let mut beside = *span;
         if parent > span.last {
-            Span {
-                last: parent - 1,
-                ..*span
-            }
-            .up_to(self.gaps, self.gaps[parent], [0, at - 1])
+            beside.last = parent - 1;
+            beside.up_to(self.gaps, parent_gap, [0, parent as u32 - 1])
         } else {
-            Span {
-                first: parent + 1,
-                ..*span
-            }
-            .up_to(self.gaps, self.gaps[parent], [at + 1, end])
+            beside.first = parent + 1;
+            let last_spring = self.gaps.len() as u32 - 1;
+            beside.up_to(self.gaps, parent_gap, [parent as u32 + 1, last_spring])
         }
     }
 }

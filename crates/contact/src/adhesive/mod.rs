@@ -11,7 +11,7 @@ pub(crate) mod run;
 pub(crate) mod tree;
 pub(crate) mod unloading;
 use levels::Span;
-use run::{Ground, Held, Run};
+use run::{Ground, HeldPatch, Run, SpanAtLevel};
 
 use crate::contact_state::{ContactState, Grid, Tally};
 use crate::error::ContactError;
@@ -20,6 +20,7 @@ use crate::totals::SquareScale;
 use asperity_data::CompensatedSum;
 use levels::EdgeCell;
 
+/// The runs of a motion, and the ground on which they were listed.
 pub struct Runs<'a, const SLIDES: bool> {
     pub ground: Ground<'a, SLIDES>,
     pub runs: &'a [Run],
@@ -28,31 +29,31 @@ pub struct Runs<'a, const SLIDES: bool> {
 impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each
     /// has the height of its edges, which stay in place at the beginning of the next motion.
-    pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = Held> {
-        let ground = &self.ground;
-        self.runs
-            .iter()
-            .rev()
-            .filter(move |run| run.is_at(indentation))
-            .map(move |run| {
-                let span = ground.span_at(run, indentation);
-                let [first, last] = span.ends();
-                let pin = pins.then(|| ground.rise(&span, run.pin(), indentation));
-                Held {
-                    branch: run.branch,
-                    first,
-                    last,
-                    pin,
-                }
-            })
+    pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
+        let runs = self.runs.iter().rev();
+        runs.filter(move |run| run.is_at(indentation))
+            .map(move |run| self.held(run, indentation, pins))
     }
 
-    /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m.
-    pub fn outermost(&self, indentation: f64) -> [Option<Span>; 2] {
+    fn held(&self, run: &Run, indentation: f64, pins: bool) -> HeldPatch {
+        let span = self.ground.span_at(run, indentation);
+        let [first, last] = span.ends();
+        HeldPatch {
+            branch: run.branch,
+            first,
+            last,
+            pin: pins.then(|| self.ground.rise(&span, run.pin(), indentation)),
+        }
+    }
+
+    /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m;
+    /// `None` without a patch.
+    pub fn outermost(&self, indentation: f64) -> Option<[Span; 2]> {
         // Of two separate runs the right one comes first.
         let rightmost = self.runs.iter().find(|run| run.is_at(indentation));
         let leftmost = self.runs.iter().rfind(|run| run.is_at(indentation));
-        [leftmost, rightmost].map(|run| run.map(|run| self.ground.span_at(run, indentation)))
+        let outermost = [leftmost?, rightmost?];
+        Some(outermost.map(|run| self.ground.span_at(run, indentation)))
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which it is in
@@ -64,26 +65,26 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
             let bottom = self.ground.bottom(run);
             thresholds[bottom.first..=bottom.last].fill(run.from);
             let mut below = bottom;
-            self.ground
-                .each_span(run, f64::NEG_INFINITY, |span, from, _| {
-                    thresholds[span.first..below.first].fill(from);
-                    thresholds[below.last + 1..=span.last].fill(from);
-                    below = *span;
-                    false
-                });
+            let ground = &self.ground;
+            ground.each_span(run, f64::NEG_INFINITY, |span, from, _| {
+                thresholds[span.first..below.first].fill(from);
+                thresholds[below.last + 1..=span.last].fill(from);
+                below = *span;
+                false
+            });
         }
         thresholds
     }
 
+    /// Computes the contact at the points of a grid.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
-        let (ground, low, high) = (&self.ground, grid.points[0], grid.high());
+        let low = grid.points[0];
+        let high = grid.high();
         let mut tally = Tally::new(grid, SLIDES)?;
-        for run in self
-            .runs
-            .iter()
-            .filter(|run| run.from <= high && run.to > low)
-        {
-            let (mut first, end) = (tally.place(run.from), tally.place(run.to));
+        let ground = &self.ground;
+        for run in self.runs_between(low, high) {
+            let mut first = tally.place(run.from);
+            let end = tally.place(run.to);
             if first >= end {
                 continue;
             }
@@ -101,10 +102,18 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         tally.finish(&ground.tree.scale)
     }
 
+    /// Returns the runs with indentations above `low` and up to `high` in m.
+    #[inline]
+    fn runs_between(&self, low: f64, high: f64) -> impl Iterator<Item = &Run> {
+        let runs = self.runs.iter();
+        runs.filter(move |run| run.from <= high && run.to > low)
+    }
+
     /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or
     /// a crossing is searched.
     pub fn search(&self, intervals: &mut Intervals) {
-        let (ground, (low, high)) = (&self.ground, intervals.ends());
+        let ground = &self.ground;
+        let (low, high) = intervals.ends();
         for run in self.runs {
             if intervals.between(run.from, run.to).is_empty() {
                 continue;
@@ -145,31 +154,30 @@ impl SquaredStretch {
         }
     }
 
-    /// Adds (`sign` 1) or subtracts (−1) the squared stretches over a span at the indentation `at`
-    /// in m. The edges of the span lie at `level` in m.
+    /// Adds (`sign` 1) or subtracts (−1) the squared stretches of a patch at an indentation in m.
     fn add<const SLIDES: bool>(
         &mut self,
         ground: &Ground<'_, SLIDES>,
         sign: i8,
-        (span, level): (&Span, f64),
-        at: f64,
+        patch: &SpanAtLevel,
+        indentation: f64,
     ) {
-        let totals = ground.totals(span);
-        let (squares, remainder) = self.scale.at(&totals, totals.whole(SLIDES), at);
-        self.edges.add(f64::from(sign) * remainder);
-        // Sums of all runs cancel down to the energy: those in between may pass the range of
-        // integers.
-        self.whole = self.whole.wrapping_add(if sign < 0 {
+        let totals = ground.totals(&patch.span);
+        let (squares, remainder) = self.scale.at(&totals, totals.whole(SLIDES), indentation);
+        let signed_squares = if sign < 0 {
             squares.wrapping_neg()
         } else {
             squares
-        });
+        };
+        // The sum over all runs cancels down to the energy. Sums over a part of the runs may pass
+        // the range of integers.
+        self.whole = self.whole.wrapping_add(signed_squares);
+        self.edges.add(f64::from(sign) * remainder);
         if SLIDES {
-            let cells = EdgeCell::of(ground.gaps, span, level);
-            cells.iter().for_each(|cell| {
-                self.edges
-                    .add(f64::from(sign) * cell.squares_below(level - at))
-            });
+            let above = patch.level - indentation;
+            for cell in EdgeCell::of_span(ground.gaps, &patch.span, patch.level) {
+                self.edges.add(f64::from(sign) * cell.squares_below(above));
+            }
         }
     }
 
@@ -187,12 +195,15 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         if let Some(rise) = pin {
             return span.gap + rise;
         }
-        match span.wall(self.gaps).map(|wall| self.gaps[wall]) {
-            // At the attachment of the wall the level is that of the wall, also after rounding.
-            Some(wall) if !self.unloading && indentation >= self.attaches_at(span, wall) => wall,
-            Some(_) => self.level(span, None, indentation),
-            None => span.gap,
+        let Some(wall) = span.wall(self.gaps) else {
+            return span.gap;
+        };
+        let wall_gap = self.gaps[wall];
+        // At the attachment of the wall the level is that of the wall, also after rounding.
+        if !self.unloading && indentation >= self.attaches_at(span, wall_gap) {
+            return wall_gap;
         }
+        self.level(span, None, indentation)
     }
 }
 
@@ -210,34 +221,39 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         if ground.stretch == 0.0 {
             return 0.0;
         }
-        let runs = || {
-            self.runs
-                .iter()
-                .filter(|run| run.from <= high && run.to > low)
-        };
-        let events = runs()
-            .flat_map(|run| [run.from, run.to])
-            .filter(|at| at.is_finite());
-        let mut sum =
-            SquaredStretch::new(ground, events.fold(0.0, |most: f64, at| most.max(at.abs())));
-        for run in runs() {
-            let [(bottom, lower), (top, upper)] = self.ends_of(run, low, high);
+        let mut sum = SquaredStretch::new(ground, self.largest_event(low, high));
+        for run in self.runs_between(low, high) {
+            let [smallest, largest] = self.ends_of(run, low, high);
             if run.from > low {
-                sum.add(ground, 1, (&bottom, lower), run.from);
+                sum.add(ground, 1, &smallest, run.from);
             }
             if run.to <= high {
-                sum.add(ground, -1, (&top, upper), run.to);
+                sum.add(ground, -1, &largest, run.to);
             }
-            let ends = [(bottom, lower), (top, upper)];
             let half_square = 0.5 * ground.stretch * ground.stretch;
-            sum.edges.add(half_square * ground.passed_squares(ends));
+            let passed_squares = ground.passed_squares(&smallest, &largest);
+            sum.edges.add(half_square * passed_squares);
         }
         sum.total()
     }
 
-    /// Returns the smallest and the largest span of a run in the range `low..high` of indentations
-    /// in m, each with the level in m of its edges there.
-    fn ends_of(&self, run: &Run, low: f64, high: f64) -> [(Span, f64); 2] {
+    /// Returns the largest absolute value, in m, of the indentations at which the runs between
+    /// `low` and `high` (m) begin and end. Infinite ends do not count.
+    fn largest_event(&self, low: f64, high: f64) -> f64 {
+        let mut largest: f64 = 0.0;
+        for run in self.runs_between(low, high) {
+            for event in [run.from, run.to] {
+                if event.is_finite() {
+                    largest = largest.max(event.abs());
+                }
+            }
+        }
+        largest
+    }
+
+    /// Returns the smallest and the largest patch of a run in the range `low..high` of indentations
+    /// in m.
+    fn ends_of(&self, run: &Run, low: f64, high: f64) -> [SpanAtLevel; 2] {
         let ground = &self.ground;
         let top = if run.to > high {
             ground.span_at(run, high)
@@ -249,8 +265,14 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
         } else {
             ground.bottom(run)
         };
-        let lower = ground.level(&bottom, run.pin(), run.from.max(low));
-        let upper = ground.level_up_to(&top, run.pin(), run.to.min(high));
-        [(bottom, lower), (top, upper)]
+        let smallest = SpanAtLevel {
+            span: bottom,
+            level: ground.level(&bottom, run.pin(), run.from.max(low)),
+        };
+        let largest = SpanAtLevel {
+            span: top,
+            level: ground.level_up_to(&top, run.pin(), run.to.min(high)),
+        };
+        [smallest, largest]
     }
 }

@@ -46,7 +46,7 @@ pub struct Run {
 
 /// A patch in contact at the end of one motion, with which the next motion begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct HeldPatch {
     pub branch: Branch,
     pub first: u32,
     pub last: u32,
@@ -55,12 +55,14 @@ pub struct Held {
     pub pin: Option<f64>,
 }
 
+/// The runs of a motion.
 #[derive(Debug)]
-pub struct Listed {
+pub struct RunList {
     pub runs: Vec<Run>,
     /// On loading the smallest indentation of full contact, on unloading the smallest indentation
     /// with contact, both in m.
     pub end: f64,
+    /// Number of evaluations of the rule of Hess.
     pub evaluations: u64,
 }
 
@@ -104,14 +106,16 @@ impl Run {
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
-    pub fn span(&self, branch: Branch, [first, last]: [u32; 2]) -> Span {
-        let (first, last) = (first as usize, last as usize);
-        let ends = larger(self.gaps[first], self.gaps[last]);
+    pub fn span(&self, branch: Branch, ends: [u32; 2]) -> Span {
+        let first = ends[0] as usize;
+        let last = ends[1] as usize;
+        let gap_at_ends = larger(self.gaps[first], self.gaps[last]);
         // Above the lowest span of a branch the largest gap is that of the outermost spring that
         // attached last.
-        let gap = branch
-            .origin()
-            .map_or(ends, |node| larger(ends, self.tree.nodes[node].gap));
+        let gap = match branch.origin() {
+            Ok(node) => larger(gap_at_ends, self.tree.nodes[node].gap),
+            Err(_) => gap_at_ends,
+        };
         Span { gap, first, last }
     }
 
@@ -153,12 +157,11 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let end = span.last + usize::from(!SLIDES);
         let [high, high_squares] = self.tree.sums_before(self.gaps, end);
         let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
-        let (quanta, squares) = (high - low, high_squares - low_squares);
         ContactTotals {
             springs: span.springs() as i64,
             fragments: 1,
-            quanta,
-            squares,
+            quanta: high - low,
+            squares: high_squares - low_squares,
         }
     }
 
@@ -166,7 +169,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// the run fills the span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
-        // Unloading, the span above parts where this one would go on.
+        // An unloading reaches this span where the span above no longer holds its spring.
         if self.unloading {
             self.holds_to(&self.levels(above))
         } else {
@@ -211,16 +214,18 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
             if see(&span, from, to) || span.ends() == run.top {
                 return;
             }
-            (span, from) = (span.grown(self.gaps), to);
+            span = span.grown(self.gaps);
+            from = to;
         }
     }
 
     /// Returns the span of a run at an indentation in m; `from` is a span that the run fills at a
     /// smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
-        let (mut span, top) = (from, run.top);
-        while span.ends() != top {
-            let sure = span.up_to(self.gaps, self.sure_level(&span, indentation), top);
+        let mut span = from;
+        while span.ends() != run.top {
+            let sure_level = self.sure_level(&span, indentation);
+            let sure = span.up_to(self.gaps, sure_level, run.top);
             if sure != span {
                 span = sure;
                 continue;
@@ -242,6 +247,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
 }
 
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
+    /// Returns the length of a patch on this span as a function of its level.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
         if SLIDES {
@@ -279,21 +285,23 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// stretched spring. It is at most the largest gap of the span.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
-        let (gap, stretch) = (levels.gap, self.stretch);
+        let gap = levels.gap;
+        let stretch = self.stretch;
         if !SLIDES {
             // At this indentation the spring is stretched by just Δl_max and detaches, so the
             // smallest that still holds it is the next number above; but a spring whose gap is
             // closed stays under any rule.
-            return (gap - stretch * levels.length.sqrt()).next_up().min(gap);
+            let detaches = gap - stretch * levels.length.sqrt();
+            return detaches.next_up().min(gap);
         }
-        // At the smallest φ √ℓ is half of stretch × growth.
+        // φ is smallest where √ℓ is half of stretch × growth.
         let root = 0.5 * stretch * levels.growth;
         let excess = root * root - levels.length;
-        // Without branches: they would often be mispredicted.
-        let rise = excess / levels.growth;
+        // The choices are of values: the processor would often mispredict branches.
+        let lowest = excess / levels.growth;
         let most = levels.top - gap;
-        let rise = if rise < most { rise } else { most };
-        let rise = if excess > 0.0 { rise } else { 0.0 };
+        let limited = if lowest < most { lowest } else { most };
+        let rise = if excess > 0.0 { limited } else { 0.0 };
         let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
         if holds < gap { holds } else { gap }
     }
@@ -310,24 +318,45 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         root * root < upper.length && upper.length - reached < 0.25
     }
 
-    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass between two spans
-    /// and levels. Here θ is the indentation at which an edge passes the point. The unit is cells
-    /// times ½ s².
-    pub fn passed_squares(&self, [lower, upper]: [(Span, f64); 2]) -> f64 {
+    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass from one state of a
+    /// run to a larger one. Here θ is the indentation at which an edge passes the point. The unit is
+    /// cells times ½ s².
+    pub fn passed_squares(&self, lower: &SpanAtLevel, upper: &SpanAtLevel) -> f64 {
         if !SLIDES {
-            let [fewer, more] = [lower, upper].map(|(span, _)| span.springs() as f64);
+            let fewer = lower.span.springs() as f64;
+            let more = upper.span.springs() as f64;
             // Springs attach one by one to patches of `fewer` springs and more, and detach from
             // those of `more` and fewer.
             let sign = if self.unloading { 1.0 } else { -1.0 };
             return (more - fewer) * (more + fewer + sign);
         }
-        // Twice the stretch s √ℓ of an edge times the change of the length ℓ.
-        let length = |(span, level): (Span, f64)| {
-            let [left, right] = EdgeCell::of(self.gaps, &span, level);
-            [(span.last - span.first) as f64, left.share + right.share]
-        };
-        let ([cells0, share0], [cells1, share1]) = (length(lower), length(upper));
-        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
-        ((cells1 - cells0) + (share1 - share0)) * ((cells0 + cells1) + (share0 + share1))
+        // Twice the stretch s √ℓ of an edge times the change of the length ℓ. Whole cells and
+        // shares are subtracted separately: as lengths they would lose digits.
+        let fewer_cells = lower.whole_cells();
+        let more_cells = upper.whole_cells();
+        let smaller_share = lower.share_of_edges(self.gaps);
+        let larger_share = upper.share_of_edges(self.gaps);
+        ((more_cells - fewer_cells) + (larger_share - smaller_share))
+            * ((fewer_cells + more_cells) + (smaller_share + larger_share))
+    }
+}
+
+/// Springs that a patch holds, and the gap in m at which its edges lie.
+#[derive(Clone, Copy, Debug)]
+pub struct SpanAtLevel {
+    pub span: Span,
+    pub level: f64,
+}
+
+impl SpanAtLevel {
+    /// Returns the number of cells between the springs of the span.
+    fn whole_cells(&self) -> f64 {
+        (self.span.last - self.span.first) as f64
+    }
+
+    /// Returns the length in contact of both edge cells, in cells.
+    fn share_of_edges(&self, gaps: &[f64]) -> f64 {
+        let [left, right] = EdgeCell::of_span(gaps, &self.span, self.level);
+        left.share + right.share
     }
 }

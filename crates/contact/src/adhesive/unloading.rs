@@ -2,7 +2,7 @@
 //! patches between these events.
 
 use super::levels::{Levels, Span, smaller};
-use super::run::{Ground, Held, Listed, Run};
+use super::run::{Ground, HeldPatch, Run, RunList};
 use super::tree::Branch;
 use crate::error::ContactError;
 use asperity_data::push;
@@ -22,6 +22,57 @@ struct Part {
     is_whole: bool,
 }
 
+/// The smallest span of a branch, at its node or at its local minimum.
+struct Bottom {
+    /// Gap in m of the node; −∞ at a local minimum.
+    node_gap: f64,
+    /// Smallest gap in m of all springs below the branch.
+    lowest: f64,
+    /// Spring at the node or at the local minimum, the first of the span to detach.
+    spring: usize,
+}
+
+/// A walk down one branch, from its largest span to its smallest one.
+struct Descent {
+    branch: Branch,
+    first: usize,
+    last: usize,
+    bottom: Bottom,
+    /// Indentation in m at which the span above splits; the present span is a patch below it.
+    opens: f64,
+    /// True up to the first listed span of a patch held at the beginning of the unloading.
+    is_whole: bool,
+    /// Height in m of the pinned edges of a held patch above its largest gap.
+    pin: Option<f64>,
+    /// Levels of the span above, while its run may go on.
+    above: Option<Levels>,
+}
+
+impl Descent {
+    fn springs(&self) -> usize {
+        self.last + 1 - self.first
+    }
+
+    /// Returns true if no smaller span belongs to the branch.
+    #[inline]
+    fn is_at_bottom(&self, gaps: &[f64]) -> bool {
+        if self.bottom.node_gap == f64::NEG_INFINITY {
+            return self.first == self.last;
+        }
+        gaps[self.first] < self.bottom.node_gap && gaps[self.last] <= self.bottom.node_gap
+    }
+
+    /// Takes the spring with the larger gap off one end of the span.
+    #[inline]
+    fn shrink(&mut self, gaps: &[f64]) {
+        if gaps[self.first] >= gaps[self.last] {
+            self.first += 1;
+        } else {
+            self.last -= 1;
+        }
+    }
+}
+
 impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in
     /// contact there, from left to right.
@@ -29,29 +80,25 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// A patch splits when its most stretched spring detaches. This happens as soon as the larger
     /// patch around it has split and the rule of Hess no longer holds the spring: t_v = min(t of
     /// the patch around v, smallest φ of v).
-    pub fn open(&self, held: &[Held], from: f64) -> Result<Listed, ContactError> {
-        let mut listed = Listed {
+    pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {
+        let mut listed = RunList {
             runs: Vec::new(),
             end: f64::INFINITY,
             evaluations: 0,
         };
         let mut parts = Vec::new();
-        for &Held {
-            branch,
-            first,
-            last,
-            pin,
-        } in held.iter().rev()
-        {
-            parts.push(Part {
-                branch,
-                first,
-                last,
+        for patch in held.iter().rev() {
+            let whole = Part {
+                branch: patch.branch,
+                first: patch.first,
+                last: patch.last,
                 opens: from,
                 is_whole: true,
-            });
+            };
+            push(&mut parts, whole)?;
             while let Some(part) = parts.pop() {
-                for part in self.descend(part, pin, &mut listed)?.into_iter().flatten() {
+                let remaining = self.descend(part, patch.pin, &mut listed)?;
+                for part in remaining.into_iter().flatten() {
                     push(&mut parts, part)?;
                 }
             }
@@ -68,30 +115,26 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
     }
 
-    /// Returns the two parts of the smallest span of a branch after `spring` detaches at an
-    /// indentation in m.
-    fn parts_of(
-        &self,
-        branch: Branch,
-        span: &Span,
-        spring: usize,
-        opens: f64,
-    ) -> [Option<Part>; 2] {
-        let Ok(node) = branch.origin() else {
-            return [None; 2];
-        };
-        let [left, right] = self.tree.parts(node);
-        let ([first, last], spring) = (span.ends(), spring as u32);
-        let part = |branch, first, last| {
-            Some(Part {
-                branch,
-                first,
-                last,
-                opens,
-                is_whole: false,
-            })
-        };
-        [part(left, first, spring - 1), part(right, spring + 1, last)]
+    #[inline]
+    fn bottom_of(&self, branch: Branch) -> Bottom {
+        match branch.origin() {
+            Ok(index) => {
+                let node = &self.tree.nodes[index];
+                Bottom {
+                    node_gap: node.gap,
+                    lowest: node.lowest,
+                    spring: self.tree.maximum(node),
+                }
+            }
+            Err(rank) => {
+                let spring = self.tree.minimum(rank);
+                Bottom {
+                    node_gap: f64::NEG_INFINITY,
+                    lowest: self.gaps[spring],
+                    spring,
+                }
+            }
+        }
     }
 
     /// Lists the runs of one branch from its largest span down to its smallest one, and returns the
@@ -101,91 +144,130 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         &self,
         part: Part,
         pin: Option<f64>,
-        listed: &mut Listed,
+        listed: &mut RunList,
     ) -> Result<[Option<Part>; 2], ContactError> {
-        let Ground { gaps, tree, .. } = *self;
-        let Listed {
-            runs,
-            end,
-            evaluations,
-        } = listed;
-        let (mut first, mut last) = (part.first as usize, part.last as usize);
-        let (mut opens, mut is_whole) = (part.opens, part.is_whole);
-        let (bottom, lowest, place) = match part.branch.origin() {
-            Ok(index) => {
-                let node = &tree.nodes[index];
-                (node.gap, node.lowest, tree.maximum(node))
-            }
-            Err(rank) => {
-                let place = tree.minimum(rank);
-                (f64::NEG_INFINITY, gaps[place], place)
-            }
+        let gaps = self.gaps;
+        let mut descent = Descent {
+            branch: part.branch,
+            first: part.first as usize,
+            last: part.last as usize,
+            bottom: self.bottom_of(part.branch),
+            opens: part.opens,
+            is_whole: part.is_whole,
+            pin,
+            above: None,
         };
-        if !is_whole && !self.may_hold(lowest, opens, last + 1 - first) {
+        let lowest = descent.bottom.lowest;
+        if !part.is_whole && !self.may_hold(lowest, part.opens, descent.springs()) {
             return Ok([None; 2]);
         }
-        let is_leaf = bottom == f64::NEG_INFINITY;
-        // Levels of the span above, while its run may go on.
-        let mut above: Option<Levels> = None;
         loop {
-            let (left, right) = (gaps[first], gaps[last]);
-            let at_bottom = if is_leaf {
-                first == last
+            let is_at_bottom = descent.is_at_bottom(gaps);
+            let left_gap = gaps[descent.first];
+            let right_gap = gaps[descent.last];
+            let gap = if is_at_bottom {
+                gaps[descent.bottom.spring]
+            } else if left_gap >= right_gap {
+                left_gap
             } else {
-                left < bottom && right <= bottom
+                right_gap
             };
-            let gap = if at_bottom {
-                gaps[place]
-            } else if left >= right {
-                left
+            if descent.is_whole || self.may_hold(gap, descent.opens, descent.springs()) {
+                self.list_span(&mut descent, gap, listed)?;
             } else {
-                right
-            };
-            let span = Span { gap, first, last };
-            let mut goes_on = None;
-            if is_whole || self.may_hold(gap, opens, last + 1 - first) {
-                *evaluations += 1;
-                let levels = self.levels(&span);
-                let holds = self.holds_to(&levels);
-                if is_whole || holds < opens {
-                    let mut leaves = smaller(opens, holds);
-                    let mut to = if is_whole { f64::INFINITY } else { opens };
-                    if let Some(rise) = pin.filter(|_| is_whole) {
-                        let (released, slides) = levels.release(self.stretch, rise);
-                        let released = smaller(opens, released);
-                        leaves = if slides {
-                            smaller(leaves, released)
-                        } else {
-                            released
-                        };
-                        push(
-                            runs,
-                            Run {
-                                pin: rise,
-                                ..Run::new(part.branch, &span, released, to)
-                            },
-                        )?;
-                        to = released;
-                    }
-                    match (runs.last_mut(), above) {
-                        // Pinned edges run away at once.
-                        _ if leaves == to => {}
-                        (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
-                            (run.from, run.bottom) = (leaves, span.ends());
-                        }
-                        _ => push(runs, Run::new(part.branch, &span, leaves, to))?,
-                    }
-                    // A run continues only from a level equal to the gap of the span.
-                    goes_on = (leaves == holds && leaves < to).then_some(levels);
-                    *end = smaller(*end, leaves);
-                    (opens, is_whole) = (leaves, false);
-                }
+                descent.above = None;
             }
-            above = goes_on;
-            if at_bottom {
-                return Ok(self.parts_of(part.branch, &span, place, opens));
+            if is_at_bottom {
+                return Ok(self.parts_below(&descent));
             }
-            if left >= right { first += 1 } else { last -= 1 }
+            descent.shrink(gaps);
         }
+    }
+
+    /// Lists the patch on the present span of a walk, whose largest gap is `gap` in m, over the
+    /// indentations at which the span is a patch.
+    #[inline]
+    fn list_span(
+        &self,
+        descent: &mut Descent,
+        gap: f64,
+        listed: &mut RunList,
+    ) -> Result<(), ContactError> {
+        listed.evaluations += 1;
+        let span = Span {
+            gap,
+            first: descent.first,
+            last: descent.last,
+        };
+        let levels = self.levels(&span);
+        let holds = self.holds_to(&levels);
+        let is_patch = descent.is_whole || holds < descent.opens;
+        if !is_patch {
+            descent.above = None;
+            return Ok(());
+        }
+        let mut leaves = smaller(descent.opens, holds);
+        let mut to = descent.opens;
+        if descent.is_whole {
+            to = f64::INFINITY;
+            if let Some(rise) = descent.pin {
+                let (released, slides) = levels.release(self.stretch, rise);
+                let released = smaller(descent.opens, released);
+                leaves = if slides {
+                    smaller(leaves, released)
+                } else {
+                    released
+                };
+                let mut pinned = Run::new(descent.branch, &span, released, to);
+                pinned.pin = rise;
+                push(&mut listed.runs, pinned)?;
+                to = released;
+            }
+        }
+        // Pinned edges that jump as they are released have no run of free edges.
+        if leaves != to {
+            match (listed.runs.last_mut(), descent.above) {
+                (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
+                    run.from = leaves;
+                    run.bottom = span.ends();
+                }
+                _ => push(
+                    &mut listed.runs,
+                    Run::new(descent.branch, &span, leaves, to),
+                )?,
+            }
+        }
+        // A run continues only from a level equal to the gap of the span.
+        let goes_on = leaves == holds && leaves < to;
+        descent.above = goes_on.then_some(levels);
+        descent.opens = leaves;
+        descent.is_whole = false;
+        listed.end = smaller(listed.end, leaves);
+        Ok(())
+    }
+
+    /// Returns the two parts of the smallest span of a branch after the spring of its node has
+    /// detached.
+    fn parts_below(&self, descent: &Descent) -> [Option<Part>; 2] {
+        let Ok(node) = descent.branch.origin() else {
+            return [None; 2];
+        };
+        let [left, right] = self.tree.parts(node);
+        let spring = descent.bottom.spring as u32;
+        let left_part = Part {
+            branch: left,
+            first: descent.first as u32,
+            last: spring - 1,
+            opens: descent.opens,
+            is_whole: false,
+        };
+        let right_part = Part {
+            branch: right,
+            first: spring + 1,
+            last: descent.last as u32,
+            opens: descent.opens,
+            is_whole: false,
+        };
+        [Some(left_part), Some(right_part)]
     }
 }

@@ -4,7 +4,7 @@ use super::adhesive::Runs;
 use super::adhesive::levels::Edges;
 use super::adhesive::levels::{EdgeCell, EdgeCells, Levels, Slider, Span};
 use super::adhesive::loading::Closing;
-use super::adhesive::run::{Ground, Held, Run};
+use super::adhesive::run::{Ground, HeldPatch, Run};
 use super::adhesive::tree::ContactTree;
 use super::contact::Contact;
 use super::contact_state::ContactState;
@@ -191,7 +191,7 @@ impl Leg {
         match &self.patches {
             Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
-                let held: Vec<Held> = along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
+                let held: Vec<HeldPatch> = along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
                 Leg::apart(&self.contact, direction).list(tree, &held, at)
             }
         }
@@ -199,7 +199,12 @@ impl Leg {
 
     /// Lists the runs of this leg. `held` are the patches in contact at the indentation `from` in
     /// m, where the leg begins.
-    fn list(self, tree: &Arc<ContactTree>, held: &[Held], from: f64) -> Result<Self, ContactError> {
+    fn list(
+        self,
+        tree: &Arc<ContactTree>,
+        held: &[HeldPatch],
+        from: f64,
+    ) -> Result<Self, ContactError> {
         let mut evaluations = 0;
         let listed = along_runs!(self, tree, &[], along => match self.direction {
             Direction::Loading => {
@@ -271,7 +276,7 @@ impl Leg {
                 Patch::of_springs(thresholds.iter().map(|&threshold| threshold <= indentation))
             }
             Patches::Runs(tree, runs) => {
-                let patch = |held: Held| Patch {
+                let patch = |held: HeldPatch| Patch {
                     first: held.first as usize,
                     last: held.last as usize,
                 };
@@ -292,10 +297,11 @@ impl Leg {
             }
             Patches::Runs(tree, runs) => {
                 let last_spring = self.contact.gaps().len() - 1;
-                let [leftmost, rightmost] =
+                let outermost =
                     along_runs!(self, tree, runs, along => along.outermost(indentation));
-                leftmost.is_some_and(|span| span.first == 0)
-                    || rightmost.is_some_and(|span| span.last == last_spring)
+                outermost.is_some_and(|[leftmost, rightmost]| {
+                    leftmost.first == 0 || rightmost.last == last_spring
+                })
             }
         }
     }
@@ -369,7 +375,7 @@ impl Leg {
                 .map(|patch| (patch, None))
                 .collect();
         };
-        let patch = |held: Held| {
+        let patch = |held: HeldPatch| {
             (
                 Patch {
                     first: held.first as usize,
@@ -417,7 +423,7 @@ impl Leg {
         let point = state.point(*foundation);
         let level = span.gap + pin.unwrap_or_else(free);
         let [left, right] = match slides {
-            true => EdgeCell::of(gaps, &span, level).map(|cell| cell.share),
+            true => EdgeCell::of_span(gaps, &span, level).map(|cell| cell.share),
             false => [0.5; 2],
         };
         PatchState {
