@@ -22,7 +22,6 @@ impl Axis {
                 .and_then(|known| known.parameter(parameter))
                 .or(stated.map(|(_, value)| value));
         }
-        let number = |path: &str| Tree::of(scene).get(path);
         match (self.target, scene.loading.first()) {
             (Target::Preload { in_newtons: true }, Some(Move::ToForce(force))) => Some(*force),
             (Target::Preload { .. }, Some(Move::ToForce(force))) => {
@@ -32,7 +31,7 @@ impl Axis {
             (Target::SpringsPerWave, _) => {
                 Some(scene.numerics.points as f64 / scene.spectrum()?.last as f64)
             }
-            _ => number(&self.path),
+            _ => Tree::of(scene).get(&self.path),
         }
     }
 }
@@ -51,7 +50,8 @@ pub(super) fn scene_with<'a>(
         message,
         ..SceneError::default()
     };
-    let (mut tree, mut by_parameter) = (Tree::of(base), None);
+    let mut tree = Tree::of(base);
+    let mut by_parameter = None;
     let mut values: Vec<_> = values.collect();
     // The last mode follows from the number of springs.
     values.sort_by_key(|(axis, _)| axis.target == Target::SpringsPerWave);
@@ -149,11 +149,12 @@ fn force_unit(scene: &Scene) -> Option<f64> {
 /// Replaces the loading of a scene by a preload of this axis and separation, if the scene
 /// determines the unit of the axis.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
-    if let Some(unit) = if axis.unit == "N" {
+    let unit = if axis.unit == "N" {
         Some(1.0)
     } else {
         force_unit(scene)
-    } {
+    };
+    if let Some(unit) = unit {
         scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
     }
 }
@@ -185,7 +186,7 @@ impl Axis {
         let by_work = document
             .scene()
             .adhesion
-            .filter(|one| moves_parameter && one.parameter().is_none());
+            .filter(|adhesion| moves_parameter && adhesion.parameter().is_none());
         if let Some(adhesion) = by_work {
             let work = governing(&scene).and_then(|known| known.work_of_adhesion);
             scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);
