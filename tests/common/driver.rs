@@ -86,7 +86,7 @@ impl Driver {
     }
 
     /// Reports the result of a study of the present scene, which the explorer waits for.
-    pub fn find<T: Any + Send + Sync>(&mut self, result: Result<T, String>) {
+    pub fn find<T: Any + Clone + Send + Sync>(&mut self, result: Result<T, String>) {
         let study = Study::new(self.app.edit.generation, false, move |_, _| result);
         let mut found = Vec::new();
         for study in self.app.studies.begin(vec![study]) {

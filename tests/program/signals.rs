@@ -61,10 +61,10 @@ fn long_computations_end_by_signals_and_write_nothing() {
         "find adhesion.work rough-sphere --where F_a=2uN --profiles 100000 -o found.json",
         "find preload rough-sphere --where F_a/F_a,max=0.2 --profiles 100000 -o found.csv",
         "sensitivity rough-sphere --set numerics.points=1048576 -o sensitivity.csv",
-        "run rough-sphere --profiles 1000000 -o profiles.csv",
-        "run rough-sphere --preloads 0..20uN --profiles 1000000 -o preloads.svg",
+        "run rough-sphere --profiles 100000 -o profiles.csv",
+        "run rough-sphere --preloads 0..20uN --profiles 10000 -o preloads.svg",
         "run rough-sphere --tolerance 1e-9 -o chosen.csv",
-        "reversals rough-sphere --set numerics.points=1048576 --preloads :512 -o reversals.csv",
+        "reversals rough-sphere --set numerics.points=1048576 --preloads :256 -o reversals.csv",
         "cost rough-sphere --budget 10min -o cost.csv",
         "reference rough-sphere --maps 1000 -o reference.json",
     ] {

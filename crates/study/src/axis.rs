@@ -142,8 +142,12 @@ impl Axis {
     }
 
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
-        let (spacing, values) = match *text {
-            AxisText::List { ref values, .. } => (Spacing::List, values.clone()),
+        let mut axis = self;
+        match *text {
+            AxisText::List { ref values, .. } => {
+                axis.spacing = Spacing::List;
+                axis.values.clone_from(values);
+            }
             AxisText::Linear {
                 from, to, count, ..
             } => {
@@ -153,60 +157,70 @@ impl Axis {
                         "from {from:?} to {to:?}: the range overflows a 64-bit float"
                     ));
                 }
-                let at = |share: f64| from * (1.0 - share) + to * share;
-                (Spacing::Linear, self.between(from, to, count, at))
+                axis.spacing = Spacing::Linear;
+                axis.values =
+                    axis.between(from, to, count, |share| from * (1.0 - share) + to * share);
             }
             AxisText::Logarithmic {
                 from, to, count, ..
             } => {
                 check_ends(from, to, count, MOST_VALUES).map_err(|error| error.to_string())?;
                 check_logarithm(from).map_err(|error| error.to_string())?;
-                let (first, last) = (from.ln(), to.ln());
-                let at = |share: f64| (first * (1.0 - share) + last * share).exp();
-                (Spacing::Logarithmic, self.between(from, to, count, at))
+                let first = from.ln();
+                let last = to.ln();
+                axis.spacing = Spacing::Logarithmic;
+                axis.values = axis.between(from, to, count, |share| {
+                    (first * (1.0 - share) + last * share).exp()
+                });
             }
-        };
-        if values.is_empty() {
-            return Err("no values; allowed: at least one".into());
         }
-        if values.len() as u64 > MOST_VALUES {
-            return Err(format!(
-                "{} values; allowed: at most {MOST_VALUES}",
-                values.len()
-            ));
-        }
-        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            return Err(format!("{value:?}: values must be finite"));
-        }
-        let is_whole = |value: &f64| *value >= 0.0 && value.fract() == 0.0;
-        if let Some(value) = values
-            .iter()
-            .find(|value| self.is_whole() && !is_whole(value))
-        {
-            return Err(format!("{value:?}: allowed: whole numbers"));
-        }
-        let axis = Axis {
-            spacing,
-            values,
-            ..self
-        };
-        let ascending = axis.ascending();
-        let twice = ascending.values.windows(2).find(|pair| pair[0] == pair[1]);
-        twice.map_or(Ok(axis), |pair| {
-            Err(format!("the value {:?} appears twice", pair[0]))
-        })
+        axis.check_values()?;
+        Ok(axis)
     }
 
-    /// Returns `count` values from one end to the other. Values between the ends are rounded to 12
-    /// significant digits, or to whole numbers if the field needs whole numbers.
-    fn between(&self, from: f64, to: f64, count: u64, at: impl Fn(f64) -> f64) -> Vec<f64> {
-        let rounded = |value: f64| match self.is_whole() {
-            true => value.round(),
-            false => round_to(value, DIGITS),
-        };
+    fn check_values(&self) -> Result<(), String> {
+        let count = self.values.len();
+        if count == 0 {
+            return Err("no values; allowed: at least one".into());
+        }
+        if count as u64 > MOST_VALUES {
+            return Err(format!("{count} values; allowed: at most {MOST_VALUES}"));
+        }
+        if let Some(value) = self.values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("{value:?}: values must be finite"));
+        }
+        if self.is_whole() {
+            for value in &self.values {
+                let is_whole = *value >= 0.0 && value.fract() == 0.0;
+                if !is_whole {
+                    return Err(format!("{value:?}: allowed: whole numbers"));
+                }
+            }
+        }
+        for pair in self.ascending().values.windows(2) {
+            if pair[0] == pair[1] {
+                return Err(format!("the value {:?} appears twice", pair[0]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns `count` values from one end to the other. `value` is the value at a share of the way
+    /// from 0 to 1. Values between the ends are rounded to 12 significant digits, or to whole
+    /// numbers if the field needs whole numbers.
+    fn between(&self, from: f64, to: f64, count: u64, value: impl Fn(f64) -> f64) -> Vec<f64> {
         let last = count - 1;
-        let inner = (1..last).map(|index| rounded(at(index as f64 / last as f64)));
-        std::iter::once(from).chain(inner).chain([to]).collect()
+        let mut values = vec![from];
+        for index in 1..last {
+            let value = value(index as f64 / last as f64);
+            values.push(if self.is_whole() {
+                value.round()
+            } else {
+                round_to(value, DIGITS)
+            });
+        }
+        values.push(to);
+        values
     }
 
     /// Returns true if the quantity of this axis has only whole numbers as values, such as a number
@@ -274,24 +288,24 @@ impl Axis {
     /// `steps` is negative, but at most the last one in this direction. `None` if the axis has no
     /// value in this direction. The values of the axis must ascend.
     pub fn next_beyond(&self, value: f64, steps: i32) -> Option<f64> {
-        let (values, apart) = (&self.values, APART * value.abs());
+        let values = &self.values;
+        let apart = APART * value.abs();
         let further = steps.unsigned_abs().checked_sub(1)? as usize;
-        let index = if steps > 0 {
-            let first = values.iter().position(|one| *one > value + apart)?;
-            first.saturating_add(further).min(values.len() - 1)
-        } else {
-            values
-                .iter()
-                .rposition(|one| *one < value - apart)?
-                .saturating_sub(further)
-        };
-        Some(values[index])
+        if steps > 0 {
+            let above = value + apart;
+            let next = values.iter().position(|known| *known > above)?;
+            let index = next.saturating_add(further).min(values.len() - 1);
+            return Some(values[index]);
+        }
+        let below = value - apart;
+        let next = values.iter().rposition(|known| *known < below)?;
+        Some(values[next.saturating_sub(further)])
     }
 
     /// Returns the indices of the values in ascending order of the values.
     pub(super) fn order(&self) -> Vec<usize> {
         let mut places: Vec<usize> = (0..self.values.len()).collect();
-        places.sort_by(|a, b| self.values[*a].total_cmp(&self.values[*b]));
+        places.sort_by(|one, other| self.values[*one].total_cmp(&self.values[*other]));
         places
     }
 
@@ -336,16 +350,38 @@ pub(super) enum Shapes {
 
 /// Returns the field that holds the number at a path; `None` for a path that cannot be varied.
 fn number(path: &str) -> Option<&'static Field> {
-    ENDS.into_iter().find_map(|end| {
-        let field =
-            field(path.strip_suffix(end)?, None).filter(|field| !FIXED.contains(&field.path))?;
+    for end in ENDS {
+        let Some(field) = path.strip_suffix(end).and_then(|path| field(path, None)) else {
+            continue;
+        };
         let is_number = match field.range {
             Range::Real(..) | Range::Whole(..) => end.is_empty(),
             Range::Band(..) | Range::Wavelengths(..) => !end.is_empty(),
             _ => false,
         };
-        is_number.then_some(field)
-    })
+        if is_number && !FIXED.contains(&field.path) {
+            return Some(field);
+        }
+    }
+    None
+}
+
+/// Returns the question whether a path like this one is meant; empty if there is none.
+fn nearest_path(path: &str) -> String {
+    if let Some(parameter) = RoughnessParameter::named(path) {
+        return format!("; did you mean {}?", parameter.path());
+    }
+    let mut numbers = Vec::new();
+    for field in FIELDS {
+        for end in ENDS {
+            let path = format!("{}{end}", field.path);
+            if number(&path).is_some() {
+                numbers.push(path);
+            }
+        }
+    }
+    let numbers = numbers.iter().map(String::as_str);
+    did_you_mean(path, numbers.chain(Axis::DERIVED.iter().copied()))
 }
 
 impl Target {
@@ -360,37 +396,19 @@ impl Target {
             "springs_per_wave" => return Ok(Target::SpringsPerWave),
             _ => {}
         }
-        let stage = || {
-            path.strip_prefix("loading.")?
-                .strip_suffix(".0")?
-                .parse()
-                .ok()
-                .map(Target::Stage)
-        };
-        number(path)
-            .map(Target::Number)
-            .or_else(stage)
-            .ok_or_else(|| {
-                let all = FIELDS
-                    .iter()
-                    .flat_map(|field| ENDS.map(|end| format!("{}{end}", field.path)));
-                let numbers: Vec<String> = all.filter(|path| number(path).is_some()).collect();
-                let near = || {
-                    did_you_mean(
-                        path,
-                        numbers
-                            .iter()
-                            .map(String::as_str)
-                            .chain(Axis::DERIVED.iter().copied()),
-                    )
-                };
-                let parameter = RoughnessParameter::named(path);
-                let near =
-                    parameter.map_or_else(near, |one| format!("; did you mean {}?", one.path()));
-                let derived = Axis::DERIVED.join(", ");
-                let allowed = format!("numbers of a scene by their paths, and {derived}");
-                StudyError::refused(Some(path), format!("no such number{near}"), allowed)
-            })
+        if let Some(field) = number(path) {
+            return Ok(Target::Number(field));
+        }
+        let stage = path
+            .strip_prefix("loading.")
+            .and_then(|stage| stage.strip_suffix(".0"));
+        if let Some(Ok(stage)) = stage.map(str::parse) {
+            return Ok(Target::Stage(stage));
+        }
+        let found = format!("no such number{}", nearest_path(path));
+        let derived = Axis::DERIVED.join(", ");
+        let allowed = format!("numbers of a scene by their paths, and {derived}");
+        Err(StudyError::refused(Some(path), found, allowed))
     }
 
     /// Returns true for a quantity that is a whole number.
@@ -462,37 +480,25 @@ impl Target {
 }
 
 pub(super) fn check_logarithm(from: f64) -> Result<(), StudyError> {
-    let refused = || {
-        StudyError::refused(
-            None,
-            format!("a logarithmic axis from {from:?}"),
-            "one that begins above 0",
-        )
-    };
-    if from > 0.0 { Ok(()) } else { Err(refused()) }
+    if from > 0.0 {
+        return Ok(());
+    }
+    let found = format!("a logarithmic axis from {from:?}");
+    Err(StudyError::refused(None, found, "one that begins above 0"))
 }
 
 pub(super) fn check_ends(from: f64, to: f64, count: u64, most: u64) -> Result<(), StudyError> {
-    let refused = |allowed| {
-        Err(StudyError::refused(
-            None,
-            format!("from {from:?} to {to:?}"),
-            allowed,
-        ))
-    };
     if !(2..=most).contains(&count) {
+        let found = format!("count = {count}");
         let allowed = format!("from 2 to {most}");
-        return Err(StudyError::refused(
-            None,
-            format!("count = {count}"),
-            allowed,
-        ));
+        return Err(StudyError::refused(None, found, allowed));
     }
+    let found = format!("from {from:?} to {to:?}");
     if !(from.is_finite() && to.is_finite()) {
-        return refused("two finite ends");
+        return Err(StudyError::refused(None, found, "two finite ends"));
     }
     if from >= to {
-        return refused("`from` less than `to`");
+        return Err(StudyError::refused(None, found, "`from` less than `to`"));
     }
     Ok(())
 }

@@ -56,6 +56,17 @@ pub struct Crossing {
 }
 
 impl Crossing {
+    /// Returns the crossing with all its values converted to another parameter.
+    fn converted(self, convert: &dyn Fn(f64) -> f64) -> Crossing {
+        Crossing {
+            value: convert(self.value),
+            side: self.side,
+            interval: self
+                .interval
+                .map(|(low, high)| (convert(low), convert(high))),
+        }
+    }
+
     /// Returns [`Crossing::value`] with its 95 % confidence interval; `None` if the boundary lies
     /// beyond the studied range.
     pub fn known(self) -> Option<(f64, Option<(f64, f64)>)> {
@@ -85,24 +96,37 @@ type Curve = Vec<(f64, Vec<f64>)>;
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
-    let cells = (0..)
-        .map(|place| first + place * step)
-        .zip(&plan.axes[along].values);
-    let share = |cell, line| study.value(cell, line, protocol);
-    let cells: Vec<_> = cells
-        .filter(|(cell, _)| (0..plan.lines).any(|line| share(*cell, line).is_some()))
-        .collect();
-    let is_common = |line: &u64| cells.iter().all(|(cell, _)| share(*cell, *line).is_some());
+    let share = |cell: u64, line: u64| study.value(cell, line, protocol);
+    let mut cells = Vec::new();
+    for (place, &value) in (0..).zip(&plan.axes[along].values) {
+        let cell = first + place * step;
+        if (0..plan.lines).any(|line| share(cell, line).is_some()) {
+            cells.push((value, cell));
+        }
+    }
+    let is_common = |line: &u64| cells.iter().all(|(_, cell)| share(*cell, *line).is_some());
     let lines: Vec<u64> = (0..plan.lines).filter(is_common).collect();
-    let shares = |cell: u64| lines.iter().filter_map(|line| share(cell, *line)).collect();
-    let mut curve: Curve = cells
-        .iter()
-        .map(|(cell, value)| (**value, shares(*cell)))
-        .collect();
-    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut curve = Curve::with_capacity(cells.len());
+    for (value, cell) in cells {
+        let shares = lines.iter().filter_map(|line| share(cell, *line));
+        curve.push((value, shares.collect()));
+    }
+    curve.sort_by(|one, other| one.0.total_cmp(&other.0));
     curve
 }
 
+/// Returns the index of the first axis of κ or e_el/γ, and which of both it is.
+fn parameter_axis(plan: &Plan) -> Option<(usize, RoughnessParameter)> {
+    for (index, axis) in plan.axes.iter().enumerate() {
+        if let Some(parameter) = axis.target.parameter() {
+            return Some((index, parameter));
+        }
+    }
+    None
+}
+
+/// Returns the function that converts κ or e_el/γ in a cell to the other parameter; `None` if the
+/// other one does not follow from the scene.
 fn conversion(
     plan: &Plan,
     cell: u64,
@@ -153,21 +177,15 @@ impl Boundaries {
     ) -> Result<Boundaries, StudyError> {
         let study = Results::open(path)?;
         let plan = study.plan();
-        let refuse = |reason: &str| StudyError::folder(path, reason);
-        let mut axes = plan.axes.iter().map(|axis| axis.target).enumerate();
-        let along = axes.find_map(|(place, target)| Some((place, target.parameter()?)));
-        let (along, given) = along.ok_or_else(|| {
-            refuse("this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies")
-        })?;
-        let shares = Quantity::ADHESION_SHARES;
-        let protocols: Vec<Quantity> = shares
-            .into_iter()
-            .filter(|share| plan.record.contains(share))
-            .collect();
+        let Some((along, given)) = parameter_axis(plan) else {
+            let reason = "this study has no axis adhesion.kappa or adhesion.elastic_energy_ratio, along which a boundary lies";
+            return Err(StudyError::folder(path, reason));
+        };
+        let mut protocols = Quantity::ADHESION_SHARES.to_vec();
+        protocols.retain(|share| plan.record.contains(share));
         if protocols.is_empty() {
-            return Err(refuse(
-                "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share",
-            ));
+            let reason = "this study records neither first_touch_adhesion_share nor zero_force_adhesion_share";
+            return Err(StudyError::folder(path, reason));
         }
         let others: Vec<usize> = (0..plan.axes.len()).filter(|axis| *axis != along).collect();
         let mut found = Vec::new();
@@ -178,30 +196,19 @@ impl Boundaries {
                 if curve.is_empty() {
                     continue;
                 }
-                let to = conversion(plan, cell, given, over).ok_or_else(|| {
-                    let path = over.path();
-                    refuse(&format!(
-                        "this study has no axis {path}, which does not follow from its measured surface"
-                    ))
-                })?;
+                let Some(convert) = conversion(plan, cell, given, over) else {
+                    let reason = format!(
+                        "this study has no axis {}, which does not follow from its measured surface",
+                        over.path()
+                    );
+                    return Err(StudyError::folder(path, reason));
+                };
                 for &level in levels {
-                    let Crossing {
-                        value,
-                        side,
-                        interval,
-                    } = crossing(&curve, level);
-                    let interval = interval.map(|(low, high)| (to(low), to(high)));
-                    let others = others.iter().map(|&axis| plan.value(cell, axis)).collect();
-                    let crossing = Crossing {
-                        value: to(value),
-                        side,
-                        interval,
-                    };
                     found.push(AdhesionBoundary {
-                        others,
+                        others: others.iter().map(|&axis| plan.value(cell, axis)).collect(),
                         protocol,
                         level,
-                        crossing,
+                        crossing: crossing(&curve, level).converted(&*convert),
                     });
                 }
             }

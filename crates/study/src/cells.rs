@@ -69,8 +69,10 @@ impl<'p> Cells<'p> {
     /// Returns the streaks of a unit in the most efficient order. Units with the same spectrum are
     /// consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
-        let (rest, start) = (unit / self.chunks, unit % self.chunks * self.chunk);
-        let (group, line) = (rest / self.plan.lines, rest % self.plan.lines);
+        let start = unit % self.chunks * self.chunk;
+        let group_and_line = unit / self.chunks;
+        let group = group_and_line / self.plan.lines;
+        let line = group_and_line % self.plan.lines;
         (start..(start + self.chunk).min(self.steps)).map(move |step| {
             let places = self
                 .plan

@@ -9,7 +9,7 @@ use super::recorder::{Recorded, Recorder};
 use super::results::Results;
 use asperity_contact::ContactError;
 use asperity_data::{Control, on_threads};
-use asperity_scene::Simulation;
+use asperity_scene::{RunError, Simulation};
 use asperity_surface::lines::MeasuredRoughness;
 use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,8 @@ impl Streaks<'_> {
                     }
                     let records = recorder.record_each(&streak).map_err(|error| {
                         ended.store(true, Ordering::SeqCst);
-                        let (cell, seed) = (streak.cells.start, plan.seed_of(streak.line));
+                        let cell = streak.cells.start;
+                        let seed = plan.seed_of(streak.line);
                         let place =
                             format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                         StudyError::Run { place, error }
@@ -107,7 +108,8 @@ impl Streaks<'_> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyError> {
-    let (threads, stop) = (control.threads(), control.stop());
+    let threads = control.threads();
+    let stop = control.stop();
     StudyError::check_threads(threads)?;
     plan.memory(threads as u64)?;
     let profile = profile(plan, Path::new(""))?;
@@ -144,11 +146,7 @@ pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyEr
             .unwrap_or_else(|panic| resume_unwind(panic))
     })?;
     if done < plan.records_in_all() {
-        let error = ContactError::Interrupted.into();
-        return Err(StudyError::Run {
-            place: String::new(),
-            error,
-        });
+        return Err(RunError::from(ContactError::Interrupted).into());
     }
     Ok(results)
 }

@@ -77,7 +77,8 @@ impl Allowed {
         let (Some(from), Some(to)) = (self.count(present), self.count(number)) else {
             return Some(number);
         };
-        let (from, to) = (from.round(), to.round());
+        let from = from.round();
+        let to = to.round();
         let rises = (number > present) != matches!(self, Allowed::Fractions(_));
         let next = if rises {
             to.max(from + 1.0)
@@ -90,19 +91,34 @@ impl Allowed {
 
     /// Returns the smallest and the largest allowed value of a range; `None` if the range has no
     /// allowed value.
-    fn ends([from, to]: [f64; 2], allowed: Allowed) -> Option<[f64; 2]> {
-        let up = |count: f64| (count * (1.0 - ROUNDING * count.signum())).ceil();
-        let down = |count: f64| (count * (1.0 + ROUNDING * count.signum())).floor();
+    fn ends(range: [f64; 2], allowed: Allowed) -> Option<[f64; 2]> {
+        let [from, to] = range;
         let ends = match allowed {
             Allowed::Any => [from, to],
-            Allowed::Whole => [up(from), down(to)],
+            Allowed::Whole => [rounded_up(from), rounded_down(to)],
             Allowed::Fractions(whole) => {
-                [whole / down(whole / from), whole / up(whole / to).max(1.0)]
+                let most = rounded_down(whole / from);
+                let least = rounded_up(whole / to).max(1.0);
+                [whole / most, whole / least]
             }
-            Allowed::Multiples(unit) => [unit * up(from / unit).max(1.0), unit * down(to / unit)],
+            Allowed::Multiples(unit) => {
+                let least = rounded_up(from / unit).max(1.0);
+                let most = rounded_down(to / unit);
+                [unit * least, unit * most]
+            }
         };
         (ends[0] <= ends[1]).then_some(ends)
     }
+}
+
+/// Rounds a count up, unless it exceeds a whole number by rounding alone.
+fn rounded_up(count: f64) -> f64 {
+    (count * (1.0 - ROUNDING * count.signum())).ceil()
+}
+
+/// Rounds a count down, unless it is below a whole number by rounding alone.
+fn rounded_down(count: f64) -> f64 {
+    (count * (1.0 + ROUNDING * count.signum())).floor()
 }
 
 /// How coordinates follow from numbers.
@@ -173,18 +189,17 @@ impl Coordinates {
 
     /// Returns the allowed number in the middle between two numbers; `None` if there is no further
     /// number between them.
-    pub fn middle(&self, [from, to]: [f64; 2]) -> Option<f64> {
+    pub fn middle(&self, ends: [f64; 2]) -> Option<f64> {
+        let [from, to] = ends;
         let middle = self.number(f64::midpoint(self.coordinate(from), self.coordinate(to)));
         if from < middle && middle < to {
             return Some(middle);
         }
         // Rounding may return an end although a whole number lies between them.
-        let counts = [
-            self.allowed.count(from)?.round(),
-            self.allowed.count(to)?.round(),
-        ];
-        let next = counts[0] + (counts[1] - counts[0]).signum();
-        ((counts[1] - counts[0]).abs() >= 2.0).then(|| self.allowed.of_count(next))
+        let first = self.allowed.count(from)?.round();
+        let last = self.allowed.count(to)?.round();
+        let steps = last - first;
+        (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
     /// Returns the length of the range in coordinates.
@@ -210,12 +225,12 @@ impl Coordinates {
 
     /// Returns all allowed numbers between two others, in ascending order; `None` if any number is
     /// allowed or if there are more than `most`.
-    pub fn all_between(&self, [from, to]: [f64; 2], most: usize) -> Option<Vec<f64>> {
-        let [one, other] = [
-            self.allowed.count(from)?.round(),
-            self.allowed.count(to)?.round(),
-        ];
-        let (low, high) = (one.min(other), one.max(other));
+    pub fn all_between(&self, ends: [f64; 2], most: usize) -> Option<Vec<f64>> {
+        let [from, to] = ends;
+        let first = self.allowed.count(from)?.round();
+        let last = self.allowed.count(to)?.round();
+        let low = first.min(last);
+        let high = first.max(last);
         if high - low >= most as f64 {
             return None;
         }
@@ -234,7 +249,8 @@ impl Coordinates {
             return (all, true);
         }
         let [from, to] = self.ends;
-        let (first, length) = (self.coordinate(from), self.length());
+        let first = self.coordinate(from);
+        let length = self.length();
         let mut numbers = vec![from];
         for index in 1..intervals {
             numbers.push(self.number(first + length * (index as f64 / intervals as f64)));

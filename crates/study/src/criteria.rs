@@ -81,44 +81,47 @@ fn tabor(tabor_number: Option<f64>) -> Criterion {
 /// [`Regime::VANISHING_SHARE`] adhesion has vanished, as in the definition of the regimes.
 fn this_program(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Criterion> {
     let smooth = outcome.smooth_adhesion_force.filter(|smooth| *smooth > 0.0);
-    let own = [
-        outcome.first_touch_adhesion_force,
-        outcome.zero_force_adhesion_force,
-    ];
-    let quantities = [
-        Quantity::FirstTouchAdhesionForce,
-        Quantity::ZeroForceAdhesionForce,
-    ];
-    let median = |ensemble: &Ensemble, quantity| Some(ensemble.statistics(quantity)?.quartiles[1]);
-    let [first_touch, zero_force] = ensemble.map_or(own, |ensemble| {
-        quantities.map(|quantity| median(ensemble, quantity))
-    });
-    let of = ensemble
-        .map(|ensemble| format!(", median of {} profiles", ensemble.computed()))
-        .unwrap_or_default();
+    let mut first_touch = outcome.first_touch_adhesion_force;
+    let mut zero_force = outcome.zero_force_adhesion_force;
+    let mut of_profiles = String::new();
+    if let Some(ensemble) = ensemble {
+        first_touch = median_of(ensemble, Quantity::FirstTouchAdhesionForce);
+        zero_force = median_of(ensemble, Quantity::ZeroForceAdhesionForce);
+        of_profiles = format!(", median of {} profiles", ensemble.computed());
+    }
     let rows = [
         ("F_a(d=0)/F_smooth", "turned at first touch", first_touch),
         ("F_a(F=0)/F_smooth", "turned at zero force", zero_force),
     ];
     let refusal = long_ranged(outcome.tabor_number);
-    let row = |(symbol, protocol, force): (&'static str, &str, Option<f64>)| {
-        let share = Some(force? / smooth?).filter(|share| share.is_finite())?;
-        let reason = match &refusal {
-            Some(refusal) => format!("does not hold: {refusal}"),
-            None => format!("{protocol}{of}"),
+    let mut criteria = Vec::new();
+    for (symbol, protocol, force) in rows {
+        let (Some(force), Some(smooth)) = (force, smooth) else {
+            continue;
         };
-        let sticks = refusal
-            .is_none()
-            .then_some(share >= Regime::VANISHING_SHARE);
-        Some(Criterion {
+        let share = force / smooth;
+        if !share.is_finite() {
+            continue;
+        }
+        let sticks = share >= Regime::VANISHING_SHARE;
+        let (sticks, reason) = match &refusal {
+            Some(refusal) => (None, format!("does not hold: {refusal}")),
+            None => (Some(sticks), format!("{protocol}{of_profiles}")),
+        };
+        criteria.push(Criterion {
             symbol,
             value: Some(share),
             sticks,
             reason: Some(reason),
             ..THIS_PROGRAM
-        })
-    };
-    rows.into_iter().filter_map(row).collect()
+        });
+    }
+    criteria
+}
+
+fn median_of(ensemble: &Ensemble, quantity: Quantity) -> Option<f64> {
+    let [_, median, _] = ensemble.statistics(quantity)?.quartiles;
+    Some(median)
 }
 
 #[cfg(test)]

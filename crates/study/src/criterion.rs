@@ -50,20 +50,23 @@ impl Criterion {
         }
     }
 
+    /// Returns the reason after a sign of punctuation; empty without a reason.
+    fn reason_after(&self, sign: &str) -> String {
+        match &self.reason {
+            Some(reason) => format!("{sign} {reason}"),
+            None => String::new(),
+        }
+    }
+
     /// Returns the criterion as one line of text, with the verdict [`Criterion::sticks`] or the
     /// reason why there is no verdict.
     pub fn words(&self) -> String {
-        let behind = |sign: &str| {
-            self.reason
-                .as_ref()
-                .map_or_else(String::new, |one| format!("{sign} {one}"))
-        };
         let Some(value) = self.value else {
-            return format!("{} is not known{}", self.symbol, behind(":"));
+            return format!("{} is not known{}", self.symbol, self.reason_after(":"));
         };
         let number = format!("{} = {}", self.symbol, format_quantity(value, "1"));
         let Some(sticks) = self.sticks else {
-            return number + &behind(";");
+            return number + &self.reason_after(";");
         };
         let verdict = if sticks { "adheres" } else { "does not adhere" };
         let side = if value < self.threshold {

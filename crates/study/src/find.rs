@@ -134,50 +134,36 @@ impl Found {
     /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the
     /// number has no influence on the quantity.
     fn check(&self) -> Result<(), StudyError> {
-        let Question {
-            axis,
-            quantity,
-            searched,
-            ..
-        } = &self.question;
-        let name = quantity.symbol_or_name();
-        let range = format!("from {}", format_range(*searched, 4, axis.unit));
-        let refused = |found, allowed| Err(StudyError::refused(Some(&axis.path), found, allowed));
-        if let Some(why) = self
-            .refused
-            .as_ref()
-            .filter(|_| self.question.is_of_preload())
+        let question = &self.question;
+        let is_of_preload = question.is_of_preload();
+        if let Some(reason) = &self.refused
+            && is_of_preload
         {
-            let (found, allowed) = why
+            let (found, allowed) = reason
                 .split_once("; allowed: ")
-                .unwrap_or((why.as_str(), "a smaller range: --range A..B"));
-            return refused(found.to_owned(), allowed);
+                .unwrap_or((reason, "a smaller range: --range A..B"));
+            return Err(question.refused(found, allowed));
         }
-        let Some((least, most)) = self.reachable() else {
-            let why = self
-                .refused
-                .as_ref()
-                .map_or_else(String::new, |reason| format!(": {reason}"));
-            return refused(
-                format!("the scene has no {name}{why}"),
-                "a quantity that the scene has",
-            );
+        let name = question.quantity.symbol_or_name();
+        let Some(reachable) = self.reachable() else {
+            let mut found = format!("the scene has no {name}");
+            if let Some(reason) = &self.refused {
+                found += &format!(": {reason}");
+            }
+            return Err(question.refused(&found, "a quantity that the scene has"));
         };
-        let is_same = |answer: &Answer| {
-            answer
-                .reachable
-                .is_none_or(|(least, most)| most - least <= STILL * most.abs().max(least.abs()))
-        };
-        if !self.question.is_of_preload() && self.answers.iter().all(is_same) {
-            let values = if self.answers.len() > 1 {
-                format_range((least, most), 4, quantity.unit())
-            } else {
-                format_quantity(most, quantity.unit())
-            };
-            let found = format!("does not act on {name}, which is {values} {range}");
-            return refused(found, "a number that changes the quantity");
+        if is_of_preload || !self.answers.iter().all(is_still) {
+            return Ok(());
         }
-        Ok(())
+        let unit = question.quantity.unit();
+        let values = if self.answers.len() > 1 {
+            format_range(reachable, 4, unit)
+        } else {
+            format_quantity(reachable.1, unit)
+        };
+        let range = format_range(question.searched, 4, question.axis.unit);
+        let found = format!("does not act on {name}, which is {values} from {range}");
+        Err(question.refused(&found, "a number that changes the quantity"))
     }
 
     /// Returns for each profile the smallest of [`Answer::crossings`], in the SI unit of the
@@ -198,30 +184,32 @@ impl Found {
     /// Returns the smallest and the largest value of the quantity in [`Answer::reachable`] of all
     /// profiles; `None` if the quantity has no value on any profile.
     pub fn reachable(&self) -> Option<(f64, f64)> {
-        let all = || self.answers.iter().filter_map(|answer| answer.reachable);
-        let least = all().map(|ends| ends.0).reduce(f64::min)?;
-        Some((least, all().map(|ends| ends.1).reduce(f64::max)?))
+        let mut reachable: Option<(f64, f64)> = None;
+        for (low, high) in self.answers.iter().filter_map(|answer| answer.reachable) {
+            let (least, most) = reachable.unwrap_or((low, high));
+            reachable = Some((least.min(low), most.max(high)));
+        }
+        reachable
     }
 
     /// Returns the numbers of the profiles in ascending order. A profile without a crossing lies
     /// beyond the end of the searched range where its crossing must be. If the quantity rises and
     /// is below the target, this is the upper end.
     fn ascending(&self) -> Vec<f64> {
-        let slope = |answer: &Answer| i64::from(answer.reached[1]) - i64::from(answer.reached[0]);
-        let rises = self.answers.iter().map(slope).sum::<i64>() >= 0;
-        let beyond = |answer: &Answer| {
-            if answer.reached[1] == rises {
+        let slopes = self
+            .answers
+            .iter()
+            .map(|answer| i64::from(answer.reached[1]) - i64::from(answer.reached[0]));
+        let rises = slopes.sum::<i64>() >= 0;
+        let mut places = Vec::with_capacity(self.answers.len());
+        for answer in &self.answers {
+            let beyond = if answer.reached[1] == rises {
                 f64::NEG_INFINITY
             } else {
                 f64::INFINITY
-            }
-        };
-        let place = |answer: &Answer| {
-            answer
-                .value(&self.question)
-                .unwrap_or_else(|| beyond(answer))
-        };
-        let mut places: Vec<f64> = self.answers.iter().map(place).collect();
+            };
+            places.push(answer.value(&self.question).unwrap_or(beyond));
+        }
         places.sort_by(f64::total_cmp);
         places
     }
@@ -241,8 +229,18 @@ impl Found {
     /// Returns the smallest and the largest of [`Found::values`] in SI units; `None` if no profile
     /// has a value.
     pub fn range(&self) -> Option<(f64, f64)> {
-        let values = || self.values().into_iter().flatten();
-        values().reduce(f64::min).zip(values().reduce(f64::max))
+        let values: Vec<f64> = self.values().into_iter().flatten().collect();
+        let least = values.iter().copied().reduce(f64::min)?;
+        let most = values.iter().copied().reduce(f64::max)?;
+        Some((least, most))
+    }
+}
+
+/// Returns true if the quantity has about the same value at all searched numbers, or none.
+fn is_still(answer: &Answer) -> bool {
+    match answer.reachable {
+        Some((least, most)) => most - least <= STILL * most.abs().max(least.abs()),
+        None => true,
     }
 }
 

@@ -6,6 +6,7 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::AxisScale;
 use asperity_scene::{Regime, RoughnessParameter};
 
+/// Ratio of the largest mean to a small one.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value
@@ -46,12 +47,13 @@ impl GridLayer {
     /// that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
-        let shown = means
-            .iter()
-            .filter(|mean| scale.coordinate(**mean).is_finite());
-        let range = shown
-            .map(|mean| (*mean, *mean))
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let mut range: Option<(f64, f64)> = None;
+        for &mean in means {
+            if scale.coordinate(mean).is_finite() {
+                let (least, most) = range.unwrap_or((mean, mean));
+                range = Some((least.min(mean), most.max(mean)));
+            }
+        }
         GridLayer {
             quantity,
             scale,
@@ -125,10 +127,9 @@ impl Grid {
 
     /// Returns the number of columns and the number of rows of the grid.
     pub fn size(&self) -> (usize, usize) {
-        (
-            self.across.values.len(),
-            self.up.as_ref().map_or(1, |up| up.values.len()),
-        )
+        let columns = self.across.values.len();
+        let rows = self.up.as_ref().map_or(1, |up| up.values.len());
+        (columns, rows)
     }
 
     /// Returns the layer of [`Grid::layers`] that shows a quantity; `None` if the grid does not
@@ -140,13 +141,16 @@ impl Grid {
     /// Returns the quantities that the grid shows. If regimes are known, the regime that follows
     /// from F_a(d=0) comes first and the regime that follows from F_a(F=0) last.
     pub fn quantities(&self) -> Vec<Quantity> {
-        let [touch, zero_force] = Quantity::REGIMES
-            .map(|regime| Some(regime).filter(|regime| !self.regimes(*regime, false).is_empty()));
-        touch
-            .into_iter()
-            .chain(self.layers.iter().map(|layer| layer.quantity))
-            .chain(zero_force)
-            .collect()
+        let [after_touch, after_zero_force] = Quantity::REGIMES;
+        let mut quantities = Vec::with_capacity(self.layers.len() + 2);
+        if !self.regimes(after_touch, false).is_empty() {
+            quantities.push(after_touch);
+        }
+        quantities.extend(self.layers.iter().map(|layer| layer.quantity));
+        if !self.regimes(after_zero_force, false).is_empty() {
+            quantities.push(after_zero_force);
+        }
+        quantities
     }
 
     /// Returns true if there is a [cell](GridCell) in which less than three quarters of the
@@ -166,21 +170,20 @@ impl Grid {
         row: usize,
     ) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let columns = self.across.values.len();
-        let index = *self
-            .stand_ins
-            .get(row * columns + column)
-            .filter(|_| column < columns)?;
-        Some((
-            self.cells[index].as_ref()?,
-            index % columns,
-            index / columns,
-        ))
+        if column >= columns {
+            return None;
+        }
+        let index = *self.stand_ins.get(row * columns + column)?;
+        let cell = self.cells[index].as_ref()?;
+        Some((cell, index % columns, index / columns))
     }
 
     /// Returns the cells, or with `whole` the cells that are shown in place of them.
     fn each(&self, whole: bool) -> impl Iterator<Item = Option<&GridCell>> {
-        let index = move |index: usize| if whole { self.stand_ins[index] } else { index };
-        (0..self.cells.len()).map(move |number| self.cells[index(number)].as_ref()?.as_ref().ok())
+        (0..self.cells.len()).map(move |index| {
+            let shown = if whole { self.stand_ins[index] } else { index };
+            self.cells[shown].as_ref()?.as_ref().ok()
+        })
     }
 
     /// Returns the statistics of a quantity in all [cells](GridCell), row by row. If `whole` is
@@ -194,18 +197,13 @@ impl Grid {
             .layers
             .iter()
             .position(|layer| layer.quantity == quantity);
-        let rank = |regime: Regime| 1.0 - regime as u8 as f64 / 2.0;
-        let of = |cell: &GridCell| match (quantity, layer) {
-            _ if quantity.is_regime() => {
-                let regimes = cell.regimes_of(quantity);
-                let regime = regimes.most()?.0;
-                let other = regimes.split().unwrap_or(regime);
-                let mean = (rank(regime) + rank(other)) / 2.0;
-                Statistics::of(vec![mean], (0.0, 1.0))
-            }
-            (_, layer) => cell.statistics[layer?],
-        };
-        self.each(whole).map(|cell| of(cell?)).collect()
+        let cells = self.each(whole);
+        if quantity.is_regime() {
+            return cells
+                .map(|cell| regime_as_number(cell?.regimes_of(quantity)))
+                .collect();
+        }
+        cells.map(|cell| cell?.statistics[layer?]).collect()
     }
 
     /// Returns the most frequent regime of each [cell](GridCell), row by row; empty if no regime is
@@ -226,46 +224,78 @@ impl Grid {
     /// [cell](GridCell) before the first value and ends half a cell beyond the last value.
     pub fn contains(&self, at: GridPlace) -> bool {
         let (column, row) = self.coordinates(at);
-        let within = |at: f64, count: usize| (-0.5..count as f64 - 0.5).contains(&at);
         let (columns, rows) = self.size();
-        within(column, columns) && within(row, rows)
+        is_on_axis(column, columns) && is_on_axis(row, rows)
     }
 
     /// Returns the fractional column and row of values on the axes.
-    fn coordinates(&self, (across, up): GridPlace) -> (f64, f64) {
-        let place = |axis: &Axis, value| axis.scale().place(&axis.values, value);
-        (
-            place(&self.across, across),
-            self.up
-                .as_ref()
-                .zip(up)
-                .map_or(0.0, |(axis, value)| place(axis, value)),
-        )
+    fn coordinates(&self, place: GridPlace) -> (f64, f64) {
+        let (across, up) = place;
+        let column = index_of(across, &self.across);
+        let mut row = 0.0;
+        if let (Some(axis), Some(value)) = (&self.up, up) {
+            row = index_of(value, axis);
+        }
+        (column, row)
     }
 
     /// Returns what [`Grid::shown`] returns for the [cell](GridCell) nearest to a place. If the
     /// place lies beyond the grid, this cell is at the edge of the grid.
     pub fn nearest(&self, at: GridPlace) -> Option<(&Result<GridCell, String>, usize, usize)> {
         let (column, row) = self.coordinates(at);
-        let nearest =
-            |at: f64, count: usize| at.round().clamp(0.0, count.saturating_sub(1) as f64) as usize;
         let (columns, rows) = self.size();
-        self.shown(nearest(column, columns), nearest(row, rows))
+        self.shown(nearest_index(column, columns), nearest_index(row, rows))
     }
+}
+
+/// Returns the most frequent regime as a number from 0 to 1, halfway between two regimes if
+/// profiles differ.
+fn regime_as_number(regimes: RegimeCounts) -> Option<Statistics> {
+    let most = regimes.most()?.0;
+    let second = regimes.split().unwrap_or(most);
+    let mean = (regime_rank(most) + regime_rank(second)) / 2.0;
+    Statistics::of(vec![mean], (0.0, 1.0))
+}
+
+fn regime_rank(regime: Regime) -> f64 {
+    1.0 - regime as u8 as f64 / 2.0
+}
+
+/// Returns the fractional index of a value on an axis.
+fn index_of(value: f64, axis: &Axis) -> f64 {
+    axis.scale().place(&axis.values, value)
+}
+
+/// Returns true for a fractional index within half a cell of an axis with `count` values.
+fn is_on_axis(index: f64, count: usize) -> bool {
+    (-0.5..count as f64 - 0.5).contains(&index)
+}
+
+/// Returns the index of one of `count` values that is nearest to a fractional index.
+fn nearest_index(index: f64, count: usize) -> usize {
+    index.round().clamp(0.0, count.saturating_sub(1) as f64) as usize
 }
 
 /// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ
 /// vertical. Among other free axes the first is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
-    let find =
-        |wanted: &dyn Fn(&str) -> bool| free.iter().copied().find(|axis| wanted(&axes[*axis].path));
-    let other = |one: Option<usize>| free.iter().copied().find(|axis| Some(*axis) != one);
-    let up = find(&|path| RoughnessParameter::named(path).is_some());
-    let across = find(&|path| path == "roughness.hurst")
-        .or(other(up))
-        .or(up)?;
-    Some((
-        across,
-        up.filter(|up| *up != across).or(other(Some(across))),
-    ))
+    let path = |axis: usize| axes[axis].path.as_str();
+    let mut up = None;
+    let mut across = None;
+    for &axis in free {
+        if up.is_none() && RoughnessParameter::named(path(axis)).is_some() {
+            up = Some(axis);
+        }
+        if across.is_none() && path(axis) == "roughness.hurst" {
+            across = Some(axis);
+        }
+    }
+    let across = across.or(first_beside(free, up)).or(up)?;
+    let up = up.filter(|up| *up != across);
+    Some((across, up.or(first_beside(free, Some(across)))))
+}
+
+/// Returns the first axis that is not the given one.
+fn first_beside(free: &[usize], axis: Option<usize>) -> Option<usize> {
+    free.iter().copied().find(|other| Some(*other) != axis)
 }

@@ -45,7 +45,8 @@ impl Level {
     /// Returns the indices of the values of an axis on this level at about equal distances. An axis
     /// with few values has all of them.
     fn places(self, axis: &Axis) -> Vec<usize> {
-        let (wanted, all) = ([5, 9, 17, 33][self as usize], axis.values.len());
+        let wanted = [5, 9, 17, 33][self as usize];
+        let all = axis.values.len();
         if 4 * all <= 5 * wanted {
             return (0..all).collect();
         }
@@ -85,19 +86,19 @@ impl LiveMap {
     /// the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
-        let places = |axis: usize| {
-            plan.axes
-                .get(axis)
-                .map_or(vec![0], |axis| level.places(axis))
+        let places_on = |axis: usize| match plan.axes.get(axis) {
+            Some(axis) => level.places(axis),
+            None => vec![0],
         };
-        let (parameters, hursts) = (places(0), places(1));
-        let of_hurst = |&hurst| {
-            parameters
+        let parameters = places_on(0);
+        let mut rows = Vec::new();
+        for hurst in places_on(1) {
+            let cells = parameters
                 .iter()
-                .map(|&at| plan.cell_at(&[at, hurst]))
-                .collect()
-        };
-        hursts.iter().map(of_hurst).collect()
+                .map(|&parameter| plan.cell_at(&[parameter, hurst]));
+            rows.push(cells.collect());
+        }
+        rows
     }
 
     /// Returns true for a cell that is computed or cannot be computed.
@@ -214,27 +215,24 @@ impl LiveMap {
     /// Returns the index of the cell shown in place of a cell: the cell itself or, until it is
     /// computed, a cell of a coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
+        for level in Level::ALL.into_iter().rev() {
+            let nearest = self.nearest_on(level, cell);
+            if self.is_known(nearest) {
+                return nearest;
+            }
+        }
+        cell
+    }
+
+    /// Returns the index of the cell of a level that is nearest to a cell.
+    fn nearest_on(&self, level: Level, cell: u64) -> u64 {
         let plan = self.plan();
-        let on_level = |level: Level| {
-            let near = |(place, axis): (usize, &Axis)| {
-                level
-                    .places(axis)
-                    .into_iter()
-                    .min_by_key(|one| one.abs_diff(place))
-            };
-            let places: Vec<usize> = plan
-                .places(cell)
-                .into_iter()
-                .zip(&plan.axes)
-                .filter_map(near)
-                .collect();
-            Some(plan.cell_at(&places)).filter(|cell| self.is_known(*cell))
-        };
-        Level::ALL
-            .into_iter()
-            .rev()
-            .find_map(on_level)
-            .unwrap_or(cell)
+        let mut nearest = Vec::with_capacity(plan.axes.len());
+        for (place, axis) in plan.places(cell).into_iter().zip(&plan.axes) {
+            let places = level.places(axis).into_iter();
+            nearest.extend(places.min_by_key(|known| known.abs_diff(place)));
+        }
+        plan.cell_at(&nearest)
     }
 }
 

@@ -9,7 +9,7 @@ use super::profiles::on_threads_received;
 use super::quantity::Quantity;
 use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::{Control, root_mean_square};
-use asperity_scene::{CheckedScene, Document, Regime, RunError, Simulation};
+use asperity_scene::{CheckedScene, Document, Outcome, Regime, RunError, Simulation};
 use asperity_surface::EquivalentLine;
 use asperity_surface::lines::{MeasuredRoughness, read_faces};
 use serde::Serialize;
@@ -51,33 +51,39 @@ impl ProfileAdhesion {
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, RunError> {
         let scene = scene.with_seed(seed).stripped();
-        let on = |scene: &CheckedScene, line: EquivalentLine| {
-            let measured = Arc::new(MeasuredRoughness::Equivalent(line));
-            Simulation::default()
-                .with_measured(measured)
-                .run(scene, stop, &mut |_, _, _| Ok(()))
-        };
-        let fitted = on(&scene, line.clone())?;
-        // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
-        let with_work = |work| {
-            scene.with(|scene| {
-                scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work))
-            })
-        };
-        let scene = fitted
-            .governing
-            .work_of_adhesion
-            .map_or(Ok(scene.clone()), with_work)?;
-        let moved = on(&scene, line.drawn(seed, SHARE))?;
-        let (one, other) = (fitted.figures.adhesion_force, moved.figures.adhesion_force);
+        let fitted = run_on(&scene, line.clone(), stop)?;
+        let mut scene = scene;
+        if let Some(work) = fitted.governing.work_of_adhesion {
+            // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
+            scene = scene.with(|scene| {
+                scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
+            })?;
+        }
+        let moved = run_on(&scene, line.drawn(seed, SHARE), stop)?;
+        let adhesion_force = fitted.figures.adhesion_force;
+        let mut fit_change = None;
+        if let (Some(before), Some(after)) = (adhesion_force, moved.figures.adhesion_force) {
+            fit_change = Some((after - before) / SHARE);
+        }
         Ok(ProfileAdhesion {
             seed,
-            adhesion_force: one,
-            fit_change: one.zip(other).map(|(one, other)| (other - one) / SHARE),
+            adhesion_force,
+            fit_change,
             regime: fitted.regime,
             regime_after_zero_force: fitted.regime_after_zero_force,
         })
     }
+}
+
+/// Computes a scene whose measured surface has the spectrum of `line`.
+fn run_on(
+    scene: &CheckedScene,
+    line: EquivalentLine,
+    stop: &dyn Fn() -> bool,
+) -> Result<Outcome, RunError> {
+    let measured = Arc::new(MeasuredRoughness::Equivalent(line));
+    let mut simulation = Simulation::default().with_measured(measured);
+    simulation.run(scene, stop, &mut |_, _, _| Ok(()))
 }
 
 /// Adhesion of several random profiles with the spectrum of one measured surface.
@@ -218,10 +224,8 @@ impl MeasuredAdhesion {
     /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles;
     /// `None` for fewer than two profiles.
     pub fn fit_deviation(&self) -> Option<f64> {
-        rms(self
-            .profiles
-            .iter()
-            .filter_map(|profile| profile.fit_change))
+        let changes = self.profiles.iter().map(|profile| profile.fit_change);
+        rms(changes.flatten())
     }
 
     /// Returns two forces in N, the median adhesion force divided by a factor and the median times
@@ -229,10 +233,15 @@ impl MeasuredAdhesion {
     /// spectrum. Its logarithm is the root mean square of [`ProfileAdhesion::fit_change`] divided
     /// by [`ProfileAdhesion::adhesion_force`].
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
-        let relative = |profile: &ProfileAdhesion| {
-            Some(profile.fit_change? / profile.adhesion_force.filter(|force| *force > 0.0)?)
-        };
-        let factor = rms(self.profiles.iter().filter_map(relative))?.exp();
+        let mut relative_changes = Vec::with_capacity(self.profiles.len());
+        for profile in &self.profiles {
+            if let (Some(change), Some(force)) = (profile.fit_change, profile.adhesion_force)
+                && force > 0.0
+            {
+                relative_changes.push(change / force);
+            }
+        }
+        let factor = rms(relative_changes.into_iter())?.exp();
         let median = self.adhesion_force()?.quartiles[1];
         Some((median / factor, median * factor))
     }
@@ -240,8 +249,15 @@ impl MeasuredAdhesion {
     /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
     /// [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self) -> [RegimeCounts; 2] {
-        let both = |profile: &ProfileAdhesion| [profile.regime, profile.regime_after_zero_force];
-        [0, 1].map(|of| RegimeCounts::of(self.profiles.iter().map(|profile| both(profile)[of])))
+        let after_touch = self.profiles.iter().map(|profile| profile.regime);
+        let after_zero_force = self
+            .profiles
+            .iter()
+            .map(|profile| profile.regime_after_zero_force);
+        [
+            RegimeCounts::of(after_touch),
+            RegimeCounts::of(after_zero_force),
+        ]
     }
 }
 

@@ -159,11 +159,12 @@ fn force_unit(scene: &Scene) -> Option<f64> {
 /// Replaces the loading of a scene by a preload of this axis and separation, if the scene
 /// determines the unit of the axis.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
-    if let Some(unit) = if axis.unit == "N" {
+    let unit = if axis.unit == "N" {
         Some(1.0)
     } else {
         force_unit(scene)
-    } {
+    };
+    if let Some(unit) = unit {
         scene.loading = vec![Move::ToForce(preload * unit), Move::ToSeparation];
     }
 }
@@ -195,7 +196,7 @@ impl Axis {
         let by_work = document
             .scene()
             .adhesion
-            .filter(|one| moves_parameter && one.parameter().is_none());
+            .filter(|adhesion| moves_parameter && adhesion.parameter().is_none());
         if let Some(adhesion) = by_work {
             let work = governing(&scene).and_then(|known| known.work_of_adhesion);
             scene.adhesion = work.map(|work| adhesion.with_work(work)).or(scene.adhesion);

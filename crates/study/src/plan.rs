@@ -6,7 +6,7 @@ use super::error::ONE_PROFILE;
 use super::place::scene_with;
 use super::quantity::{Needs, Quantity};
 use asperity_scene::text::ron_float;
-use asperity_scene::{CheckedScene, Scene, SceneError, SceneErrors};
+use asperity_scene::{CheckedScene, Scene, SceneErrors};
 use serde::{Deserialize, Serialize};
 
 /// File name of the plan in the folder of a study.
@@ -149,20 +149,22 @@ impl Plan {
         axes: impl DoubleEndedIterator<Item = usize>,
         number: u64,
     ) -> Vec<usize> {
-        let (mut rest, mut places) = (number, vec![0; self.axes.len()]);
+        let mut places = vec![0; self.axes.len()];
+        let mut number = number;
         for axis in axes.rev() {
             let count = self.axes[axis].count();
-            places[axis] = (rest % count) as usize;
-            rest /= count;
+            places[axis] = (number % count) as usize;
+            number /= count;
         }
         places
     }
 
     pub(super) fn cell_at(&self, places: &[usize]) -> u64 {
-        places
-            .iter()
-            .zip(&self.axes)
-            .fold(0, |cell, (place, axis)| cell * axis.count() + *place as u64)
+        let mut cell = 0;
+        for (place, axis) in places.iter().zip(&self.axes) {
+            cell = cell * axis.count() + *place as u64;
+        }
+        cell
     }
 
     pub(super) fn value(&self, cell: u64, axis: usize) -> f64 {
@@ -180,13 +182,14 @@ impl Plan {
     /// Returns the values on all axes in [cell](Plan) number `cell` as text, such as
     /// `adhesion.kappa = 6.0`.
     pub fn coordinates(&self, cell: u64) -> String {
-        let one = |(axis, value): (&Axis, f64)| format!("{} = {}", axis.path, ron_float(value));
-        let all: Vec<_> = self.axes.iter().zip(self.values(cell)).map(one).collect();
-        if all.is_empty() {
-            "the scene itself".into()
-        } else {
-            all.join(", ")
+        if self.axes.is_empty() {
+            return "the scene itself".to_owned();
         }
+        let mut coordinates = Vec::with_capacity(self.axes.len());
+        for (axis, value) in self.axes.iter().zip(self.values(cell)) {
+            coordinates.push(format!("{} = {}", axis.path, ron_float(value)));
+        }
+        coordinates.join(", ")
     }
 
     /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the
@@ -207,7 +210,7 @@ impl Plan {
 
     /// Returns the index of a quantity in [`Plan::record`]; `None` if the quantity is not recorded.
     pub fn column(&self, quantity: Quantity) -> Option<usize> {
-        self.record.iter().position(|one| *one == quantity)
+        self.record.iter().position(|known| *known == quantity)
     }
 
     pub(super) fn records(&self, needs: Needs) -> bool {
@@ -220,32 +223,54 @@ impl Plan {
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
+        wrong.extend(self.errors_of_paths());
+        wrong.extend(self.errors_of_profiles());
+        wrong.extend(self.errors_of_record());
+        wrong.extend(self.errors_of_forces());
+        wrong.extend(self.error_of_size());
+        wrong
+    }
+
+    fn errors_of_paths(&self) -> Vec<String> {
+        let mut wrong = Vec::new();
         let paths: Vec<&str> = self.axes.iter().map(|axis| axis.path.as_str()).collect();
         for (index, path) in paths.iter().enumerate() {
             let before = &paths[..index];
             if before.contains(path) {
                 wrong.push(format!("axis {path}: given twice"));
             }
-            let same = SAME.iter().find(|same| same.contains(path));
-            let other = before
+            let Some(same) = SAME.iter().find(|same| same.contains(path)) else {
+                continue;
+            };
+            let twin = before
                 .iter()
-                .find(|other| same.is_some_and(|same| same.contains(other)) && *other != path);
-            wrong.extend(other.map(|other| {
-                format!("axis {path}: {other} sets it as well; allowed: one of them")
-            }));
+                .find(|other| same.contains(other) && *other != path);
+            if let Some(twin) = twin {
+                wrong.push(format!(
+                    "axis {path}: {twin} sets it as well; allowed: one of them"
+                ));
+            }
         }
-        if !(1..=MOST_LINES).contains(&self.lines) {
+        wrong
+    }
+
+    fn errors_of_profiles(&self) -> Vec<String> {
+        let lines = self.lines;
+        let mut wrong = Vec::new();
+        if !(1..=MOST_LINES).contains(&lines) {
             wrong.push(format!(
-                "profiles = {}: allowed: from 1 to {MOST_LINES}",
-                self.lines
+                "profiles = {lines}: allowed: from 1 to {MOST_LINES}"
             ));
         }
-        if self.lines > 1 && self.scene.seed().is_none() {
-            wrong.push(format!(
-                "profiles = {}: {}; allowed: {}",
-                self.lines, ONE_PROFILE.0, ONE_PROFILE.1
-            ));
+        if lines > 1 && self.scene.seed().is_none() {
+            let (found, allowed) = ONE_PROFILE;
+            wrong.push(format!("profiles = {lines}: {found}; allowed: {allowed}"));
         }
+        wrong
+    }
+
+    fn errors_of_record(&self) -> Vec<String> {
+        let mut wrong = Vec::new();
         if self.record.is_empty() {
             wrong.push("record = []: allowed: at least one quantity".into());
         }
@@ -254,10 +279,15 @@ impl Plan {
                 wrong.push(format!("record: {} is given twice", quantity.name()));
             }
         }
+        wrong
+    }
+
+    /// Returns the errors of the preloads and of the forces at which the stiffness is recorded.
+    fn errors_of_forces(&self) -> Vec<String> {
+        let mut wrong = Vec::new();
         let preloads = self.axes.iter().find(|axis| axis.is_of_preloads());
-        if let Some(value) =
-            preloads.and_then(|axis| axis.values.iter().find(|value| **value <= 0.0))
-        {
+        let pull = preloads.and_then(|axis| axis.values.iter().find(|preload| **preload <= 0.0));
+        if let Some(value) = pull {
             wrong.push(format!("preload {value:?}: allowed: above 0"));
         }
         let StiffnessRange { from, to, count } = self.stiffness;
@@ -276,51 +306,51 @@ impl Plan {
                     .into(),
             );
         }
+        wrong
+    }
+
+    /// Returns the error of too many cells or records.
+    fn error_of_size(&self) -> Option<String> {
         let cells = self
             .axes
             .iter()
             .map(Axis::count)
             .try_fold(1_u64, u64::checked_mul);
-        let counts = || {
-            self.axes
-                .iter()
-                .map(|axis| axis.count().to_string())
-                .collect::<Vec<_>>()
-                .join(" × ")
-        };
-        match cells.filter(|cells| *cells <= Plan::MOST_CELLS) {
-            None => wrong.push(format!(
-                "{} cells; allowed: at most {}",
-                counts(),
-                Plan::MOST_CELLS
-            )),
-            Some(cells) if cells.saturating_mul(self.lines) > MOST_RECORDS => wrong.push(format!(
-                "{} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
-                counts(),
-                self.lines
-            )),
-            Some(_) => {}
+        let cells = cells.filter(|cells| *cells <= Plan::MOST_CELLS);
+        if cells.is_some_and(|cells| cells.saturating_mul(self.lines) <= MOST_RECORDS) {
+            return None;
         }
-        wrong
+        let counts: Vec<String> = self
+            .axes
+            .iter()
+            .map(|axis| axis.count().to_string())
+            .collect();
+        let counts = counts.join(" × ");
+        Some(match cells {
+            None => format!("{counts} cells; allowed: at most {}", Plan::MOST_CELLS),
+            Some(_) => format!(
+                "{counts} cells on {} profiles; allowed: at most {MOST_RECORDS} together",
+                self.lines
+            ),
+        })
     }
 
     /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a
     /// measured file.
     fn errors_of_texts(&self) -> Vec<String> {
-        let (title, notice) = (self.title.clone(), self.notice.clone());
         let texts = Scene {
-            title,
-            notice,
+            title: self.title.clone(),
+            notice: self.notice.clone(),
             ..self.scene.clone()
         };
-        let errors = texts.checked().err();
-        let is_text = |error: &&SceneError| ["title", "notice"].contains(&error.field.as_str());
-        let mut wrong: Vec<String> = errors
-            .iter()
-            .flat_map(SceneErrors::iter)
-            .filter(is_text)
-            .map(SceneError::to_string)
-            .collect();
+        let mut wrong = Vec::new();
+        if let Err(errors) = texts.checked() {
+            for error in errors.iter() {
+                if ["title", "notice"].contains(&error.field.as_str()) {
+                    wrong.push(error.to_string());
+                }
+            }
+        }
         if self.measured_sha256.is_some() && self.scene.measured_files().is_empty() {
             wrong.push(
                 "measured_sha256: allowed with roughness: Measured and form: Table; this scene has no such file".into(),
@@ -331,7 +361,8 @@ impl Plan {
 
     /// Checks the scenes of the cells that [`Plan::extremes`] chooses.
     pub(super) fn check_cells(&self) -> Result<(), Vec<String>> {
-        let (mut wrong, mut more) = (Vec::new(), 0_u64);
+        let mut wrong = Vec::new();
+        let mut more = 0;
         for cell in self.extremes(MOST_CHECKED) {
             let Err(errors) = self.scene_of(cell) else {
                 continue;
@@ -367,18 +398,20 @@ impl Plan {
             let order = axis.order();
             let mut ends = vec![order[0], order[order.len() - 1]];
             ends.dedup();
-            let with_end = |cell: &Vec<usize>| {
-                ends.iter()
-                    .map(|end| [&cell[..], &[*end]].concat())
-                    .collect::<Vec<_>>()
-            };
-            cells = cells.iter().flat_map(with_end).collect();
+            let mut longer = Vec::with_capacity(cells.len() * ends.len());
+            for cell in &cells {
+                for end in &ends {
+                    longer.push([&cell[..], &[*end]].concat());
+                }
+            }
+            cells = longer;
         }
-        let numbers = cells.into_iter().map(|mut cell| {
+        let mut numbers = Vec::with_capacity(cells.len());
+        for mut cell in cells {
             cell.resize(self.axes.len(), 0);
-            self.cell_at(&cell)
-        });
-        numbers.collect()
+            numbers.push(self.cell_at(&cell));
+        }
+        numbers
     }
 }
 

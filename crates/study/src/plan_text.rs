@@ -129,12 +129,15 @@ impl Plan {
         profiles: u64,
         record: &[Quantity],
     ) -> Result<Plan, StudyError> {
-        let axis = |(path, values): &(&str, &[f64])| AxisText::List {
-            path: (*path).to_owned(),
-            values: values.to_vec(),
-        };
+        let mut texts = Vec::with_capacity(axes.len());
+        for (path, values) in axes {
+            texts.push(AxisText::List {
+                path: (*path).to_owned(),
+                values: values.to_vec(),
+            });
+        }
         let read = PlanText {
-            axes: axes.iter().map(axis).collect(),
+            axes: texts,
             record: record.to_vec(),
             ..PlanText::default()
         };
@@ -149,15 +152,15 @@ impl Plan {
     /// # Errors
     /// Returns an error if there is no plan of this name.
     pub fn built_in(name: &str) -> Result<&'static Preset, StudyError> {
-        Plan::BUILT_IN
-            .iter()
-            .find(|plan| plan.name == name)
-            .ok_or_else(|| {
-                let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
-                let (near, names) = (did_you_mean(name, names.iter().copied()), names.join(", "));
-                let message = "there is no such file and no such built-in plan";
-                StudyError::Plan(vec![format!("{name}: {message}{near} (built-in: {names})")])
-            })
+        if let Some(plan) = Plan::BUILT_IN.iter().find(|plan| plan.name == name) {
+            return Ok(plan);
+        }
+        let names: Vec<_> = Plan::BUILT_IN.iter().map(|plan| plan.name).collect();
+        let near = did_you_mean(name, names.iter().copied());
+        let names = names.join(", ");
+        let message = "there is no such file and no such built-in plan";
+        let message = format!("{name}: {message}{near} (built-in: {names})");
+        Err(StudyError::Plan(vec![message]))
     }
 
     /// Reads and checks the text of a plan. `name` is usually the path of the plan. Error messages
@@ -213,13 +216,16 @@ impl Plan {
                 axes.len()
             )]);
         }
-        let preloads = Some(preloads).filter(|values| !values.is_empty());
-        let preloads = preloads.map(|values| AxisText::List {
-            path: PRELOAD.into(),
-            values,
-        });
-        let (mut wrong, mut read_axes) = (Vec::new(), Vec::new());
-        for axis in axes.into_iter().chain(preloads) {
+        let mut axes = axes;
+        if !preloads.is_empty() {
+            axes.push(AxisText::List {
+                path: PRELOAD.into(),
+                values: preloads,
+            });
+        }
+        let mut wrong = Vec::new();
+        let mut read_axes = Vec::new();
+        for axis in axes {
             match Axis::of(&axis, &scene) {
                 Ok(axis) => read_axes.push(axis),
                 Err(error) => wrong.push(error),

@@ -13,8 +13,9 @@ use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Usual number of preloads, and what a text of preloads may be.
+/// Usual number of preloads.
 const USUAL: usize = 64;
+/// What a text of preloads may be.
 const ALLOWED: &str = "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
 /// Share of the axis of preloads within which each step of a staircase is located.
@@ -50,12 +51,13 @@ impl Axis {
     /// ```
     pub fn parse_preloads(text: &str) -> Result<Axis, StudyError> {
         let mut parts = text.split(':').map(str::trim);
-        let ends = Axis::parse_range(parts.next().unwrap_or_default(), "N");
-        let ends = ends.map_err(|error| match error {
+        let range = parts.next().unwrap_or_default();
+        let ends = Axis::parse_range(range, "N").map_err(|error| match error {
             StudyError::Refused { found, .. } => StudyError::refused(None, found, ALLOWED),
-            other => other,
+            error => error,
         })?;
-        let (mut count, mut scale) = (USUAL, AxisScale::Linear);
+        let mut count = USUAL;
+        let mut scale = AxisScale::Linear;
         for part in parts {
             match part.parse() {
                 Ok(number) => count = number,
@@ -76,12 +78,14 @@ impl Axis {
     /// assert_eq!(asperity_study::Axis::parse_range("1nm..2um", "m").ok(), Some((1e-9, 2e-6)));
     /// ```
     pub fn parse_range(text: &str, unit: &str) -> Result<(f64, f64), StudyError> {
-        let refused = |found| StudyError::refused(None, found, "two numbers, such as 1..20");
-        let (from, to) = text
-            .split_once("..")
-            .ok_or_else(|| refused(format!("{text:?}")))?;
-        let number =
-            |text: &str| parse_quantity(text, unit).map_err(|error| refused(error.to_string()));
+        let allowed = "two numbers, such as 1..20";
+        let Some((from, to)) = text.split_once("..") else {
+            return Err(StudyError::refused(None, format!("{text:?}"), allowed));
+        };
+        let number = |text: &str| {
+            parse_quantity(text, unit)
+                .map_err(|error| StudyError::refused(None, error.to_string(), allowed))
+        };
         Ok((number(from)?, number(to)?))
     }
 
@@ -92,30 +96,33 @@ impl Axis {
     /// # Errors
     /// Returns an error if a force or the number of preloads is not allowed.
     pub fn of_preloads(
-        (from, to): (f64, f64),
+        ends: (f64, f64),
         count: usize,
         scale: AxisScale,
     ) -> Result<Axis, StudyError> {
+        let (from, to) = ends;
         check_ends(from, to, count as u64, *Axis::PRELOADS.end() as u64)?;
         let range = LEG_FORCE.range;
         if !(range.contains(from) && range.contains(to)) {
             let found = format!("from {from:?} to {to:?}");
             return Err(StudyError::refused(None, found, format!("{range} N")));
         }
-        let is_logarithmic = scale == AxisScale::Logarithmic;
-        if is_logarithmic {
+        let mut spacing = Spacing::Linear;
+        if scale == AxisScale::Logarithmic {
             check_logarithm(from)?;
+            spacing = Spacing::Logarithmic;
         }
-        let (low, high) = (scale.coordinate(from), scale.coordinate(to));
-        let inner = |index: usize| low + (high - low) * (index as f64 / (count - 1) as f64);
-        let inner = (1..count - 1).map(|index| scale.number(inner(index)).clamp(from, to));
+        let low = scale.coordinate(from);
+        let high = scale.coordinate(to);
+        let mut values = vec![from];
+        for index in 1..count - 1 {
+            let share = index as f64 / (count - 1) as f64;
+            values.push(scale.number(low + (high - low) * share).clamp(from, to));
+        }
+        values.push(to);
         Ok(Axis {
-            spacing: if is_logarithmic {
-                Spacing::Logarithmic
-            } else {
-                Spacing::Linear
-            },
-            values: std::iter::once(from).chain(inner).chain([to]).collect(),
+            spacing,
+            values,
             ..Axis::of_preload()
         })
     }
@@ -221,33 +228,31 @@ impl Staircase {
 
     /// Returns the middles of the intervals of preloads that contain a step and are still wide.
     fn halves(&self) -> Vec<f64> {
-        let at = |point: &(f64, f64)| self.scale.coordinate(point.0);
-        let [Some(low), Some(high)] =
-            [self.forces.first(), self.forces.last()].map(|end| end.map(at))
-        else {
+        let (Some(first), Some(last)) = (self.forces.first(), self.forces.last()) else {
             return Vec::new();
         };
-        let middle = |pair: &[(f64, f64)]| {
-            let ([from, to], steps) = (
-                [at(&pair[0]), at(&pair[1])],
-                pair[1].1 - pair[0].1 > SAME * pair[1].1,
-            );
-            (steps && to - from > FINEST * (high - low))
-                .then(|| self.scale.number(f64::midpoint(from, to)))
-        };
-        self.forces.windows(2).filter_map(middle).collect()
+        let width = self.scale.coordinate(last.0) - self.scale.coordinate(first.0);
+        let mut middles = Vec::new();
+        for pair in self.forces.windows(2) {
+            let from = self.scale.coordinate(pair[0].0);
+            let to = self.scale.coordinate(pair[1].0);
+            let has_step = pair[1].1 - pair[0].1 > SAME * pair[1].1;
+            if has_step && to - from > FINEST * width {
+                middles.push(self.scale.number(f64::midpoint(from, to)));
+            }
+        }
+        middles
     }
 
     /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and
     /// adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
-        let corner = |pair: &[(f64, f64)]| [(pair[1].0, pair[0].1), pair[1]];
-        self.forces
-            .first()
-            .copied()
-            .into_iter()
-            .chain(self.forces.windows(2).flat_map(corner))
-            .collect()
+        let mut corners: Vec<(f64, f64)> = self.forces.first().copied().into_iter().collect();
+        for pair in self.forces.windows(2) {
+            corners.push((pair[1].0, pair[0].1));
+            corners.push(pair[1]);
+        }
+        corners
     }
 }
 
@@ -293,12 +298,17 @@ impl Results {
     /// profiles is left out. A profile on which the force is never negative has the adhesion force
     /// 0 N.
     pub fn spread_of_adhesion(&self) -> Vec<(f64, Statistics)> {
-        let spread = |cell| {
+        let mut spread = Vec::new();
+        for cell in 0..self.plan.cells() {
             let (preload, forces) = self.forces_in(cell);
-            let all = Statistics::of(forces, Quantity::AdhesionForce.bounds())?;
-            all.spread.map(|_| (preload, all))
-        };
-        (0..self.plan.cells()).filter_map(spread).collect()
+            let statistics = Statistics::of(forces, Quantity::AdhesionForce.bounds());
+            if let Some(statistics) = statistics
+                && statistics.spread.is_some()
+            {
+                spread.push((preload, statistics));
+            }
+        }
+        spread
     }
 
     /// Returns the preload in N on the axis that is nearest to `preload`, and the adhesion force in
@@ -311,15 +321,14 @@ impl Results {
         nearest.map(|cell| self.forces_in(cell))
     }
 
+    /// Returns the preload of a cell, and the adhesion force on each computed profile.
     fn forces_in(&self, cell: u64) -> (f64, Vec<f64>) {
-        let force = |(line, _)| {
-            self.value(cell, line, Quantity::AdhesionForce)
-                .unwrap_or(0.0)
-        };
-        (
-            self.plan.value(cell, 0),
-            self.records_of(cell).map(force).collect(),
-        )
+        let mut forces = Vec::new();
+        for (line, _) in self.records_of(cell) {
+            let force = self.value(cell, line, Quantity::AdhesionForce);
+            forces.push(force.unwrap_or(0.0));
+        }
+        (self.plan.value(cell, 0), forces)
     }
 }
 

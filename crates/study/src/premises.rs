@@ -36,7 +36,8 @@ pub fn warnings_on_profiles(
 ) -> Result<Vec<CountedWarning>, StudyError> {
     let mut results = Results::begin(scene, &[Quantity::Warnings], profiles, None)?;
     let missing = results.missing(Failures::Keep);
-    let (threads, stop) = (control.threads(), control.stop());
+    let threads = control.threads();
+    let stop = control.stop();
     let mut computed = 0;
     missing.solve(simulation, threads, stop, &mut |solved| {
         results.take_in(solved);

@@ -58,8 +58,10 @@ pub(super) fn on_profiles<R: Send>(
             Ok(())
         }
     };
-    let mut receive_pair = |(line, solved): (u64, R)| receive(line, solved);
-    on_threads_received(lines.len() as u64, threads, worker, &mut receive_pair)?;
+    let count = lines.len() as u64;
+    on_threads_received(count, threads, worker, &mut |(line, solved)| {
+        receive(line, solved);
+    })?;
     Ok(())
 }
 

@@ -277,33 +277,32 @@ impl Quantity {
     pub fn named(text: &str) -> Result<Quantity, String> {
         let text = text.trim();
         let name = text.to_lowercase().replace([' ', '-'], "_");
-        let is_named = |one: &Quantity| one.symbol() == text || one.name() == name;
-        let found: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_named).collect();
-        let names = |all: &[Quantity]| {
-            all.iter()
-                .map(|one| one.name())
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
+        let mut found = Quantity::ALL.to_vec();
+        found.retain(|quantity| quantity.symbol() == text || quantity.name() == name);
         match found[..] {
-            [one] => Ok(one),
+            [quantity] => Ok(quantity),
             [] => {
                 let words = Quantity::ALL
                     .into_iter()
-                    .flat_map(|one| [one.name(), one.symbol()]);
+                    .flat_map(|quantity| [quantity.name(), quantity.symbol()]);
                 // A letter or two is near to anything.
                 let near = did_you_mean(&name, words.filter(|word| word.chars().count() > 2));
-                let all = format!(" (quantities: {})", names(&Quantity::ALL));
-                Err(format!(
-                    "{text:?} is no quantity{}",
-                    if near.is_empty() { all } else { near }
-                ))
+                if near.is_empty() {
+                    let all = Quantity::names(&Quantity::ALL);
+                    return Err(format!("{text:?} is no quantity (quantities: {all})"));
+                }
+                Err(format!("{text:?} is no quantity{near}"))
             }
-            ref several => Err(format!(
-                "{text:?} has several meanings; allowed: {}",
-                names(several)
-            )),
+            ref several => {
+                let names = Quantity::names(several);
+                Err(format!("{text:?} has several meanings; allowed: {names}"))
+            }
         }
+    }
+
+    fn names(quantities: &[Quantity]) -> String {
+        let names: Vec<&str> = quantities.iter().map(|quantity| quantity.name()).collect();
+        names.join(", ")
     }
 
     /// Returns the meaning of the quantity as one line of text, such as

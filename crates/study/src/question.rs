@@ -149,7 +149,7 @@ impl Question {
     /// Numbers from a hundredth to a hundred times the value in the scene are searched. For a
     /// number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
     /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the
-    /// scene is loaded.
+    /// scene is loaded. `condition` is the quantity and its wanted value in SI units.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
@@ -158,61 +158,25 @@ impl Question {
     pub fn new(
         scene: &CheckedScene,
         path: &str,
-        (quantity, target): (Quantity, f64),
+        condition: (Quantity, f64),
         profiles: u64,
         simulation: &mut Simulation,
     ) -> Result<Question, StudyError> {
-        let failed = |error| StudyError::Run {
-            place: String::new(),
-            error,
-        };
-        let mut base = Scene::clone(scene);
-        let (axis, (scale, usual)) = if path == PRELOAD {
-            if scene.numerics.solver != Solver::Exact {
-                return Err(failed(RunError::NeedsExactSolver));
-            }
-            let reach = simulation.reach(scene).map_err(failed)?;
-            let force = |stage: &Move| {
-                if let Move::ToForce(force) = stage {
-                    Some(*force)
-                } else {
-                    None
-                }
-            };
-            let own = scene.loading.iter().filter_map(force).fold(0.0, f64::max);
-            let usual = if own > 0.0 {
-                FACTOR * own
-            } else {
-                DEEPER * reach.full_contact.0
-            };
-            // Within reach of every profile, wherever its full contact is.
-            let most = usual.min(reach.force - reach.full_contact.0);
-            (Axis::of_preload(), (AxisScale::Linear, Some((0.0, most))))
+        let (quantity, target) = condition;
+        let Sought {
+            axis,
+            usual,
+            scene: base,
+        } = if path == PRELOAD {
+            Sought::preload(scene, simulation)?
         } else {
-            let axis = Axis::new(path, Spacing::List, Vec::new(), scene)?;
-            let (_, _, governing) = simulation.make_line(scene).map_err(failed)?;
-            let by_parameter = base
-                .adhesion
-                .filter(|one| path == WORK && one.parameter().is_some());
-            if let Some((adhesion, work)) = by_parameter.zip(governing.work_of_adhesion) {
-                // The work of adhesion that follows from κ or e_el/γ becomes a number of the scene.
-                base.adhesion = Some(adhesion.with_work(work));
-            }
-            let present = axis.value_in(&base, Some(&governing));
-            let present = present.ok_or_else(|| {
-                StudyError::refused(
-                    Some(path),
-                    "the scene has no such number",
-                    "a number that the scene has",
-                )
-            })?;
-            let range = usual_range(&axis, present);
-            (axis, range)
+            Sought::number(scene, path, simulation)?
         };
+        let UsualRange { scale, ends } = usual;
         StudyError::check_profiles(scene, profiles)?;
         let plan = Plan::of_scene(&base, profiles, &recorded(&axis, quantity));
         // A number below zero has no range around it.
-        let searched = usual.unwrap_or((f64::NAN, f64::NAN));
+        let searched = ends.unwrap_or((f64::NAN, f64::NAN));
         Ok(Question {
             axis,
             quantity,
@@ -230,17 +194,14 @@ impl Question {
         if from < to && (to - from).is_finite() {
             return self.check_allowed();
         }
-        let [first, last] = [from, to].map(|end| format_quantity(end, self.axis.unit));
-        let refused =
-            |found, allowed| Err(StudyError::refused(Some(&self.axis.path), found, allowed));
         if from.is_nan() {
-            let found = "there is no usual range around a number that is not above 0".to_owned();
-            return refused(found, "a range: --range A..B");
+            let found = "there is no usual range around a number that is not above 0";
+            return Err(self.refused(found, "a range: --range A..B"));
         }
-        refused(
-            format!("range {first} to {last}"),
-            "two finite numbers, the first below the second",
-        )
+        let first = format_quantity(from, self.axis.unit);
+        let last = format_quantity(to, self.axis.unit);
+        let allowed = "two finite numbers, the first below the second";
+        Err(self.refused(&format!("range {first} to {last}"), allowed))
     }
 
     /// Returns an error for a range without an allowed number, such as a whole one.
@@ -249,17 +210,16 @@ impl Question {
             return Ok(());
         }
         let range = format_range(self.searched, 4, self.axis.unit);
-        let waves = "a range with a number for which whole waves fit on the length";
         let allowed = if self.allowed() == Allowed::Whole {
             "a range with a whole number"
         } else {
-            waves
+            "a range with a number for which whole waves fit on the length"
         };
-        Err(StudyError::refused(
-            Some(&self.axis.path),
-            format!("range {range}"),
-            allowed,
-        ))
+        Err(self.refused(&format!("range {range}"), allowed))
+    }
+
+    pub(super) fn refused(&self, found: &str, allowed: &str) -> StudyError {
+        StudyError::refused(Some(&self.axis.path), found, allowed)
     }
 
     /// Returns the number of random profiles on which the question is answered.
@@ -381,24 +341,99 @@ fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
         .collect()
 }
 
-/// Returns the scale and the range on which a number is searched whose value in the scene is
-/// `present`.
-fn usual_range(axis: &Axis, present: f64) -> (AxisScale, Option<(f64, f64)>) {
-    let ends = if let Target::Number(field) = axis.target {
-        field.range.ends()
-    } else {
-        None
-    };
-    let (least, most) = ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-    let inside = MARGIN * (most - least);
-    if most - least <= NARROW {
-        return (AxisScale::Linear, Some((least + inside, most - inside)));
+/// Scale and range on which a number is usually searched.
+struct UsualRange {
+    scale: AxisScale,
+    /// Smallest and largest searched number; `None` if a number below zero has no range around it.
+    ends: Option<(f64, f64)>,
+}
+
+impl UsualRange {
+    /// Returns the usual range of a number whose value in the scene is `present`.
+    fn around(axis: &Axis, present: f64) -> UsualRange {
+        let mut allowed = None;
+        if let Target::Number(field) = axis.target {
+            allowed = field.range.ends();
+        }
+        let (least, most) = allowed.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        if most - least <= NARROW {
+            let inside = MARGIN * (most - least);
+            return UsualRange {
+                scale: AxisScale::Linear,
+                ends: Some((least + inside, most - inside)),
+            };
+        }
+        let mut ends = None;
+        if present > 0.0 {
+            ends = Some(((present / FACTOR).max(least), (present * FACTOR).min(most)));
+        }
+        UsualRange {
+            scale: AxisScale::Logarithmic,
+            ends,
+        }
     }
-    let around = ((present / FACTOR).max(least), (present * FACTOR).min(most));
-    (
-        AxisScale::Logarithmic,
-        Some(around).filter(|_| present > 0.0),
-    )
+}
+
+/// What a question asks for, in a scene that has it as a number.
+struct Sought {
+    axis: Axis,
+    usual: UsualRange,
+    scene: Scene,
+}
+
+impl Sought {
+    fn preload(scene: &CheckedScene, simulation: &mut Simulation) -> Result<Sought, StudyError> {
+        if scene.numerics.solver != Solver::Exact {
+            return Err(RunError::NeedsExactSolver.into());
+        }
+        let reach = simulation.reach(scene)?;
+        let mut largest: f64 = 0.0;
+        for stage in &scene.loading {
+            if let Move::ToForce(force) = stage {
+                largest = largest.max(*force);
+            }
+        }
+        let usual = if largest > 0.0 {
+            FACTOR * largest
+        } else {
+            DEEPER * reach.full_contact.0
+        };
+        // Within reach of every profile, wherever its full contact is.
+        let most = usual.min(reach.force - reach.full_contact.0);
+        Ok(Sought {
+            axis: Axis::of_preload(),
+            usual: UsualRange {
+                scale: AxisScale::Linear,
+                ends: Some((0.0, most)),
+            },
+            scene: Scene::clone(scene),
+        })
+    }
+
+    fn number(
+        scene: &CheckedScene,
+        path: &str,
+        simulation: &mut Simulation,
+    ) -> Result<Sought, StudyError> {
+        let axis = Axis::new(path, Spacing::List, Vec::new(), scene)?;
+        let (_, _, governing) = simulation.make_line(scene)?;
+        let mut scene = Scene::clone(scene);
+        if let Some(adhesion) = scene.adhesion
+            && let Some(work) = governing.work_of_adhesion
+            && path == WORK
+            && adhesion.parameter().is_some()
+        {
+            // The work of adhesion that follows from κ or e_el/γ becomes a number of the scene.
+            scene.adhesion = Some(adhesion.with_work(work));
+        }
+        let Some(present) = axis.value_in(&scene, Some(&governing)) else {
+            let found = "the scene has no such number";
+            let allowed = "a number that the scene has";
+            return Err(StudyError::refused(Some(path), found, allowed));
+        };
+        let usual = UsualRange::around(&axis, present);
+        Ok(Sought { axis, usual, scene })
+    }
 }
 
 impl Answer {

@@ -30,6 +30,26 @@ pub(super) struct Recorder<'p> {
     stop: &'p dyn Fn() -> bool,
 }
 
+/// Outcomes of loadings that each begin at separation.
+#[derive(Default)]
+struct SolvedLoops {
+    loadings: Vec<LoadingOutcome>,
+    /// F_a(d=0), N.
+    first_touch: Option<f64>,
+}
+
+/// Returns the move at which a loading turns that only presses and separates; `None` for another
+/// loading.
+fn turn_of(loading: &[Move]) -> Option<Move> {
+    match loading {
+        [
+            turn @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce),
+            Move::ToSeparation,
+        ] => Some(*turn),
+        _ => None,
+    }
+}
+
 impl<'p> Recorder<'p> {
     /// Creates a recorder that stops within a case as soon as `stop` returns true.
     pub fn new(plan: &'p Plan, simulation: Simulation, stop: &'p dyn Fn() -> bool) -> Self {
@@ -53,32 +73,26 @@ impl<'p> Recorder<'p> {
     /// # Errors
     /// The memory does not suffice, or `stop` returned true. Neither is due to a cell.
     pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
-        match self.record(streak) {
-            Ok(records) => Ok(records.into_iter().map(Ok).collect()),
-            Err(error) if is_of_machine(&error) => Err(error),
-            Err(error) if streak.cells.end - streak.cells.start == 1 => {
-                let reason = error.to_string();
-                Ok(vec![Err(printable(
-                    reason.lines().next().unwrap_or_default(),
-                )
-                .into_owned())])
-            }
-            // Of several preloads some may be within reach.
-            Err(_) => {
-                let one = |cell| {
-                    self.record_each(&Streak {
-                        cells: cell..cell + 1,
-                        line: streak.line,
-                    })
-                };
-                Ok(streak
-                    .cells
-                    .clone()
-                    .map(one)
-                    .collect::<Result<Vec<_>, _>>()?
-                    .concat())
-            }
+        let error = match self.record(streak) {
+            Ok(records) => return Ok(records.into_iter().map(Ok).collect()),
+            Err(error) => error,
+        };
+        if is_of_machine(&error) {
+            return Err(error);
         }
+        if streak.cells.end - streak.cells.start == 1 {
+            let reason = error.to_string();
+            let first_line = reason.lines().next().unwrap_or_default();
+            return Ok(vec![Err(printable(first_line).into_owned())]);
+        }
+        // Of several preloads some may be within reach.
+        let mut records = Vec::new();
+        for cell in streak.cells.clone() {
+            let cells = cell..cell + 1;
+            let line = streak.line;
+            records.extend(self.record_each(&Streak { cells, line })?);
+        }
+        Ok(records)
     }
 
     /// Computes a streak.
@@ -93,50 +107,41 @@ impl<'p> Recorder<'p> {
             .stripped();
         let profile = self.profile_record(&scene)?;
         let (_, _, governing) = self.simulation.make_line(&scene)?;
-        let mut loops = Vec::new();
-        if plan.records(Needs::Loading) {
-            match plan.preloads() {
-                Some(preloads) => {
-                    // Preloads in units of E* h L, or in N.
-                    let unit = || governing.force_unit(scene.length).unwrap_or(f64::NAN);
-                    let unit = if preloads.unit == "N" { 1.0 } else { unit() };
-                    let press =
-                        |preload: &f64| vec![Move::ToForce(preload * unit), Move::ToSeparation];
-                    let first = streak.cells.start as usize % preloads.values.len();
-                    let count = (streak.cells.end - streak.cells.start) as usize;
-                    loops.extend(preloads.values[first..first + count].iter().map(press));
-                }
-                None => loops.push(scene.loading.clone()),
-            }
-        }
+        let mut loops = self.loops(streak, &scene, &governing);
         let count = loops.len();
-        let [touch_regime, regime] = Quantity::REGIMES.map(|regime| plan.column(regime).is_some());
-        let needs_zero_force = plan.records(Needs::ZeroForce) || regime;
+        let [needs_touch_regime, needs_regime] =
+            Quantity::REGIMES.map(|regime| plan.column(regime).is_some());
+        let needs_zero_force = plan.records(Needs::ZeroForce) || needs_regime;
         if needs_zero_force {
             loops.push(vec![Move::ToZeroForce, Move::ToSeparation]);
         }
-        let (mut each, mut first_touch) = (Vec::new(), None);
+        let mut solved = SolvedLoops::default();
         if !loops.is_empty() || plan.records(Needs::Touch) {
-            (each, first_touch) = self.solve(&scene, &governing, loops)?;
+            solved = self.solve(&scene, &governing, loops)?;
         }
-        let zero_force = each.get(count).filter(|_| needs_zero_force);
-        let zero_force = zero_force.and_then(|of| of.figures.adhesion_force);
-        each.truncate(count);
-        each.resize(
-            (streak.cells.end - streak.cells.start) as usize,
-            LoadingOutcome::default(),
-        );
-        let of_scene = self.simulation.warnings(&scene)?;
-        let mut records = Vec::with_capacity(each.len());
-        for (loading, cell) in each.into_iter().zip(streak.cells.clone()) {
-            let smooth = match touch_regime || regime {
-                true => {
-                    self.simulation
-                        .smooth_adhesion_force(&scene, &governing, &loading.figures)?
-                }
-                false => None,
-            };
-            let warnings = [&loading.warnings[..], &of_scene].concat();
+        let SolvedLoops {
+            mut loadings,
+            first_touch,
+        } = solved;
+        let mut zero_force = None;
+        if needs_zero_force {
+            let loading = loadings.get(count);
+            zero_force = loading.and_then(|loading| loading.figures.adhesion_force);
+        }
+        loadings.truncate(count);
+        let cells = (streak.cells.end - streak.cells.start) as usize;
+        loadings.resize(cells, LoadingOutcome::default());
+        let warnings_of_scene = self.simulation.warnings(&scene)?;
+        let mut records = Vec::with_capacity(cells);
+        for (loading, cell) in loadings.into_iter().zip(streak.cells.clone()) {
+            let mut smooth = None;
+            if needs_touch_regime || needs_regime {
+                let figures = &loading.figures;
+                smooth = self
+                    .simulation
+                    .smooth_adhesion_force(&scene, &governing, figures)?;
+            }
+            let warnings = [&loading.warnings[..], &warnings_of_scene].concat();
             let case = CaseOutcome {
                 governing,
                 profile,
@@ -147,12 +152,8 @@ impl<'p> Recorder<'p> {
                 loading,
                 warnings,
             };
-            records.push(
-                plan.record
-                    .iter()
-                    .map(|quantity| quantity.of(&case))
-                    .collect(),
-            );
+            let values = plan.record.iter().map(|quantity| quantity.of(&case));
+            records.push(values.collect());
             if !case.warnings.is_empty() {
                 self.warnings.push((cell, case.warnings));
             }
@@ -160,50 +161,82 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Returns the outcomes of loadings that each begin at separation, and F_a(d=0) in N.
+    /// Returns the loading of each cell of a streak, if a recorded quantity needs it. Preloads are
+    /// in units of E* h L, or in N.
+    fn loops(
+        &self,
+        streak: &Streak,
+        scene: &CheckedScene,
+        governing: &Governing,
+    ) -> Vec<Vec<Move>> {
+        if !self.plan.records(Needs::Loading) {
+            return Vec::new();
+        }
+        let Some(preloads) = self.plan.preloads() else {
+            return vec![scene.loading.clone()];
+        };
+        let mut unit = 1.0;
+        if preloads.unit != "N" {
+            unit = governing.force_unit(scene.length).unwrap_or(f64::NAN);
+        }
+        let first = streak.cells.start as usize % preloads.values.len();
+        let count = (streak.cells.end - streak.cells.start) as usize;
+        preloads.values[first..first + count]
+            .iter()
+            .map(|preload| vec![Move::ToForce(preload * unit), Move::ToSeparation])
+            .collect()
+    }
+
+    /// Computes loadings that each begin at separation.
     fn solve(
         &mut self,
         scene: &CheckedScene,
         governing: &Governing,
         loops: Vec<Vec<Move>>,
-    ) -> Result<(Vec<LoadingOutcome>, Option<f64>), RunError> {
-        let press = |legs: &Vec<Move>| match legs[..] {
-            [
-                press @ (Move::ToForce(_) | Move::ToTouch | Move::ToZeroForce),
-                Move::ToSeparation,
-            ] => Some(press),
-            _ => None,
-        };
-        let turned: Option<Vec<Move>> = loops.iter().map(press).collect();
-        if let (Some(turned), Solver::Exact) = (turned, scene.numerics.solver) {
-            // One loading serves all reversals.
-            let ends = [&[Move::ToTouch], turned.as_slice()].concat();
-            let mut each = vec![LoadingOutcome::default(); ends.len()];
-            let own_profile = self.simulation.profile(scene)?;
-            self.simulation
-                .reverse(scene, &ends, &[], self.stop, &mut |index, reversal| {
-                    each[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
-                    Ok(())
-                })?;
-            let at_touch = each.remove(0).figures.adhesion_force;
-            return Ok((
-                each,
-                at_touch.filter(|_| governing.adhesive_work().is_some()),
-            ));
+    ) -> Result<SolvedLoops, RunError> {
+        let turns: Option<Vec<Move>> = loops.iter().map(|loading| turn_of(loading)).collect();
+        if let (Some(turns), Solver::Exact) = (turns, scene.numerics.solver) {
+            return self.solve_reversals(scene, governing, &turns);
         }
         let loops = if loops.is_empty() {
             vec![vec![Move::ToTouch, Move::ToSeparation]]
         } else {
             loops
         };
-        let (mut each, mut first_touch) = (Vec::with_capacity(loops.len()), None);
-        for one in loops {
-            let outcome = self.run(&scene.with(|scene| scene.loading = one)?)?;
-            first_touch = first_touch.or(outcome.first_touch_adhesion_force);
+        let mut solved = SolvedLoops::default();
+        for loading in loops {
+            let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
+            solved.first_touch = solved.first_touch.or(outcome.first_touch_adhesion_force);
             let own_profile = self.simulation.profile(scene)?;
-            each.push(LoadingOutcome::of_legs(outcome.history.legs, &own_profile));
+            let loading = LoadingOutcome::of_legs(outcome.history.legs, &own_profile);
+            solved.loadings.push(loading);
         }
-        Ok((each, first_touch))
+        Ok(solved)
+    }
+
+    /// Computes loops that turn at these moves. One loading serves all of them.
+    fn solve_reversals(
+        &mut self,
+        scene: &CheckedScene,
+        governing: &Governing,
+        turns: &[Move],
+    ) -> Result<SolvedLoops, RunError> {
+        let ends = [&[Move::ToTouch], turns].concat();
+        let mut loadings = vec![LoadingOutcome::default(); ends.len()];
+        let own_profile = self.simulation.profile(scene)?;
+        self.simulation
+            .reverse(scene, &ends, &[], self.stop, &mut |index, reversal| {
+                loadings[index] = LoadingOutcome::of_reversal(ends[index], &reversal, &own_profile);
+                Ok(())
+            })?;
+        let mut first_touch = loadings.remove(0).figures.adhesion_force;
+        if governing.adhesive_work().is_none() {
+            first_touch = None;
+        }
+        Ok(SolvedLoops {
+            loadings,
+            first_touch,
+        })
     }
 
     fn run(&mut self, scene: &CheckedScene) -> Result<Outcome, RunError> {
@@ -211,10 +244,8 @@ impl<'p> Recorder<'p> {
     }
 
     fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
-        let (heights, stiffness) = (
-            self.plan.records(Needs::Heights),
-            self.plan.records(Needs::Stiffness),
-        );
+        let heights = self.plan.records(Needs::Heights);
+        let stiffness = self.plan.records(Needs::Stiffness);
         if !heights && !stiffness {
             return Ok(ProfileRecord::default());
         }
@@ -264,27 +295,21 @@ impl<'p> Recorder<'p> {
         };
         let StiffnessRange { from, to, count } = self.plan.stiffness;
         let step = (to / from).ln() / (count - 1) as f64;
-        let force = |index: u64| unit * from * (step * index as f64).exp();
         let loading = (0..count)
-            .map(|index| Move::ToForce(force(index)))
+            .map(|index| Move::ToForce(unit * from * (step * index as f64).exp()))
             .collect();
         let outcome = self.run(&scene.with(|scene| scene.loading = loading)?)?;
-        let points = outcome
-            .history
-            .legs
-            .iter()
-            .filter_map(|leg| leg.curve.last());
-        let points: Vec<_> = points
-            .filter(|point| point.force > 0.0 && point.indentation > 0.0)
-            .collect();
-        let lengths: Vec<_> = points
-            .iter()
-            .map(|at| (at.force.ln(), at.contact_length.ln()))
-            .collect();
-        let forces: Vec<_> = points
-            .iter()
-            .map(|at| (at.indentation.ln(), at.force.ln()))
-            .collect();
+        let mut lengths = Vec::new();
+        let mut forces = Vec::new();
+        for leg in &outcome.history.legs {
+            let Some(end) = leg.curve.last() else {
+                continue;
+            };
+            if end.force > 0.0 && end.indentation > 0.0 {
+                lengths.push((end.force.ln(), end.contact_length.ln()));
+                forces.push((end.indentation.ln(), end.force.ln()));
+            }
+        }
         Ok(slope(&lengths).zip(slope(&forces)))
     }
 }

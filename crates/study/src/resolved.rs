@@ -5,8 +5,8 @@ use super::shells::{ComparedRoughness, Shells, Spectrum};
 use super::spatial::Body;
 use asperity_half_space::check_cells;
 use asperity_scene::{CheckedScene, Roughness, RunError, Scene, Simulation};
-use asperity_surface::Amplitude;
 use asperity_surface::lines::{MeasuredRoughness, ModeRange};
+use asperity_surface::{Amplitude, EquivalentLine, SelfAffine};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -14,6 +14,7 @@ use std::sync::Arc;
 const CELLS_PER_WAVE: u64 = 8;
 /// Number of springs for the shortest wave of a profile.
 const SPRINGS_PER_WAVE: u64 = 64;
+/// Smallest number of springs of a profile.
 const LEAST_SPRINGS: u64 = 4096;
 /// Share of the largest gap of a profile that counts as rounding.
 const ROUNDING: f64 = 1e-12;
@@ -30,7 +31,7 @@ pub(super) struct Resolved {
     pub line_roughness: Option<ComparedRoughness>,
     /// First and last wave over the length; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Last wave of the scene, if it is left out.
+    /// Last wave of the scene, if squares do not resolve it.
     pub omitted: Option<u64>,
     /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards,
     /// for which the profile is exact while the contact ends before the profile does.
@@ -49,12 +50,9 @@ impl Resolved {
     ) -> Result<Resolved, StudyError> {
         check_cells(cells)?;
         if scene.measured_as_line() {
+            let found = "the measured profile itself is the line";
             let allowed = "its equivalent line, which has a surface in three dimensions (roughness.as_line=false)";
-            return Err(StudyError::refused(
-                None,
-                "the measured profile itself is the line",
-                allowed,
-            ));
+            return Err(StudyError::refused(None, found, allowed));
         }
         let (line, _, governing) = simulation.make_line(scene).map_err(of_scene)?;
         let line_is_exact =
@@ -81,61 +79,87 @@ impl Resolved {
             omitted: None,
             line_is_exact,
         };
-        let finest = cells as u64 / CELLS_PER_WAVE;
-        let points = |last: u64| {
-            (SPRINGS_PER_WAVE * last)
-                .next_power_of_two()
-                .max(LEAST_SPRINGS)
-        };
-        let mut keep = |first: u64, whole: u64| {
-            let last = whole.min(finest);
-            (resolved.waves, resolved.omitted) =
-                (Some((first, last)), (last < whole).then_some(whole));
-            if first <= last {
-                Ok(last)
-            } else {
-                Err(too_few(cells, first))
-            }
-        };
         if let (Some(spectrum), Some(amplitude)) = (scene.spectrum(), governing.amplitude) {
-            let last = keep(spectrum.first, spectrum.last)?;
-            let kept = asperity_surface::SelfAffine { last, ..spectrum };
-            let first = amplitude.rms_height / spectrum.relative_rms();
-            let Some(Roughness::SelfAffine {
-                rms_height,
-                rms_gradient,
-                modes,
-                wavelengths,
-                ..
-            }) = &mut changed.roughness
-            else {
-                unreachable!("a spectrum is that of self-affine roughness")
-            };
-            (*rms_height, *rms_gradient) = (Some(first * kept.relative_rms()), None);
-            (*modes, *wavelengths) = (Some((kept.first, kept.last)), None);
-            changed.numerics.points = points(last);
-            let amplitude = kept
-                .unit_amplitude(scene.length)
-                .scaled(first * kept.relative_rms());
-            let spectrum = Spectrum::SelfAffine {
-                spectrum: kept,
-                amplitude: first,
-            };
-            resolved.roughen(spectrum, (kept.first, kept.last), amplitude);
+            resolved.keep_self_affine(spectrum, amplitude, cells, &mut changed)?;
         } else if let Some(line) = simulation.equivalent_line() {
-            let mut modes = line.modes(scene.length, usize::MAX)?;
-            modes.last = keep(modes.first, modes.last)?;
-            let ModeRange { first, last } = modes;
-            let line = line.up_to(TAU * last as f64 / scene.length);
-            changed.numerics.points = points(last);
-            resolved.measured = Some(Arc::new(MeasuredRoughness::Equivalent(line.clone())));
-            let amplitude = line.amplitude_of_modes(scene.length, modes);
-            resolved.roughen(Spectrum::Measured(line), (first, last), amplitude);
+            resolved.keep_measured(line, cells, &mut changed)?;
         }
         resolved.line = changed
             .checked()
             .map_err(|errors| of_scene(errors.into()))?;
         Ok(resolved)
+    }
+
+    /// Keeps the waves of a self-affine spectrum with this amplitude that squares resolve, in the
+    /// squares and in the scene of the profiles.
+    fn keep_self_affine(
+        &mut self,
+        spectrum: SelfAffine,
+        amplitude: Amplitude,
+        cells: usize,
+        scene: &mut Scene,
+    ) -> Result<(), StudyError> {
+        let last = self.keep_waves(spectrum.first, spectrum.last, cells)?;
+        let kept = SelfAffine { last, ..spectrum };
+        let first_amplitude = amplitude.rms_height / spectrum.relative_rms();
+        let kept_height = first_amplitude * kept.relative_rms();
+        let Some(Roughness::SelfAffine {
+            rms_height,
+            rms_gradient,
+            modes,
+            wavelengths,
+            ..
+        }) = &mut scene.roughness
+        else {
+            unreachable!("a spectrum is that of self-affine roughness")
+        };
+        *rms_height = Some(kept_height);
+        *rms_gradient = None;
+        *modes = Some((kept.first, kept.last));
+        *wavelengths = None;
+        scene.numerics.points = springs(last);
+        let amplitude = kept.unit_amplitude(scene.length).scaled(kept_height);
+        let modes = (kept.first, kept.last);
+        let spectrum = Spectrum::SelfAffine {
+            spectrum: kept,
+            amplitude: first_amplitude,
+        };
+        self.roughen(spectrum, modes, amplitude);
+        Ok(())
+    }
+
+    /// Keeps the waves of a measured spectrum that squares resolve, in the squares and in the scene
+    /// of the profiles.
+    fn keep_measured(
+        &mut self,
+        line: &EquivalentLine,
+        cells: usize,
+        scene: &mut Scene,
+    ) -> Result<(), StudyError> {
+        let whole = line.modes(scene.length, usize::MAX)?;
+        let first = whole.first;
+        let last = self.keep_waves(first, whole.last, cells)?;
+        let line = line.up_to(TAU * last as f64 / scene.length);
+        scene.numerics.points = springs(last);
+        self.measured = Some(Arc::new(MeasuredRoughness::Equivalent(line.clone())));
+        let amplitude = line.amplitude_of_modes(scene.length, ModeRange { first, last });
+        self.roughen(Spectrum::Measured(line), (first, last), amplitude);
+        Ok(())
+    }
+
+    /// Returns the last wave that squares with this number of cells along a side resolve, of the
+    /// waves from `first` to `whole` over the length.
+    ///
+    /// # Errors
+    /// The squares resolve none of these waves.
+    fn keep_waves(&mut self, first: u64, whole: u64, cells: usize) -> Result<u64, StudyError> {
+        let last = whole.min(cells as u64 / CELLS_PER_WAVE);
+        self.waves = Some((first, last));
+        self.omitted = (last < whole).then_some(whole);
+        if first > last {
+            return Err(too_few(cells, first));
+        }
+        Ok(last)
     }
 
     /// Gives the squares the waves of a spectrum. `amplitude` is that of the profiles with these
@@ -165,6 +189,12 @@ impl Resolved {
     }
 }
 
+/// Returns the number of springs of profiles whose shortest wave is this one over the length.
+fn springs(last: u64) -> u64 {
+    let springs = (SPRINGS_PER_WAVE * last).next_power_of_two();
+    springs.max(LEAST_SPRINGS)
+}
+
 /// Returns true if a profile with these gaps rises everywhere on both sides of its deepest point.
 fn rises_everywhere(gaps: &[f64]) -> bool {
     let deepest = gaps.iter().copied().fold(0.0, f64::max);
@@ -172,32 +202,21 @@ fn rises_everywhere(gaps: &[f64]) -> bool {
         .min_by(|one, other| gaps[*one].total_cmp(&gaps[*other]))
         .unwrap_or(0);
     let rises = |inner: f64, outer: f64| outer >= inner - ROUNDING * deepest;
-    gaps[summit..]
-        .windows(2)
-        .all(|pair| rises(pair[0], pair[1]))
-        && gaps[..=summit]
-            .windows(2)
-            .all(|pair| rises(pair[1], pair[0]))
+    let mut right = gaps[summit..].windows(2);
+    let mut left = gaps[..=summit].windows(2);
+    right.all(|pair| rises(pair[0], pair[1])) && left.all(|pair| rises(pair[1], pair[0]))
 }
 
 /// Converts an error of the scene itself.
 pub(super) fn of_scene(error: RunError) -> StudyError {
-    StudyError::Run {
-        place: String::new(),
-        error,
-    }
+    error.into()
 }
 
 fn too_few(cells: usize, first: u64) -> StudyError {
-    StudyError::refused(
-        Some(&format!("{cells} cells")),
-        format!(
-            "the longest wave of the scene has {} cells",
-            cells as u64 / first
-        ),
-        format!(
-            "at least {} cells along the side",
-            (CELLS_PER_WAVE * first).next_power_of_two()
-        ),
-    )
+    let place = format!("{cells} cells");
+    let of_wave = cells as u64 / first;
+    let found = format!("the longest wave of the scene has {of_wave} cells");
+    let least = (CELLS_PER_WAVE * first).next_power_of_two();
+    let allowed = format!("at least {least} cells along the side");
+    StudyError::refused(Some(&place), found, allowed)
 }

@@ -8,11 +8,12 @@ use super::plan::Plan;
 use super::quantity::{Quantity, regime_of};
 use super::recorder::Recorded;
 use super::statistics::{RegimeCounts, Statistics};
-use super::store::{Folder, Record, ShardFile};
+use super::store::{Folder, ShardFile};
 use asperity_data::{AxisScale, Control, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Largest number of records and cells that a message names.
 const MOST_NAMED: usize = 8;
 
 /// Results of a study: the values of the recorded quantities in each [cell](Plan) on each random
@@ -88,8 +89,16 @@ impl std::fmt::Debug for Results {
 
 /// Returns true for values with equal bits. All NaN are equal.
 fn same(one: &[f64], other: &[f64]) -> bool {
-    let equal = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
-    one.len() == other.len() && one.iter().zip(other).all(equal)
+    if one.len() != other.len() {
+        return false;
+    }
+    for (one, other) in one.iter().zip(other) {
+        let are_nan = one.is_nan() && other.is_nan();
+        if one.to_bits() != other.to_bits() && !are_nan {
+            return false;
+        }
+    }
+    true
 }
 
 /// Counts a warning of one more profile.
@@ -106,6 +115,21 @@ fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
     }
 }
 
+/// Returns true if a file has a record with this index.
+fn has_record(folder: &Folder, file: &ShardFile, place: u64) -> bool {
+    let Ok(records) = folder.records(file) else {
+        return false;
+    };
+    for record in records {
+        if let Ok(Some((found, _))) = record
+            && found == place
+        {
+            return true;
+        }
+    }
+    false
+}
+
 fn same_record(one: &Recorded, other: &Recorded) -> bool {
     match (one, other) {
         (Ok(one), Ok(other)) => same(one, other),
@@ -119,7 +143,8 @@ impl Results {
     /// # Errors
     /// The table is too large for the memory.
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
-        let (records, mut values) = (plan.records_in_all(), Vec::new());
+        let records = plan.records_in_all();
+        let mut values = Vec::new();
         let count = records as usize * plan.record.len();
         values
             .try_reserve_exact(count)
@@ -177,7 +202,8 @@ impl Results {
     ) -> Result<Results, StudyError> {
         StudyError::check_threads(control.threads())?;
         let mut results = Results::begin(scene, record, lines, preloads)?;
-        let (threads, stop) = (control.threads(), control.stop());
+        let threads = control.threads();
+        let stop = control.stop();
         let missing = results.missing(Failures::End);
         missing.solve(simulation, threads, stop, &mut |solved| {
             results.take_in(solved);
@@ -214,7 +240,9 @@ impl Results {
     pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
         let mut results = Results::empty(folder.plan().clone())?;
         let files = folder.files()?;
-        let (mut duplicates, mut damaged, mut with_records) = (0, 0, 0);
+        let mut duplicates = 0;
+        let mut damaged = 0;
+        let mut with_records = 0;
         let mut programs = BTreeSet::new();
         for file in &files {
             let mut has_records = false;
@@ -236,15 +264,17 @@ impl Results {
             }
         }
         let plan = &results.plan;
-        let failure =
-            |(cell, line, reason): (u64, u64, &str)| (cell, plan.seed_of(line), reason.to_owned());
+        let mut first_failed = Vec::new();
+        for (cell, line, reason) in results.failed().take(MOST_NAMED) {
+            first_failed.push((cell, plan.seed_of(line), reason.to_owned()));
+        }
         let missing: Vec<u64> = (0..plan.cells())
             .filter(|cell| !results.is_whole(*cell))
             .collect();
         let merged = Merged {
             records: results.count(),
             failed: results.failed.len() as u64,
-            first_failed: results.failed().take(MOST_NAMED).map(failure).collect(),
+            first_failed,
             total: plan.records_in_all(),
             duplicates,
             damaged,
@@ -265,21 +295,16 @@ impl Results {
         place: u64,
         other: &ShardFile,
     ) -> StudyError {
-        let is_there = |record: Result<Option<Record>, StudyError>| matches!(record, Ok(Some((found, _))) if found == place);
-        let has = |file: &&ShardFile| {
-            folder
-                .records(file)
-                .is_ok_and(|mut records| records.any(is_there))
-        };
-        let one = files.iter().find(has).unwrap_or(other);
-        let (cell, seed) = (
-            place / self.plan.lines,
-            self.plan.seed_of(place % self.plan.lines),
-        );
+        let first = files
+            .iter()
+            .find(|file| has_record(folder, file, place))
+            .unwrap_or(other);
+        let cell = place / self.plan.lines;
+        let seed = self.plan.seed_of(place % self.plan.lines);
         let place = format!("cell {cell}, seed {seed} ({})", self.plan.coordinates(cell));
         StudyError::Conflict {
             place,
-            files: [one.path.clone(), other.path.clone()],
+            files: [first.path.clone(), other.path.clone()],
         }
     }
 
@@ -344,14 +369,10 @@ impl Results {
     /// Returns the reason why a cell has no values, if it cannot be computed on any profile.
     pub(super) fn failure_of(&self, cell: u64) -> Option<&str> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
-        let reasons = || {
-            self.failed
-                .range(places.clone())
-                .map(|(_, reason)| reason.as_str())
-        };
-        (reasons().count() as u64 == self.plan.lines)
-            .then(|| reasons().next())
-            .flatten()
+        let mut reasons = self.failed.range(places).map(|(_, reason)| reason.as_str());
+        let first = reasons.next()?;
+        let failed = 1 + reasons.count() as u64;
+        (failed == self.plan.lines).then_some(first)
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
@@ -475,9 +496,10 @@ impl Results {
     /// Returns the numbers of profiles of a [cell](Plan) in each regime: first for
     /// [`Quantity::Regime`], then for [`Quantity::RegimeAfterZeroForce`].
     pub fn regimes(&self, cell: u64) -> [RegimeCounts; 2] {
-        let regime = |line, of| self.regime(cell, line, of);
-        Quantity::REGIMES
-            .map(|of| RegimeCounts::of(self.records_of(cell).map(|(line, _)| regime(line, of))))
+        Quantity::REGIMES.map(|quantity| {
+            let records = self.records_of(cell);
+            RegimeCounts::of(records.map(|(line, _)| self.regime(cell, line, quantity)))
+        })
     }
 
     /// Returns the recorded quantities except regimes, on scales for the whole study.
@@ -504,10 +526,11 @@ impl Results {
     /// indices of the values on the other axes.
     pub(super) fn grid(
         &self,
-        (across, up): (usize, Option<usize>),
+        axes_of_grid: (usize, Option<usize>),
         mut places: Vec<usize>,
         layers: Vec<GridLayer>,
     ) -> Grid {
+        let (across, up) = axes_of_grid;
         let axes = &self.plan.axes;
         let quantities: Vec<Quantity> = layers.iter().map(|layer| layer.quantity).collect();
         let mut cells = Vec::new();
@@ -518,8 +541,10 @@ impl Results {
             for column in axes[across].order() {
                 places[across] = column;
                 let cell = self.plan.cell_at(&places);
-                let reason = || self.failure_of(cell).map(|reason| Err(reason.to_owned()));
-                cells.push(self.cell(cell, &quantities).map(Ok).or_else(reason));
+                cells.push(match self.cell(cell, &quantities) {
+                    Some(results) => Some(Ok(results)),
+                    None => self.failure_of(cell).map(|reason| Err(reason.to_owned())),
+                });
             }
         }
         let others = (0..axes.len()).filter(|axis| *axis != across && Some(*axis) != up);

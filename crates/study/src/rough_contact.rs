@@ -95,7 +95,8 @@ impl RoughContact {
     /// c is half of the Laplacian, as in the published example of `ContactEngineering/Adhesion`.
     /// With the whole Laplacian P would be 1.6 times smaller.
     fn pastewka_robbins(&self) -> Criterion {
-        let (gradient, range) = (self.amplitude.rms_gradient, self.range);
+        let gradient = self.amplitude.rms_gradient;
+        let range = self.range;
         let scale = gradient.powi(2) / self.mean_curvature();
         let share = range / (16.0 / 3.0 * scale);
         let far = (share >= MOST_OF_GAP).then(|| {
@@ -129,12 +130,10 @@ impl RoughContact {
         let soft = self
             .tabor_number
             .filter(|number| *number >= Governing::LEAST_TABOR_NUMBER);
-        let soft = soft.map(|of| {
-            format!(
-                "μ {}, needs stiff bodies, less than {}",
-                number(of),
-                Governing::LEAST_TABOR_NUMBER
-            )
+        let soft = soft.map(|tabor_number| {
+            let least = Governing::LEAST_TABOR_NUMBER;
+            let tabor_number = number(tabor_number);
+            format!("μ {tabor_number}, needs stiff bodies, less than {least}")
         });
         let [low, high] = HURST_OF_BEARING_AREA;
         let other =
@@ -191,7 +190,8 @@ impl Summits {
             rms_curvature,
             ..
         } = amplitude;
-        let (second, fourth) = (0.5 * rms_gradient.powi(2), 0.375 * rms_curvature.powi(2));
+        let second = 0.5 * rms_gradient.powi(2);
+        let fourth = 0.375 * rms_curvature.powi(2);
         let bandwidth = (rms_height / second).powi(2) * fourth;
         Summits {
             height: rms_height * (1.0 - 0.8968 / bandwidth).max(0.0).sqrt(),

@@ -5,6 +5,7 @@ use super::cells::{Cells, Streak};
 use super::compute::Streaks;
 use super::error::StudyError;
 use super::measured::profile;
+use super::plan::Plan;
 use super::recorder::Recorded;
 use super::shard::Shard;
 use super::status::{count, rate};
@@ -68,8 +69,8 @@ impl StudyProgress {
 /// then ends without an error. It reports the progress several times a second and at the end.
 ///
 /// # Errors
-/// Returns an error if zero threads are requested, if the memory does not suffice for a record, or if a file
-/// cannot be read or written. Records written before the error are kept.
+/// Returns an error if zero threads are requested, if the memory does not suffice for a record, or
+/// if a file cannot be read or written. Records written before the error are kept.
 pub fn run_study(
     folder: &Folder,
     shard: Shard,
@@ -97,35 +98,26 @@ pub fn run_study(
     let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
     let (path, mut file) = folder.new_file(shard)?;
-    let units: &[u64] = &shard.units(cells.units()).collect::<Vec<u64>>();
-    let (done, plan) = (&done, plan);
-    let is_missing = |streak: &Streak| {
-        streak
-            .cells
-            .clone()
-            .any(|cell| !done[(cell * plan.lines + streak.line) as usize])
-    };
+    let units: Vec<u64> = shard.units(cells.units()).collect();
+    let missing = MissingRecords { plan, done: &done };
+    let is_missing = |streak: &Streak| missing.has_any_of(streak);
     let streaks = Streaks {
         cells: &cells,
-        units,
+        units: &units,
         is_missing: &is_missing,
         profile: profile.as_ref(),
     };
     let (sender, receiver) = sync_channel(WAITING);
+    let missing = &missing;
     let work = move || {
         let send = move |streak: Streak, records: Vec<Recorded>| {
-            let (seed, mut text) = (plan.seed_of(streak.line), String::new());
-            let is_new = |cell: &u64| !done[(cell * plan.lines + streak.line) as usize];
-            for (cell, record) in streak.cells.zip(&records).filter(|(cell, _)| is_new(cell)) {
-                encode(cell, seed, record, &mut text);
-            }
             // The text has no receiver once the file cannot be written.
-            sender.send(text).is_ok()
+            sender.send(missing.encoded(streak, &records)).is_ok()
         };
         streaks.compute(plan, threads, stop, &send)
     };
     std::thread::scope(|scope| {
-        let threads = Builder::new()
+        let computing = Builder::new()
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
         let mut written = WrittenFile {
@@ -137,13 +129,43 @@ pub fn run_study(
             synced: Instant::now(),
         };
         let written = written.write_all(&receiver, &mut progress, &mut control);
-        threads
+        computing
             .join()
             .unwrap_or_else(|panic| resume_unwind(panic))?;
         written.map_err(StudyError::unwritable(&path))
     })?;
     control.report(&progress);
     Ok(progress)
+}
+
+/// Records that a folder lacks.
+struct MissingRecords<'a> {
+    plan: &'a Plan,
+    /// For each record of the plan, whether the folder has it.
+    done: &'a [bool],
+}
+
+impl MissingRecords<'_> {
+    fn has(&self, cell: u64, line: u64) -> bool {
+        !self.done[(cell * self.plan.lines + line) as usize]
+    }
+
+    fn has_any_of(&self, streak: &Streak) -> bool {
+        let mut cells = streak.cells.clone();
+        cells.any(|cell| self.has(cell, streak.line))
+    }
+
+    /// Returns the missing records of a streak as lines of a file.
+    fn encoded(&self, streak: Streak, records: &[Recorded]) -> String {
+        let seed = self.plan.seed_of(streak.line);
+        let mut text = String::new();
+        for (cell, record) in streak.cells.zip(records) {
+            if self.has(cell, streak.line) {
+                encode(cell, seed, record, &mut text);
+            }
+        }
+        text
+    }
 }
 
 /// File of a process to which records are written.

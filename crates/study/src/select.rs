@@ -11,6 +11,7 @@ use asperity_data::{AxisScale, format_quantity, parse_quantity};
 /// Largest number of values of a second axis that is shown as curves. With more values the figure
 /// is a map.
 const MOST_CURVES: usize = 5;
+/// Largest number of values of an axis that a message names.
 const MOST_NAMED: usize = 12;
 
 /// Choice of the quantities, axes and values of a study that a figure shows. Each field is an
@@ -46,12 +47,13 @@ pub struct Selection {
 
 #[cfg(feature = "clap")]
 fn axis_and_value(text: &str) -> Result<(String, String), String> {
-    let parts = text
-        .split_once('=')
-        .map(|(axis, value)| (axis.trim(), value.trim()));
-    let parts = parts.filter(|(axis, value)| !axis.is_empty() && !value.is_empty());
-    let owned = parts.map(|(axis, value)| (axis.to_owned(), value.to_owned()));
-    owned.ok_or_else(|| "allowed: AXIS=VALUE, such as roughness.hurst=0.3".into())
+    let (axis, value) = text.split_once('=').unwrap_or_default();
+    let axis = axis.trim();
+    let value = value.trim();
+    if axis.is_empty() || value.is_empty() {
+        return Err("allowed: AXIS=VALUE, such as roughness.hurst=0.3".to_owned());
+    }
+    Ok((axis.to_owned(), value.to_owned()))
 }
 
 /// Part of a study that a [`Selection`] has chosen for a figure.
@@ -69,9 +71,27 @@ pub struct Selected {
     pub note: Option<String>,
 }
 
-/// Indices of the axes that the user named as horizontal and vertical, and for each axis of the
-/// study the index of its fixed value.
-type Chosen = ([Option<usize>; 2], Vec<Option<usize>>);
+/// How the axes of a study are used.
+struct ChosenAxes {
+    /// Index of the axis that the user named as horizontal.
+    across: Option<usize>,
+    /// Index of the axis that the user named as vertical.
+    up: Option<usize>,
+    /// For each axis the index of its fixed value.
+    fixed: Vec<Option<usize>>,
+}
+
+impl ChosenAxes {
+    fn is_named(&self, axis: usize) -> bool {
+        self.across == Some(axis) || self.up == Some(axis)
+    }
+}
+
+/// Axis that an option names.
+struct NamedAxis {
+    index: usize,
+    option: &'static str,
+}
 
 impl Selection {
     /// Returns the part of a study that the fields of this selection choose.
@@ -83,29 +103,42 @@ impl Selection {
     pub fn of(&self, study: &Results) -> Result<Selected, StudyError> {
         let plan = study.plan();
         let quantities = self.quantities(plan)?;
-        let (named, mut at) = self.axes(&plan.axes)?;
-        let note = first_preload(&plan.axes, named, &mut at);
-        let (across, second) = self.free(&plan.axes, named, &at)?;
+        let mut chosen = self.axes(&plan.axes)?;
+        let note = first_preload(&plan.axes, &mut chosen);
+        let (across, second) = free_axes(&plan.axes, &chosen)?;
         let curves =
             self.up.is_none() && second.is_some_and(|second| is_few(&plan.axes, second, across));
-        let places = at.iter().map(|place| place.unwrap_or(0)).collect();
+        let places = chosen
+            .fixed
+            .iter()
+            .map(|place| place.unwrap_or(0))
+            .collect();
         let mut grid = study.grid((across, second), places, study.layers());
         let is_map = second.is_some() && !curves;
-        let layer = |quantity, scale: Option<AxisScale>| match is_map {
-            true => study.layer(quantity, scale),
-            false => section_layer(&grid, quantity, scale),
+        let layer = |quantity: Quantity, scale: Option<AxisScale>| {
+            if is_map {
+                study.layer(quantity, scale)
+            } else {
+                section_layer(&grid, quantity, scale)
+            }
         };
+        let mut scale = self.scale;
         // The same quantity by two protocols has one scale.
-        let is_share = |quantity: &Quantity| Quantity::ADHESION_SHARES.contains(quantity);
-        let is_logarithmic =
-            |quantity: &Quantity| layer(*quantity, None).scale == AxisScale::Logarithmic;
-        let both = quantities.iter().all(is_share) && quantities.iter().any(is_logarithmic);
-        let scale = self.scale.or(both.then_some(AxisScale::Logarithmic));
-        grid.layers = grid
+        let are_shares = quantities
+            .iter()
+            .all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
+        let is_any_logarithmic = quantities
+            .iter()
+            .any(|quantity| layer(*quantity, None).scale == AxisScale::Logarithmic);
+        if scale.is_none() && are_shares && is_any_logarithmic {
+            scale = Some(AxisScale::Logarithmic);
+        }
+        let shown: Vec<GridLayer> = grid
             .layers
             .iter()
-            .map(|one| layer(one.quantity, scale))
+            .map(|known| layer(known.quantity, scale))
             .collect();
+        grid.layers = shown;
         Ok(Selected {
             grid,
             quantities,
@@ -115,164 +148,172 @@ impl Selection {
     }
 
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
-        let drawn = plan.record.iter().copied().filter(|one| !one.is_regime());
-        let drawn: Vec<Quantity> = drawn.collect();
-        let named = |name: &str| {
-            drawn
-                .iter()
-                .copied()
-                .find(|one| [one.name(), one.symbol()].contains(&name))
-                .ok_or_else(|| {
-                    let allowed = drawn
-                        .iter()
-                        .map(|one| one.name())
-                        .collect::<Vec<_>>()
-                        .join(", ");
-                    let allowed = if drawn.is_empty() {
-                        "none, only regimes were recorded"
-                    } else {
-                        &allowed
-                    };
-                    let place = format!("--quantity {name}");
-                    StudyError::refused(Some(&place), "this study has no such quantity", allowed)
-                })
-        };
+        let mut recorded = plan.record.clone();
+        recorded.retain(|quantity| !quantity.is_regime());
         if !self.quantities.is_empty() {
-            return self.quantities.iter().map(|name| named(name)).collect();
+            return self
+                .quantities
+                .iter()
+                .map(|name| quantity_named(name, &recorded))
+                .collect();
         }
         let paper = [
             Quantity::FirstTouchAdhesionShare,
             Quantity::AdhesionCoefficient,
         ];
         // Without a preload there is no coefficient, and both protocols are side by side.
-        let usual = if drawn.contains(&paper[1]) {
+        let usual = if recorded.contains(&Quantity::AdhesionCoefficient) {
             paper
         } else {
             Quantity::ADHESION_SHARES
         };
-        let usual: Vec<_> = usual
+        let usual: Vec<Quantity> = usual
             .into_iter()
-            .filter(|one| drawn.contains(one))
+            .filter(|quantity| recorded.contains(quantity))
             .collect();
-        let first = || named(drawn.first().map_or("regime", |one| one.name()));
-        if usual.is_empty() {
-            Ok(vec![first()?])
-        } else {
-            Ok(usual)
+        if !usual.is_empty() {
+            return Ok(usual);
         }
+        let first = recorded.first().map_or("regime", |first| first.name());
+        Ok(vec![quantity_named(first, &recorded)?])
     }
 
     /// Returns the named axes, which must exist and be named once. An axis with one value is fixed.
-    fn axes(&self, axes: &[Axis]) -> Result<Chosen, StudyError> {
-        let mut named: Vec<(usize, &str)> = Vec::new();
-        let mut name = |path: &str, option| {
-            let index = find(axes, path, option)?;
-            if let Some((_, other)) = named.iter().find(|(known, _)| *known == index) {
-                let found = format!("named by {other} and by {option}");
-                return Err(StudyError::refused(Some(path), found, "one of them"));
-            }
-            named.push((index, option));
-            Ok(index)
-        };
-        let across = self
-            .across
-            .as_ref()
-            .map(|path| name(path, "--x"))
-            .transpose()?;
-        let up = self.up.as_ref().map(|path| name(path, "--y")).transpose()?;
-        let mut fixed: Vec<_> = axes
+    fn axes(&self, axes: &[Axis]) -> Result<ChosenAxes, StudyError> {
+        let mut named: Vec<NamedAxis> = Vec::new();
+        let mut across = None;
+        let mut up = None;
+        if let Some(path) = &self.across {
+            across = Some(name_axis(&mut named, axes, path, "--x")?);
+        }
+        if let Some(path) = &self.up {
+            up = Some(name_axis(&mut named, axes, path, "--y")?);
+        }
+        let mut fixed: Vec<Option<usize>> = axes
             .iter()
             .map(|axis| (axis.values.len() == 1).then_some(0))
             .collect();
         for (path, value) in &self.at {
-            let index = name(path, "--at")?;
+            let index = name_axis(&mut named, axes, path, "--at")?;
             let axis = &axes[index];
-            let wanted = parse_quantity(value, axis.unit).ok();
-            // Messages have values of 4 digits: those may be typed, and mean the nearest value.
-            let off = |there: &f64| wanted.map_or(f64::NAN, |wanted| (there - wanted).abs());
-            let same = |there: &f64| off(there) <= 5e-4 * there.abs();
-            let none = || {
+            let Some(place) = place_of(value, axis) else {
                 let place = format!("--at {path}={value}");
-                StudyError::refused(Some(&place), "the study has no such value", values_of(axis))
+                let found = "the study has no such value";
+                return Err(StudyError::refused(Some(&place), found, values_of(axis)));
             };
-            let close = (0..axis.values.len()).filter(|place| same(&axis.values[*place]));
-            let nearest =
-                close.min_by(|a, b| off(&axis.values[*a]).total_cmp(&off(&axis.values[*b])));
-            fixed[index] = Some(nearest.ok_or_else(none)?);
+            fixed[index] = Some(place);
         }
-        Ok(([across, up], fixed))
-    }
-
-    /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless
-    /// the user names them, H is horizontal and κ or e_el/γ vertical, or curves extend along the
-    /// longer of two axes.
-    fn free(
-        &self,
-        axes: &[Axis],
-        named: [Option<usize>; 2],
-        fixed: &[Option<usize>],
-    ) -> Result<(usize, Option<usize>), StudyError> {
-        let none_left = || {
-            let found = "no axis is left to go across";
-            StudyError::refused(None, found, "an axis with two values at least")
-        };
-        let is_named = |index: &usize| named.contains(&Some(*index));
-        let rest: Vec<usize> = (0..axes.len())
-            .filter(|index| fixed[*index].is_none() && !is_named(index))
-            .collect();
-        match (named, &rest[..]) {
-            ([Some(across), up], []) => Ok((across, up)),
-            ([Some(across), None], [second]) => Ok((across, Some(*second))),
-            ([None, Some(up)], [across]) => Ok((*across, Some(up))),
-            ([None, None], [_] | [_, _]) => {
-                let (across, up) = across_and_up(axes, &rest).ok_or_else(none_left)?;
-                let longer = up.filter(|up| is_few(axes, across, *up));
-                Ok(longer.map_or((across, up), |longer| (longer, Some(across))))
-            }
-            (_, []) => Err(none_left()),
-            _ => {
-                let all: Vec<String> = rest
-                    .iter()
-                    .map(|index| format!("{} ({})", axes[*index].path, values_of(&axes[*index])))
-                    .collect();
-                let example = &axes[rest[0]];
-                let found = format!("too many axes are free for a figure: {}", all.join(", "));
-                let value = format_quantity(example.values[0], example.unit).replace(' ', "");
-                let allowed = format!(
-                    "two, named by --x and --y, and the others fixed, such as --at {}={value}",
-                    example.path
-                );
-                Err(StudyError::refused(None, found, allowed))
-            }
-        }
+        Ok(ChosenAxes { across, up, fixed })
     }
 }
 
-/// Fixes an axis of preloads at its first value if too many axes are free, and says so.
-fn first_preload(
+/// Returns the recorded quantity with this name or symbol.
+fn quantity_named(name: &str, recorded: &[Quantity]) -> Result<Quantity, StudyError> {
+    for quantity in recorded {
+        if name == quantity.name() || name == quantity.symbol() {
+            return Ok(*quantity);
+        }
+    }
+    let names: Vec<&str> = recorded.iter().map(|quantity| quantity.name()).collect();
+    let mut allowed = names.join(", ");
+    if names.is_empty() {
+        allowed = "none, only regimes were recorded".to_owned();
+    }
+    let place = format!("--quantity {name}");
+    let found = "this study has no such quantity";
+    Err(StudyError::refused(Some(&place), found, allowed))
+}
+
+/// Returns the index of the axis that an option names, unless another option names it too.
+fn name_axis(
+    named: &mut Vec<NamedAxis>,
     axes: &[Axis],
-    named: [Option<usize>; 2],
-    fixed: &mut [Option<usize>],
-) -> Option<String> {
+    path: &str,
+    option: &'static str,
+) -> Result<usize, StudyError> {
+    let index = find(axes, path, option)?;
+    if let Some(known) = named.iter().find(|known| known.index == index) {
+        let found = format!("named by {} and by {option}", known.option);
+        return Err(StudyError::refused(Some(path), found, "one of them"));
+    }
+    named.push(NamedAxis { index, option });
+    Ok(index)
+}
+
+/// Returns the index of the value of an axis that a text means. Messages have values of 4 digits:
+/// those may be typed, and mean the nearest value.
+fn place_of(text: &str, axis: &Axis) -> Option<usize> {
+    let wanted = parse_quantity(text, axis.unit).ok()?;
+    let distance = |place: &usize| (axis.values[*place] - wanted).abs();
+    (0..axis.values.len())
+        .filter(|place| distance(place) <= 5e-4 * axis.values[*place].abs())
+        .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+}
+
+/// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the
+/// user names them, H is horizontal and κ or e_el/γ vertical, or curves extend along the longer of
+/// two axes.
+fn free_axes(axes: &[Axis], chosen: &ChosenAxes) -> Result<(usize, Option<usize>), StudyError> {
+    let free: Vec<usize> = (0..axes.len())
+        .filter(|index| chosen.fixed[*index].is_none() && !chosen.is_named(*index))
+        .collect();
+    match (chosen.across, chosen.up, &free[..]) {
+        (Some(across), up, []) => Ok((across, up)),
+        (Some(across), None, [second]) => Ok((across, Some(*second))),
+        (None, Some(up), [across]) => Ok((*across, Some(up))),
+        (None, None, [_] | [_, _]) => {
+            let (across, up) = across_and_up(axes, &free).ok_or_else(none_left)?;
+            match up {
+                Some(longer) if is_few(axes, across, longer) => Ok((longer, Some(across))),
+                up => Ok((across, up)),
+            }
+        }
+        (_, _, []) => Err(none_left()),
+        _ => Err(too_many_free(axes, &free)),
+    }
+}
+
+fn none_left() -> StudyError {
+    let found = "no axis is left to go across";
+    StudyError::refused(None, found, "an axis with two values at least")
+}
+
+/// Returns the error for more free axes than a figure has.
+fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
+    let all: Vec<String> = free
+        .iter()
+        .map(|index| format!("{} ({})", axes[*index].path, values_of(&axes[*index])))
+        .collect();
+    let found = format!("too many axes are free for a figure: {}", all.join(", "));
+    let example = &axes[free[0]];
+    let path = &example.path;
+    let value = format_quantity(example.values[0], example.unit).replace(' ', "");
+    let allowed =
+        format!("two, named by --x and --y, and the others fixed, such as --at {path}={value}");
+    StudyError::refused(None, found, allowed)
+}
+
+/// Fixes an axis of preloads at its first value if too many axes are free, and says so.
+fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<String> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
-    let free = fixed.iter().filter(|place| place.is_none()).count();
-    if free <= 2 || fixed[last].is_some() || named.contains(&Some(last)) {
+    let free = chosen.fixed.iter().filter(|place| place.is_none()).count();
+    if free <= 2 || chosen.fixed[last].is_some() || chosen.is_named(last) {
         return None;
     }
-    fixed[last] = Some(0);
-    let (count, path) = (axis.values.len(), &axis.path);
+    chosen.fixed[last] = Some(0);
+    let count = axis.values.len();
+    let path = &axis.path;
     Some(format!(
         "{} is the first of {count} preloads; --at {path}=VALUE selects another one",
         axis.at(0)
     ))
 }
 
-/// Returns true if axis `one` has few values and axis `other` many. The few values are then curves
-/// over the other axis.
-fn is_few(axes: &[Axis], one: usize, other: usize) -> bool {
-    let few = |index: usize| axes[index].values.len() <= MOST_CURVES;
-    few(one) && !few(other)
+/// Returns true if the axis `few` has few values and the axis `many` has many. The few values are
+/// then curves over the other axis.
+fn is_few(axes: &[Axis], few: usize, many: usize) -> bool {
+    axes[few].values.len() <= MOST_CURVES && axes[many].values.len() > MOST_CURVES
 }
 
 /// Returns a quantity shown as curves. A single curve has a linear scale, with a second,
@@ -283,43 +324,43 @@ fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> G
     let mut curves = statistics.chunks(grid.size().0.max(1));
     let first = curves.next();
     let several = curves.any(|curve| Some(curve) != first);
-    let means: Vec<f64> = statistics.iter().flatten().map(|one| one.mean).collect();
-    let usual = || {
-        if several {
-            scale_of(&means)
-        } else {
-            AxisScale::Linear
-        }
-    };
+    let mut usual = AxisScale::Linear;
+    if several {
+        let known = statistics.iter().flatten();
+        let means: Vec<f64> = known.map(|statistics| statistics.mean).collect();
+        usual = scale_of(&means);
+    }
     GridLayer {
         quantity,
-        scale: scale.unwrap_or_else(usual),
+        scale: scale.unwrap_or(usual),
         range: None,
     }
 }
 
 fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, StudyError> {
-    axes.iter()
-        .position(|axis| axis.path == path)
-        .ok_or_else(|| {
-            let all: Vec<_> = axes.iter().map(|axis| axis.path.as_str()).collect();
-            let allowed = if all.is_empty() {
-                "none, it has one cell".into()
-            } else {
-                all.join(", ")
-            };
-            let place = format!("{option} {path}");
-            StudyError::refused(Some(&place), "this study has no such axis", allowed)
-        })
+    if let Some(index) = axes.iter().position(|axis| axis.path == path) {
+        return Ok(index);
+    }
+    let paths: Vec<&str> = axes.iter().map(|axis| axis.path.as_str()).collect();
+    let mut allowed = paths.join(", ");
+    if paths.is_empty() {
+        allowed = "none, it has one cell".to_owned();
+    }
+    let place = format!("{option} {path}");
+    let found = "this study has no such axis";
+    Err(StudyError::refused(Some(&place), found, allowed))
 }
 
 fn values_of(axis: &Axis) -> String {
-    let value = |value: &f64| format_quantity(*value, axis.unit);
-    let shown = |values: &[f64]| values.iter().map(value).collect::<Vec<_>>().join(", ");
-    match &axis.values[..] {
+    let values: Vec<String> = axis
+        .values
+        .iter()
+        .map(|value| format_quantity(*value, axis.unit))
+        .collect();
+    match &values[..] {
         [first @ .., last] if first.len() >= MOST_NAMED => {
-            format!("{}, … {}", shown(&first[..MOST_NAMED - 1]), value(last))
+            format!("{}, … {last}", first[..MOST_NAMED - 1].join(", "))
         }
-        values => shown(values),
+        values => values.join(", "),
     }
 }

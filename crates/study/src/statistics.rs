@@ -94,16 +94,16 @@ impl Statistics {
         let mean = mean(&values);
         let standard_deviation = standard_deviation(&values, mean) * unit;
         let mean = mean * unit;
-        let spread = (values.len() > 1).then(|| {
+        let mut spread = None;
+        if values.len() > 1 {
             let standard_error = standard_deviation / count.sqrt();
             let half = student_quantile(values.len() as u32 - 1) * standard_error;
-            let confidence_interval = interval(mean, half, bounds);
-            Spread {
+            spread = Some(Spread {
                 standard_deviation,
                 standard_error,
-                confidence_interval,
-            }
-        });
+                confidence_interval: interval(mean, half, bounds),
+            });
+        }
         Some(Statistics {
             count: values.len(),
             mean,
@@ -140,13 +140,13 @@ impl Statistics {
     /// );
     /// ```
     pub fn words(&self, unit: &str) -> String {
-        let ([lower, median, upper], (least, most)) = (self.quartiles, self.range);
+        let [lower, median, upper] = self.quartiles;
         let median = format_rounded(median, 2, unit);
         if self.count < 2 {
             return median;
         }
-        let [quartiles, range] =
-            [(lower, upper), (least, most)].map(|ends| format_range(ends, 2, unit));
+        let quartiles = format_range((lower, upper), 2, unit);
+        let range = format_range(self.range, 2, unit);
         format!("median {median} (quartiles {quartiles}, range {range})")
     }
 
@@ -154,9 +154,10 @@ impl Statistics {
     /// of the sum of all values; otherwise `None`. `what` is the name of the quantity in the
     /// sentence.
     pub fn warning(&self, what: &str) -> Option<String> {
-        let share = self
-            .share_of_largest()
-            .filter(|share| self.count > 2 && *share > MOST_OF_ONE)?;
+        let share = self.share_of_largest()?;
+        if self.count <= 2 || share <= MOST_OF_ONE {
+            return None;
+        }
         let percent = format_rounded(100.0 * share, 2, "1");
         Some(format!(
             "One profile makes {percent} % of the mean of {what}: the median is the better guide."
@@ -166,8 +167,9 @@ impl Statistics {
     /// Returns the largest value of the quantity divided by the sum of the values on all profiles;
     /// `None` if a value is negative or the sum is zero.
     pub fn share_of_largest(&self) -> Option<f64> {
-        let share = self.range.1 / (self.mean * self.count as f64);
-        Some(share).filter(|share| self.range.0 >= 0.0 && share.is_finite())
+        let (least, most) = self.range;
+        let share = most / (self.mean * self.count as f64);
+        (least >= 0.0 && share.is_finite()).then_some(share)
     }
 
     /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a
@@ -185,21 +187,28 @@ impl Statistics {
 /// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added
 /// to the mean. With one bound it is added to the logarithm of the distance from the bound, with
 /// two bounds to the logarithm of the ratio of both distances. The interval never reaches a bound.
-fn interval(mean: f64, half: f64, (least, most): (f64, f64)) -> (f64, f64) {
-    let (above, below) = (mean - least, most - mean);
+fn interval(mean: f64, half: f64, bounds: (f64, f64)) -> (f64, f64) {
+    let (least, most) = bounds;
     // Rounding may have carried the mean itself across a bound.
-    if above <= 0.0 || below <= 0.0 {
+    if mean - least <= 0.0 || most - mean <= 0.0 {
         return (mean, mean);
     }
-    let end = |half: f64| match (above.is_finite(), below.is_finite()) {
-        (true, true) => {
-            let odds = above / below * (half / above + half / below).exp();
-            most - (most - least) / (1.0 + odds)
-        }
-        (true, false) => least + above * (half / above).exp(),
-        _ => mean + half,
-    };
-    (end(-half), end(half))
+    (moved(mean, -half, bounds), moved(mean, half, bounds))
+}
+
+/// Returns the mean moved by `step` within the bounds.
+fn moved(mean: f64, step: f64, bounds: (f64, f64)) -> f64 {
+    let (least, most) = bounds;
+    let above = mean - least;
+    let below = most - mean;
+    if !above.is_finite() {
+        return mean + step;
+    }
+    if !below.is_finite() {
+        return least + above * (step / above).exp();
+    }
+    let odds = above / below * (step / above + step / below).exp();
+    most - (most - least) / (1.0 + odds)
 }
 
 /// Returns an interval of ascending values that holds the median of any distribution in about 95 of
@@ -231,7 +240,9 @@ impl RegimeCounts {
     /// counted in [`RegimeCounts::none`].
     pub fn of(regimes: impl Iterator<Item = Option<Regime>>) -> Self {
         let mut counts = [0; 4];
-        regimes.for_each(|regime| counts[regime.map_or(3, |regime| regime as usize)] += 1);
+        for regime in regimes {
+            counts[regime.map_or(3, |regime| regime as usize)] += 1;
+        }
         let [pressure_insensitive, pressure_sensitive, non_adhesive, none] = counts;
         RegimeCounts {
             pressure_insensitive,

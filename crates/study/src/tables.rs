@@ -17,7 +17,7 @@ use asperity_scene::Regime;
 use serde::Serialize;
 use std::io;
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Version of the format of the files that [`merge`] writes.
 pub const RESULTS_VERSION: u32 = 1;
@@ -49,16 +49,13 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     let (results, merged) = Results::of_shards(folder)?;
     remove_abandoned(folder.path());
     let plan = results.plan();
-    let path = |name| folder.path().join(name);
-    write_new_file(&path(Merged::RESULTS), true, |out| {
-        results.table().write_csv(out, "")
-    })?;
-    write_new_file(&path(Merged::SUMMARY), true, |out| {
-        results.summary().write_csv(out, "")
-    })?;
-    let hash = sha256_of(&path(Merged::RESULTS))
-        .map_err(|error| StudyError::folder(&path(Merged::RESULTS), error))?;
-    write_new_file(&path(Merged::SIDECAR), true, |out| {
+    let table = folder.path().join(Merged::RESULTS);
+    let summary = folder.path().join(Merged::SUMMARY);
+    let description = folder.path().join(Merged::SIDECAR);
+    write_new_file(&table, true, |out| results.table().write_csv(out, ""))?;
+    write_new_file(&summary, true, |out| results.summary().write_csv(out, ""))?;
+    let hash = sha256_of(&table).map_err(|error| StudyError::folder(&table, error))?;
+    write_new_file(&description, true, |out| {
         write_json(out, &sidecar(plan, &merged, &hash), &[])
     })?;
     Ok(merged)
@@ -113,12 +110,12 @@ fn with_cell<'a, T: 'a>(
 ) -> TableOf<'a, T> {
     let mut table = rows.whole("cell", cell);
     for (number, axis) in plan.scene_axes().iter().enumerate() {
-        let (name, value) = (axis.path.clone(), move |row: &T| {
-            plan.value(cell(row), number)
-        });
-        table = match axis.is_whole() {
-            true => table.with(name, Kind::Whole, move |row| value(row) as u64),
-            false => table.with(name, Kind::Real, value),
+        let name = axis.path.clone();
+        let value = move |row: &T| plan.value(cell(row), number);
+        table = if axis.is_whole() {
+            table.with(name, Kind::Whole, move |row| value(row) as u64)
+        } else {
+            table.with(name, Kind::Real, value)
         };
     }
     let preload = plan.preloads().map(|_| plan.axes.len() - 1);
@@ -134,32 +131,78 @@ fn recorded_hash(folder: &Path) -> Option<String> {
     Some(all.get("results_sha256")?.as_str()?.to_owned())
 }
 
+/// Row of the table of all results.
+struct RecordRow<'a> {
+    cell: u64,
+    line: u64,
+    /// Values of the recorded quantities; `None` if they cannot be computed.
+    values: Option<&'a [f64]>,
+    /// Reason why there are no values.
+    reason: Option<&'a str>,
+}
+
+impl RecordRow<'_> {
+    fn value(&self, column: usize) -> Option<f64> {
+        Some(self.values?[column])
+    }
+}
+
+/// Row of the table of statistics.
+struct SummaryRow<'a> {
+    cell: u64,
+    results: GridCell,
+    /// Reason why no profile has values.
+    reason: Option<&'a str>,
+}
+
 impl Results {
     /// Returns a table with a row for each [cell](Plan) and each profile on which the cell is
     /// computed. Its columns are the values on the axes, the seed of the profile, and the recorded
     /// quantities.
     pub fn table(&self) -> Table<'_> {
-        let rows = || {
-            let of_cell = |cell| (0..self.plan.lines).map(move |line| (cell, line));
-            let record =
-                |(cell, line)| (cell, line, self.record(cell, line), self.reason(cell, line));
-            (0..self.plan.cells())
-                .flat_map(of_cell)
-                .map(record)
-                .filter(|row| row.2.is_some() || row.3.is_some())
-        };
-        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
-        table = table.whole("seed", |row| self.plan.seed_of(row.1));
+        let rows = || (0..self.plan.cells()).flat_map(|cell| self.rows_of(cell));
+        let mut table = with_cell(&self.plan, Table::of(rows), |row: &RecordRow<'_>| row.cell);
+        table = table.whole("seed", |row| self.plan.seed_of(row.line));
         for (column, quantity) in self.plan.record.iter().enumerate() {
-            let (name, text) = (quantity.name(), Kind::Text(Regime::LONGEST_NAME));
-            table = match quantity.is_regime() {
-                true => table.with(name, text, move |row| {
-                    regime_of(row.2?[column]).map(Regime::name)
-                }),
-                false => table.real(name, move |row| row.2.map(|values| values[column])),
+            let name = quantity.name();
+            table = if quantity.is_regime() {
+                table.with(name, Kind::Text(Regime::LONGEST_NAME), move |row| {
+                    regime_of(row.value(column)?).map(Regime::name)
+                })
+            } else {
+                table.real(name, move |row| row.value(column))
             };
         }
-        self.with_reasons(table, |row| row.3)
+        self.with_reasons(table, |row| row.reason)
+    }
+
+    /// Returns the rows of a cell, one for each profile on which it is computed.
+    fn rows_of(&self, cell: u64) -> impl Iterator<Item = RecordRow<'_>> {
+        let rows = (0..self.plan.lines).map(move |line| RecordRow {
+            cell,
+            line,
+            values: self.record(cell, line),
+            reason: self.reason(cell, line),
+        });
+        rows.filter(|row| row.values.is_some() || row.reason.is_some())
+    }
+
+    /// Returns the row of statistics of a cell; `None` for a cell that is not computed.
+    fn summary_row(&self, cell: u64) -> Option<SummaryRow<'_>> {
+        let record = &self.plan.record;
+        let reason = self.failure_of(cell);
+        let mut results = self.cell(cell, record);
+        if results.is_none() && reason.is_some() {
+            results = Some(GridCell {
+                statistics: vec![None; record.len()],
+                regimes: self.regimes(cell),
+            });
+        }
+        Some(SummaryRow {
+            cell,
+            results: results?,
+            reason,
+        })
     }
 
     /// Completes the table with a column of the reasons of records without values, if there are
@@ -183,37 +226,28 @@ impl Results {
     /// mean, standard deviation and confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
-        let nothing = |cell| GridCell {
-            statistics: vec![None; record.len()],
-            regimes: self.regimes(cell),
-        };
-        let of_cell = move |cell| {
-            let reason = self.failure_of(cell);
-            self.cell(cell, record)
-                .or_else(|| reason.map(|_| nothing(cell)))
-                .map(|all| (cell, all, reason))
-        };
-        let rows = move || (0..self.plan.cells()).filter_map(of_cell);
-        let mut table = with_cell(&self.plan, Table::of(rows), |row| row.0);
-        table = table.whole("lines", |row| row.1.regimes[0].profiles() as u64);
+        let rows = || (0..self.plan.cells()).filter_map(|cell| self.summary_row(cell));
+        let mut table = with_cell(&self.plan, Table::of(rows), |row: &SummaryRow<'_>| row.cell);
+        table = table.whole("lines", |row| row.results.regimes[0].profiles() as u64);
         for (place, quantity) in record.iter().enumerate() {
             if quantity.is_regime() {
                 for (index, regime) in Regime::ALL.into_iter().enumerate() {
                     let name = format!("{}_{}", quantity.name(), regime.name().replace('-', "_"));
-                    let share =
-                        move |cell: &GridCell| Some(cell.regimes_of(*quantity).shares()?[index]);
-                    table = table.with(name, Kind::Real, move |row| share(&row.1));
+                    table = table.with(name, Kind::Real, move |row| {
+                        let counts = row.results.regimes_of(*quantity);
+                        Some(counts.shares()?[index])
+                    });
                 }
                 continue;
             }
-            for (ending, of) in Statistics::COLUMNS {
+            for (ending, value) in Statistics::COLUMNS {
                 let name = format!("{}_{ending}", quantity.name());
                 table = table.with(name, Kind::Real, move |row| {
-                    row.1.statistics[place].as_ref().and_then(of)
+                    row.results.statistics[place].as_ref().and_then(value)
                 });
             }
         }
-        self.with_reasons(table, |row| row.2)
+        self.with_reasons(table, |row| row.reason)
     }
 
     /// Reads the results of a study from the folder of the study, in which [`merge`] has written
@@ -224,55 +258,50 @@ impl Results {
     /// [`Merged::RESULTS`] is missing, was changed or belongs to another plan.
     pub fn open(folder: &Path) -> Result<Results, StudyError> {
         let mut results = Results::empty(Folder::open(folder)?.plan().clone())?;
-        let path = folder.join(Merged::RESULTS);
-        let merge = asperity_scene::text::quoted(folder.display().to_string());
-        let again = format!("asperity sweep merge {merge} makes it again");
-        let wrong = |reason: String| StudyError::folder(&path, format!("{reason}; {again}"));
-        let file = open_regular(&path).map_err(|error| match error {
-            ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
-                let reason = format!(
-                    "the study has not been merged yet; asperity sweep merge {merge} does it"
-                );
-                StudyError::folder(folder, reason)
-            }
-            error => StudyError::folder(&path, error),
-        })?;
-        let header = results
-            .table()
-            .columns()
-            .iter()
-            .map(|(name, _)| name.as_ref())
-            .collect::<Vec<_>>()
-            .join(",");
+        let merged = MergedTable::of(folder);
+        let path = &merged.path;
+        let file = open_regular(path).map_err(|error| merged.not_opened(folder, error))?;
+        let header = results.header();
         let mut has_reasons = false;
         for (number, line) in (1..).zip(lines(BufReader::new(file))) {
-            let line = line
-                .map_err(StudyError::unreadable(&path))?
-                .unwrap_or_default();
+            let line = line.map_err(StudyError::unreadable(path))?;
+            let line = line.unwrap_or_default();
             let row = line.trim_end_matches('\r');
             if number == 1 {
-                let rest = row.strip_prefix(&header);
-                has_reasons = rest.and_then(|rest| rest.strip_prefix(',')) == Some(REASON);
-                if !has_reasons && rest != Some("") {
-                    return Err(wrong("its columns are not those of the plan".into()));
+                let further = row.strip_prefix(&header);
+                let last = further.and_then(|further| further.strip_prefix(','));
+                has_reasons = last == Some(REASON);
+                if !has_reasons && further != Some("") {
+                    return Err(merged.wrong("its columns are not those of the plan"));
                 }
             } else if results.add_row(row, has_reasons).is_none() {
-                return Err(wrong(format!("line {number} is not a row of this study")));
+                return Err(merged.wrong(&format!("line {number} is not a row of this study")));
             }
         }
         // Rows that are doubled, missing or changed may still be rows.
-        let found = sha256_of(&path).map_err(|error| StudyError::folder(&path, error))?;
+        let found = sha256_of(path).map_err(|error| StudyError::folder(path, error))?;
         match recorded_hash(folder) {
             Some(recorded) if recorded == found => Ok(results),
-            Some(_) => Err(wrong(format!(
+            Some(_) => Err(merged.wrong(&format!(
                 "this is not the table of the last merge, by its SHA-256 in {}",
                 Merged::SIDECAR
             ))),
-            None => Err(wrong(format!(
+            None => Err(merged.wrong(&format!(
                 "{}, which has the SHA-256 of this table, is missing or damaged",
                 Merged::SIDECAR
             ))),
         }
+    }
+
+    /// Returns the first line of the table of all results, without the column of reasons.
+    fn header(&self) -> String {
+        let table = self.table();
+        let names: Vec<&str> = table
+            .columns()
+            .iter()
+            .map(|(name, _)| name.as_ref())
+            .collect();
+        names.join(",")
     }
 
     /// Adds a row of the table of records; `None` if it is not a row of this study.
@@ -281,53 +310,95 @@ impl Results {
         // Only the last column, a reason, may contain a comma.
         let count = 3 + plan.scene_axes().len() + plan.record.len() + usize::from(has_reason);
         let mut columns = row.splitn(count, ',');
-        let cell = columns
-            .next()?
-            .parse()
-            .ok()
-            .filter(|cell| *cell < plan.cells())?;
+        let cell: u64 = columns.next()?.parse().ok()?;
+        if cell >= plan.cells() {
+            return None;
+        }
         // The values of the axes are those of the plan.
         for axis in 0..plan.axes.len() {
-            columns
-                .next()?
-                .parse::<f64>()
-                .ok()
-                .filter(|value| plan.value(cell, axis) == *value)?;
+            let value: f64 = columns.next()?.parse().ok()?;
+            if plan.value(cell, axis) != value {
+                return None;
+            }
         }
-        if plan.preloads().is_none() {
-            columns.next().filter(|preload| preload.is_empty())?;
+        if plan.preloads().is_none() && !columns.next()?.is_empty() {
+            return None;
         }
         let line = columns.next()?.parse::<u64>().ok()?.wrapping_sub(plan.seed);
-        let value = |(quantity, text): (&Quantity, &str)| match quantity {
-            _ if text.is_empty() => Some(f64::NAN),
-            _ if quantity.is_regime() => Regime::ALL
-                .iter()
-                .position(|one| one.name() == text)
-                .map(|place| place as f64),
-            _ => text.parse().ok(),
-        };
-        let values: Option<Vec<f64>> = plan.record.iter().zip(&mut columns).map(value).collect();
-        let values = values.filter(|values| values.len() == plan.record.len())?;
-        let reason = columns.next().unwrap_or_default();
+        let mut values = Vec::with_capacity(plan.record.len());
+        for quantity in &plan.record {
+            values.push(read_value(*quantity, columns.next()?)?);
+        }
+        let reason = unquoted(columns.next().unwrap_or_default());
         if columns.next().is_some()
             || line >= plan.lines
             || values.iter().any(|value| value.is_infinite())
         {
             return None;
         }
-        let quoted = reason
-            .strip_prefix('"')
-            .and_then(|reason| reason.strip_suffix('"'));
-        let reason =
-            quoted.map_or_else(|| reason.to_owned(), |reason| reason.replace("\"\"", "\""));
-        self.set_record(
-            cell * self.plan.lines + line,
-            if reason.is_empty() {
-                Ok(values)
-            } else {
-                Err(reason)
-            },
-        );
+        let record = if reason.is_empty() {
+            Ok(values)
+        } else {
+            Err(reason)
+        };
+        self.set_record(cell * self.plan.lines + line, record);
         Some(())
+    }
+}
+
+/// Reads the value of a quantity in a row; NaN if there is none.
+fn read_value(quantity: Quantity, text: &str) -> Option<f64> {
+    if text.is_empty() {
+        return Some(f64::NAN);
+    }
+    if !quantity.is_regime() {
+        return text.parse().ok();
+    }
+    let index = Regime::ALL
+        .iter()
+        .position(|regime| regime.name() == text)?;
+    Some(index as f64)
+}
+
+/// Returns the text of a cell without quotes around it.
+fn unquoted(text: &str) -> String {
+    let inner = text
+        .strip_prefix('"')
+        .and_then(|inner| inner.strip_suffix('"'));
+    match inner {
+        Some(inner) => inner.replace("\"\"", "\""),
+        None => text.to_owned(),
+    }
+}
+
+/// Table of all results of a study, with the words for what is wrong with it.
+struct MergedTable {
+    path: PathBuf,
+    /// Folder of the study as a word of a shell.
+    study: String,
+}
+
+impl MergedTable {
+    fn of(folder: &Path) -> MergedTable {
+        MergedTable {
+            path: folder.join(Merged::RESULTS),
+            study: asperity_scene::text::quoted(folder.display().to_string()),
+        }
+    }
+
+    fn wrong(&self, reason: &str) -> StudyError {
+        let again = format!("asperity sweep merge {} makes it again", self.study);
+        StudyError::folder(&self.path, format!("{reason}; {again}"))
+    }
+
+    fn not_opened(&self, folder: &Path, error: ReadError) -> StudyError {
+        match error {
+            ReadError::Failed(error) if error.kind() == io::ErrorKind::NotFound => {
+                let merge = format!("asperity sweep merge {}", self.study);
+                let reason = format!("the study has not been merged yet; {merge} does it");
+                StudyError::folder(folder, reason)
+            }
+            error => StudyError::folder(&self.path, error),
+        }
     }
 }

@@ -45,11 +45,13 @@ pub struct Case {
 
 impl Case {
     pub(super) const fn row(
-        [family, evidence]: [&'static str; 2],
-        [name, holds, error_of]: [&'static str; 3],
+        kind: [&'static str; 2],
+        texts: [&'static str; 3],
         bounds: &'static [(Edges, f64)],
         subject: Subject,
     ) -> Case {
+        let [family, evidence] = kind;
+        let [name, holds, error_of] = texts;
         Case {
             name,
             family,
