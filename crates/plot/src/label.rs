@@ -101,7 +101,6 @@ impl Label {
         self
     }
 
-    /// Appends another label.
     pub fn join(mut self, other: &Label) -> Label {
         for (face, text) in &other.runs {
             self.push(*face, text);

@@ -78,7 +78,6 @@ impl Svg {
         svg
     }
 
-    /// Adds elements.
     pub fn push(&mut self, elements: Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ = self.text.write_fmt(elements);

@@ -97,7 +97,6 @@ impl Frame<'_> {
         }
     }
 
-    /// Draws a tick and its label.
     fn tick(&self, svg: &mut Svg, side: Side, tick: &Tick) {
         let edge = self.edge(side);
         let share = if tick.label.is_some() { 0.43 } else { 0.23 };

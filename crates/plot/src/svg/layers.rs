@@ -221,7 +221,6 @@ fn heat_map(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     draw_classes(svg, frame, map, &columns, &rows);
 }
 
-/// Draws the cells of a map.
 fn draw_cells(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     let columns = HeatMap::borders(frame.axes.x.scale, &map.columns);
     let rows = HeatMap::borders(frame.axes.y.scale, &map.rows);
