@@ -58,7 +58,7 @@ fn measure_loop(cells: usize, hurst: f64) {
         effective_modulus: 1.0,
     };
     let (start, used) = (Instant::now(), used());
-    let mut body = AdhesiveSquare::new(&square, (work, work)).expect("a square");
+    let mut body = AdhesiveSquare::new(&square, work, work).expect("a square");
     let mut to = |depth: f64| body.move_to(depth, &|| false).expect("a state");
     let (mut depth, mut steps, step) = (0.0, 1, 2.5 * rms_height / 20.0);
     while to(depth).force < 0.3 * rms_height && steps < 40 {

@@ -10,7 +10,7 @@
 //! adhesion. A smaller dissipated energy is not a property of the contact.
 
 use super::error::HalfSpaceError;
-use super::half_space::{Square, check_cells, positive};
+use super::half_space::{Square, check_cells, highest, positive};
 use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
@@ -18,14 +18,17 @@ use asperity_data::{check_room, resized};
 /// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It
 /// was found once with spheres.
 pub const OPENING: f64 = 1.29;
+
 /// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a
 /// cell closes.
 pub const CLOSING: f64 = 0.8;
+
 /// Allowed error of stresses, as a share of the largest stress of an edge.
 const TOLERANCE: f64 = 1e-3;
+
 /// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the
 /// side Δ.
-const OF_AN_EDGE: f64 = 0.4732;
+const ENERGY_OF_EDGE: f64 = 0.4732;
 
 /// Force, contact area and elastic energy of an adhesive contact at one indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,10 +49,13 @@ pub struct AdhesiveSquare {
     grid: Grid,
     /// Number of cells along a side of the body. One ring of cells around it never touches.
     cells: usize,
+    /// Side L in m of the grid, which is the body with the ring.
     side: f64,
     effective_modulus: f64,
-    /// Works of adhesion on opening and closing over E* L.
-    works: (f64, f64),
+    /// Work of adhesion over E* L where the interface opens.
+    opening_work: f64,
+    /// Work of adhesion over E* L where the interface closes.
+    closing_work: f64,
     /// Cells that have opened at the present indentation.
     opened: Vec<bool>,
 }
@@ -66,10 +72,7 @@ impl AdhesiveSquare {
     /// # Errors
     /// Returns an error if the number of heights is not the square of an allowed number of cells
     /// along a side, if a value is out of its range, or if the memory is too small.
-    pub fn new(
-        square: &Square<'_>,
-        (opening, closing): (f64, f64),
-    ) -> Result<Self, HalfSpaceError> {
+    pub fn new(square: &Square<'_>, opening: f64, closing: f64) -> Result<Self, HalfSpaceError> {
         let cells = square.heights.len().isqrt();
         check_cells(cells)?;
         if cells * cells != square.heights.len() {
@@ -87,46 +90,34 @@ impl AdhesiveSquare {
         positive("effective modulus", effective_modulus)?;
         positive("work of adhesion", opening)?;
         if !(0.0..=opening).contains(&closing) {
-            let allowed = "from 0 to the work of adhesion";
             return Err(HalfSpaceError::Value {
                 name: "work of adhesion on closing",
                 found: closing,
-                allowed,
+                allowed: "from 0 to the work of adhesion",
             });
         }
         check_room(AdhesiveSquare::bytes(cells))?;
         let ringed = cells + 2;
-        // The side of the grid, by which its numbers are scaled, is that of the body with the ring.
-        let scale = side * ringed as f64 / cells as f64;
+        let side_with_ring = side * ringed as f64 / cells as f64;
         let mut grid = Grid::new(ringed, Boundary::Free)?;
-        let mut highest = f64::NEG_INFINITY;
-        for &found in heights {
-            if !(found / side).is_finite() {
-                return Err(HalfSpaceError::Value {
-                    name: "height",
-                    found,
-                    allowed: "finite numbers",
-                });
-            }
-            highest = highest.max(found);
-        }
-        let inner = |index: usize| index.clamp(1, cells) - 1;
-        for at in 0..ringed * ringed {
-            let of = inner(at / ringed) * cells + inner(at % ringed);
-            grid.depths[at] = (highest - heights[of]) / scale;
+        let highest = highest(square)?;
+        for index in 0..ringed * ringed {
+            // The ring has the heights of the cells beside it.
+            let row = (index / ringed).clamp(1, cells) - 1;
+            let column = (index % ringed).clamp(1, cells) - 1;
+            grid.depths[index] = (highest - heights[row * cells + column]) / side_with_ring;
         }
         grid.levels.copy_from_slice(&grid.depths);
         grid.outside.fill(1.0);
-        let opened = resized(Vec::new(), ringed * ringed, false)?;
-        let per = effective_modulus * scale;
-        let works = (opening / per, closing / per);
+        let unit_of_work = effective_modulus * side_with_ring;
         Ok(AdhesiveSquare {
             grid,
             cells,
-            side: scale,
+            side: side_with_ring,
             effective_modulus,
-            works,
-            opened,
+            opening_work: opening / unit_of_work,
+            closing_work: closing / unit_of_work,
+            opened: resized(Vec::new(), ringed * ringed, false)?,
         })
     }
 
@@ -148,16 +139,16 @@ impl AdhesiveSquare {
         stop: &dyn Fn() -> bool,
     ) -> Result<AdhesiveState, HalfSpaceError> {
         if !indentation.is_finite() {
-            let allowed = "finite numbers";
             return Err(HalfSpaceError::Value {
                 name: "indentation",
                 found: indentation,
-                allowed,
+                allowed: "finite numbers",
             });
         }
         let depth = indentation / self.side;
-        let delta = 1.0 / self.grid.cells as f64;
-        let tolerance = TOLERANCE * (self.works.0 / (OF_AN_EDGE * delta)).sqrt() * delta;
+        let side_of_cell = 1.0 / self.grid.cells as f64;
+        let stress_of_edge = (self.opening_work / (ENERGY_OF_EDGE * side_of_cell)).sqrt();
+        let tolerance = TOLERANCE * stress_of_edge * side_of_cell;
         self.opened.fill(false);
         self.grid.level = depth;
         // A cell opens at most once at one indentation, so that this ends.
@@ -171,87 +162,91 @@ impl AdhesiveSquare {
         }
     }
 
-    /// Returns the cells of the body, without the ring.
-    fn body(&self) -> impl Iterator<Item = usize> + use<> {
-        let (cells, ringed) = (self.cells, self.cells + 2);
-        (0..cells * cells).map(move |at| (at / cells + 1) * ringed + at % cells + 1)
+    /// Returns the cells of the body, without the ring, for which a condition is true.
+    fn cells_where(&self, is_met: impl Fn(usize) -> bool) -> Vec<usize> {
+        let cells = self.cells;
+        let ringed = cells + 2;
+        (0..cells * cells)
+            .map(|index| (index / cells + 1) * ringed + index % cells + 1)
+            .filter(|cell| is_met(*cell))
+            .collect()
     }
 
-    fn gap(&self, at: usize) -> f64 {
-        (self.grid.levels[at] - self.grid.level).max(0.0)
+    fn is_open(&self, cell: usize) -> bool {
+        self.grid.outside[cell] == 1.0
     }
 
-    fn tension(&self, at: usize) -> f64 {
-        (-self.grid.pressure[at]).max(0.0)
+    fn gap(&self, cell: usize) -> f64 {
+        (self.grid.levels[cell] - self.grid.level).max(0.0)
+    }
+
+    fn tension(&self, cell: usize) -> f64 {
+        (-self.grid.pressure[cell]).max(0.0)
     }
 
     /// Returns the mean of ½σg over the neighbours of a cell on the other side of the edge; `None`
     /// without one.
-    fn energy(&self, at: usize) -> Option<f64> {
+    fn energy(&self, cell: usize) -> Option<f64> {
         let ringed = self.cells + 2;
-        let is_open = self.grid.outside[at] == 1.0;
+        let is_open = self.is_open(cell);
         let own = if is_open {
-            self.gap(at)
+            self.gap(cell)
         } else {
-            self.tension(at)
+            self.tension(cell)
         };
-        let (mut sum, mut count) = (0.0, 0.0);
-        for other in [at - 1, at + 1, at - ringed, at + ringed] {
-            if (self.grid.outside[other] == 1.0) != is_open {
-                sum += if is_open {
-                    self.tension(other)
-                } else {
-                    self.gap(other)
-                };
-                count += 1.0;
+        let mut sum = 0.0;
+        let mut count = 0.0;
+        for neighbour in [cell - 1, cell + 1, cell - ringed, cell + ringed] {
+            if self.is_open(neighbour) == is_open {
+                continue;
             }
+            sum += if is_open {
+                self.tension(neighbour)
+            } else {
+                self.gap(neighbour)
+            };
+            count += 1.0;
         }
         (count > 0.0).then(|| 0.5 * own * sum / count)
     }
 
     /// Opens all cells whose energy passes the work of adhesion. Returns true if there was one.
     fn open(&mut self) -> bool {
-        let limit = OPENING * self.works.0;
-        let is_over = |at: &usize| {
-            self.grid.outside[*at] == 0.0 && self.energy(*at).is_some_and(|energy| energy > limit)
-        };
-        let over: Vec<usize> = self.body().filter(is_over).collect();
-        for &at in &over {
-            (
-                self.grid.outside[at],
-                self.grid.pressure[at],
-                self.opened[at],
-            ) = (1.0, 0.0, true);
+        let limit = OPENING * self.opening_work;
+        let opening = self.cells_where(|cell| {
+            self.grid.outside[cell] == 0.0 && self.energy(cell).is_some_and(|energy| energy > limit)
+        });
+        for &cell in &opening {
+            self.grid.outside[cell] = 1.0;
+            self.grid.pressure[cell] = 0.0;
+            self.opened[cell] = true;
         }
-        !over.is_empty()
+        !opening.is_empty()
     }
 
     /// Takes all cells into contact that penetrate. Returns true if there was one.
     fn touch(&mut self) -> bool {
-        let is_in = |at: &usize| {
-            let Grid {
-                outside,
-                levels,
-                level,
-                ..
-            } = &self.grid;
-            outside[*at] == 1.0 && !self.opened[*at] && levels[*at] <= *level
-        };
-        self.take_in(&self.body().filter(is_in).collect::<Vec<_>>())
+        let penetrating = self.cells_where(|cell| {
+            let is_free = self.is_open(cell) && !self.opened[cell];
+            is_free && self.grid.levels[cell] <= self.grid.level
+        });
+        self.take_in(&penetrating)
     }
 
     /// Takes all cells into contact that close. Returns true if there was one.
     fn close(&mut self) -> bool {
-        let limit = CLOSING * self.works.1;
-        let closes = |at: &usize| {
-            let is_free = self.grid.outside[*at] == 1.0 && !self.opened[*at];
-            is_free && self.energy(*at).is_some_and(|energy| energy < limit)
-        };
-        self.take_in(&self.body().filter(closes).collect::<Vec<_>>())
+        let limit = CLOSING * self.closing_work;
+        let closing = self.cells_where(|cell| {
+            let is_free = self.is_open(cell) && !self.opened[cell];
+            is_free && self.energy(cell).is_some_and(|energy| energy < limit)
+        });
+        self.take_in(&closing)
     }
 
     fn take_in(&mut self, cells: &[usize]) -> bool {
-        cells.iter().for_each(|&at| self.grid.outside[at] = 0.0);
+        for &cell in cells {
+            self.grid.outside[cell] = 0.0;
+        }
         !cells.is_empty()
     }
 
@@ -264,7 +259,7 @@ impl AdhesiveSquare {
             cells,
             ..
         } = &self.grid;
-        let cell = (self.side / *cells as f64).powi(2);
+        let area_of_cell = (self.side / *cells as f64).powi(2);
         let displacements = levels
             .iter()
             .zip(depths)
@@ -274,11 +269,12 @@ impl AdhesiveSquare {
             .zip(displacements)
             .map(|(p, u)| 0.5 * p * u)
             .sum();
+        let cells_in_contact = outside.iter().filter(|out| **out == 0.0).count();
         AdhesiveState {
             indentation,
-            force: cell * self.effective_modulus * pressure.iter().sum::<f64>(),
-            area: cell * outside.iter().filter(|out| **out == 0.0).count() as f64,
-            elastic_energy: cell * self.effective_modulus * self.side * energy,
+            force: area_of_cell * self.effective_modulus * pressure.iter().sum::<f64>(),
+            area: area_of_cell * cells_in_contact as f64,
+            elastic_energy: area_of_cell * self.effective_modulus * self.side * energy,
         }
     }
 }
@@ -314,7 +310,7 @@ mod tests {
             effective_modulus: 1.0,
         };
         (
-            AdhesiveSquare::new(&square, (work, closing * work)).unwrap(),
+            AdhesiveSquare::new(&square, work, closing * work).unwrap(),
             work,
         )
     }
@@ -442,7 +438,7 @@ mod tests {
             effective_modulus: 1.0,
         };
         let work = 1e-6;
-        let mut body = AdhesiveSquare::new(&square, (work, work)).unwrap();
+        let mut body = AdhesiveSquare::new(&square, work, work).unwrap();
         let exact = (8.0 * PI * work * radius.powi(3)).sqrt();
         let mut largest = 0.0_f64;
         for step in 0..200 {
@@ -561,7 +557,7 @@ mod tests {
                     side: 1.0,
                     effective_modulus: 1.0,
                 };
-                let mut body = AdhesiveSquare::new(&square, (work, closing * work)).unwrap();
+                let mut body = AdhesiveSquare::new(&square, work, closing * work).unwrap();
                 let step = 0.15 * rms_height;
                 let mut depth = 0.0;
                 let mut states = vec![moved(&mut body, depth)];
@@ -611,7 +607,7 @@ mod tests {
                 effective_modulus: modulus,
             };
             let work = 1e-5 * modulus * side;
-            let mut body = AdhesiveSquare::new(&square, (work, 0.5 * work)).unwrap();
+            let mut body = AdhesiveSquare::new(&square, work, 0.5 * work).unwrap();
             let steps = (0..=6).chain((-12..6).rev());
             steps
                 .map(|step| moved(&mut body, 0.002 * f64::from(step) * side))
@@ -663,7 +659,7 @@ mod tests {
                 effective_modulus: 1.0,
             };
             let work = 1e-6;
-            let mut body = AdhesiveSquare::new(&square, (work, work)).unwrap();
+            let mut body = AdhesiveSquare::new(&square, work, work).unwrap();
             let ideal = (PI * work).sqrt();
             let mut lowest = 0.0_f64;
             for step in 0..200 {
@@ -691,18 +687,18 @@ mod tests {
             side: 1.0,
             effective_modulus: 1.0,
         };
-        let refused = |square: &Square<'_>, works| {
-            AdhesiveSquare::new(square, works)
+        let refused = |square: &Square<'_>, opening, closing| {
+            AdhesiveSquare::new(square, opening, closing)
                 .err()
                 .unwrap()
                 .to_string()
         };
         assert_eq!(
-            refused(&square, (0.0, 0.0)),
+            refused(&square, 0.0, 0.0),
             "work of adhesion = 0e0; allowed: a positive number"
         );
         assert_eq!(
-            refused(&square, (1.0, 2.0)),
+            refused(&square, 1.0, 2.0),
             "work of adhesion on closing = 2e0; allowed: from 0 to the work of adhesion"
         );
         let few = Square {
@@ -710,10 +706,10 @@ mod tests {
             ..square
         };
         assert_eq!(
-            refused(&few, (1.0, 1.0)),
+            refused(&few, 1.0, 1.0),
             "31 cells along a side; allowed: a power of two from 32 to 8192"
         );
-        let mut body = AdhesiveSquare::new(&square, (1.0, 1.0)).unwrap();
+        let mut body = AdhesiveSquare::new(&square, 1.0, 1.0).unwrap();
         assert!(body.move_to(f64::NAN, &|| false).is_err());
         assert_eq!(body.move_to(0.1, &|| true), Err(HalfSpaceError::Stopped));
     }

@@ -25,12 +25,28 @@ pub struct Convolution<T> {
     padded: usize,
     /// Transform of the kernel over the number of padded cells, column by column.
     transfer: Vec<T>,
-    rows: (Arc<dyn RealToComplex<T>>, Arc<dyn ComplexToReal<T>>),
-    columns: (Arc<dyn Fft<T>>, Arc<dyn Fft<T>>),
+    rows: PlannedRows<T>,
+    columns: PlannedColumns<T>,
+    /// Half spectra of the rows of the grid, each [`Convolution::stride`] numbers after the one
+    /// before.
     spectra: Vec<Complex<T>>,
+    /// A padded row.
     row: Vec<T>,
+    /// Padded columns, each [`Convolution::apart`] numbers after the one before.
     block: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
+}
+
+/// Planned transforms of a row.
+struct PlannedRows<T> {
+    forward: Arc<dyn RealToComplex<T>>,
+    inverse: Arc<dyn ComplexToReal<T>>,
+}
+
+/// Planned transforms of a column.
+struct PlannedColumns<T> {
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
 }
 
 impl<T: FftNum + Default> Convolution<T> {
@@ -85,55 +101,61 @@ impl<T: FftNum + Default> Convolution<T> {
         let half = padded / 2 + 1;
         // An even kernel has a real transform, and its rows beyond the half are those before it.
         let mut rows = resized(Vec::new(), half * half, 0.0)?;
-        let (mut row, mut spectrum) = (vec![0.0; padded], vec![Complex::default(); half]);
+        let mut row = vec![0.0; padded];
+        let mut spectrum = vec![Complex::default(); half];
         let plan = plan_real_forward::<f64>(padded);
         let mut scratch = plan.make_scratch_vec();
         for (y, values) in rows.chunks_exact_mut(half).enumerate() {
-            (0..padded)
-                .zip(&mut row)
-                .for_each(|(x, value)| *value = kernel(x.min(padded - x), y));
+            for (x, value) in row.iter_mut().enumerate() {
+                *value = kernel(x.min(padded - x), y);
+            }
             // The lengths are those of the plan.
             let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
-            values
-                .iter_mut()
-                .zip(&spectrum)
-                .for_each(|(value, of)| *value = of.re);
+            for (value, wave) in values.iter_mut().zip(&spectrum) {
+                *value = wave.re;
+            }
         }
         let scale = 1.0 / (padded * padded) as f64;
         for (k, values) in planned.transfer.chunks_exact_mut(padded).enumerate() {
-            (0..padded)
-                .zip(&mut row)
-                .for_each(|(y, value)| *value = rows[y.min(padded - y) * half + k]);
+            for (y, value) in row.iter_mut().enumerate() {
+                *value = rows[y.min(padded - y) * half + k];
+            }
             let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
-            let of = |y: usize| number(scale * spectrum[y.min(padded - y)].re);
-            values
-                .iter_mut()
-                .enumerate()
-                .for_each(|(y, value)| *value = of(y));
+            for (y, value) in values.iter_mut().enumerate() {
+                *value = number(scale * spectrum[y.min(padded - y)].re);
+            }
         }
         Ok(planned)
     }
 
     fn plan(cells: usize, padded: usize) -> Result<Self, OutOfMemory> {
-        let rows = (plan_real_forward(padded), plan_real_inverse(padded));
-        let columns = (plan_forward(padded), plan_inverse(padded));
-        let scratch = [rows.0.get_scratch_len(), rows.1.get_scratch_len()].into_iter();
-        let scratch = scratch.chain([
-            columns.0.get_inplace_scratch_len(),
-            columns.1.get_inplace_scratch_len(),
-        ]);
+        let rows = PlannedRows {
+            forward: plan_real_forward(padded),
+            inverse: plan_real_inverse(padded),
+        };
+        let columns = PlannedColumns {
+            forward: plan_forward(padded),
+            inverse: plan_inverse(padded),
+        };
+        let scratch_of_rows = rows
+            .forward
+            .get_scratch_len()
+            .max(rows.inverse.get_scratch_len());
+        let scratch_of_columns = columns
+            .forward
+            .get_inplace_scratch_len()
+            .max(columns.inverse.get_inplace_scratch_len());
+        let scratch = scratch_of_rows.max(scratch_of_columns);
+        let spectra = Self::stride(padded) * cells;
+        let block = Self::TOGETHER * Self::apart(padded);
         Ok(Convolution {
             cells,
             padded,
             transfer: resized(Vec::new(), padded * (padded / 2 + 1), T::zero())?,
-            spectra: resized(Vec::new(), Self::stride(padded) * cells, Complex::default())?,
+            spectra: resized(Vec::new(), spectra, Complex::default())?,
             row: resized(Vec::new(), padded, T::zero())?,
-            block: resized(
-                Vec::new(),
-                Self::TOGETHER * Self::apart(padded),
-                Complex::default(),
-            )?,
-            scratch: resized(Vec::new(), scratch.max().unwrap_or(0), Complex::default())?,
+            block: resized(Vec::new(), block, Complex::default())?,
+            scratch: resized(Vec::new(), scratch, Complex::default())?,
             rows,
             columns,
         })
@@ -147,8 +169,9 @@ impl<T: FftNum + Default> Convolution<T> {
         mut from: impl FnMut(&mut C, usize, &mut [T]),
         mut to: impl FnMut(&mut C, usize, &[T]),
     ) {
-        let (cells, padded, half) = (self.cells, self.padded, self.padded / 2 + 1);
-        let stride = Self::stride(padded);
+        let cells = self.cells;
+        let half = self.padded / 2 + 1;
+        let stride = Self::stride(self.padded);
         for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
             from(context, row, &mut self.row[..cells]);
             if self.row[..cells].iter().all(T::is_zero) {
@@ -157,7 +180,7 @@ impl<T: FftNum + Default> Convolution<T> {
             }
             self.row[cells..].fill(T::zero());
             // The lengths are those of the plan.
-            let _ = self.rows.0.process_with_scratch(
+            let _ = self.rows.forward.process_with_scratch(
                 &mut self.row,
                 &mut spectrum[..half],
                 &mut self.scratch,
@@ -165,49 +188,68 @@ impl<T: FftNum + Default> Convolution<T> {
         }
         for first in (0..half).step_by(Self::TOGETHER) {
             let width = Self::TOGETHER.min(half - first);
-            let apart = Self::apart(padded);
-            for (tile, rows) in self.spectra.chunks(TILE * stride).enumerate() {
-                for (column, to) in self.block.chunks_exact_mut(apart).take(width).enumerate() {
-                    let values = rows[first + column..].iter().step_by(stride);
-                    to[tile * TILE..]
-                        .iter_mut()
-                        .zip(values)
-                        .for_each(|(to, value)| *to = *value);
-                }
-            }
-            let transfer = self.transfer[first * padded..].chunks_exact(padded);
-            for (column, transfer) in self.block.chunks_exact_mut(apart).zip(transfer).take(width) {
-                let column = &mut column[..padded];
-                column[cells..].fill(Complex::default());
-                self.columns
-                    .0
-                    .process_with_scratch(column, &mut self.scratch);
-                column
-                    .iter_mut()
-                    .zip(transfer)
-                    .for_each(|(value, factor)| *value = *value * *factor);
-                self.columns
-                    .1
-                    .process_with_scratch(column, &mut self.scratch);
-            }
-            for (tile, rows) in self.spectra.chunks_mut(TILE * stride).enumerate() {
-                for (column, values) in self.block.chunks_exact(apart).take(width).enumerate() {
-                    let to = rows[first + column..].iter_mut().step_by(stride);
-                    to.zip(&values[tile * TILE..])
-                        .for_each(|(to, value)| *to = *value);
-                }
-            }
+            self.gather(first, width);
+            self.multiply(first, width);
+            self.scatter(first, width);
         }
         for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
             // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
             spectrum[0].im = T::zero();
             spectrum[half - 1].im = T::zero();
-            let _ = self.rows.1.process_with_scratch(
+            let _ = self.rows.inverse.process_with_scratch(
                 &mut spectrum[..half],
                 &mut self.row,
                 &mut self.scratch,
             );
             to(context, row, &self.row[..cells]);
+        }
+    }
+
+    /// Copies `width` columns of the spectra, from the column `first` on, to the block.
+    fn gather(&mut self, first: usize, width: usize) {
+        let stride = Self::stride(self.padded);
+        let apart = Self::apart(self.padded);
+        for (tile, rows) in self.spectra.chunks(TILE * stride).enumerate() {
+            for (column, to) in self.block.chunks_exact_mut(apart).take(width).enumerate() {
+                let values = rows[first + column..].iter().step_by(stride);
+                for (to, value) in to[tile * TILE..].iter_mut().zip(values) {
+                    *to = *value;
+                }
+            }
+        }
+    }
+
+    /// Transforms the columns of the block, multiplies them by the transform of the kernel, and
+    /// transforms them back.
+    fn multiply(&mut self, first: usize, width: usize) {
+        let apart = Self::apart(self.padded);
+        let transfer = self.transfer[first * self.padded..].chunks_exact(self.padded);
+        for (column, transfer) in self.block.chunks_exact_mut(apart).zip(transfer).take(width) {
+            let column = &mut column[..self.padded];
+            column[self.cells..].fill(Complex::default());
+            self.columns
+                .forward
+                .process_with_scratch(column, &mut self.scratch);
+            for (value, factor) in column.iter_mut().zip(transfer) {
+                *value = *value * *factor;
+            }
+            self.columns
+                .inverse
+                .process_with_scratch(column, &mut self.scratch);
+        }
+    }
+
+    /// Copies the columns of the block back to the spectra.
+    fn scatter(&mut self, first: usize, width: usize) {
+        let stride = Self::stride(self.padded);
+        let apart = Self::apart(self.padded);
+        for (tile, rows) in self.spectra.chunks_mut(TILE * stride).enumerate() {
+            for (column, values) in self.block.chunks_exact(apart).take(width).enumerate() {
+                let to = rows[first + column..].iter_mut().step_by(stride);
+                for (to, value) in to.zip(&values[tile * TILE..]) {
+                    *to = *value;
+                }
+            }
         }
     }
 }
@@ -244,19 +286,14 @@ mod tests {
             let mut planned = Convolution::<f64>::by_kernel(cells, 2 * cells + 2, kernel).unwrap();
             let from = numbers(cells * cells);
             let to = apply(&mut planned, &from, cells);
-            for (at, found) in to.iter().enumerate() {
-                let of = |other: usize| {
-                    kernel(
-                        (at % cells).abs_diff(other % cells),
-                        (at / cells).abs_diff(other / cells),
-                    )
-                };
-                let sum: f64 = from
-                    .iter()
-                    .enumerate()
-                    .map(|(other, value)| value * of(other))
-                    .sum();
-                assert!((sum - found).abs() < 1e-13, "{cells}: {at}");
+            for (index, found) in to.iter().enumerate() {
+                let mut sum = 0.0;
+                for (source, value) in from.iter().enumerate() {
+                    let x = (index % cells).abs_diff(source % cells);
+                    let y = (index / cells).abs_diff(source / cells);
+                    sum += value * kernel(x, y);
+                }
+                assert!((sum - found).abs() < 1e-13, "{cells}: {index}");
             }
         }
     }
@@ -267,18 +304,16 @@ mod tests {
         let transform = |x: f64, y: f64| 1.0 / (1.0 + x * x + 3.0 * y);
         let mut planned = Convolution::<f64>::by_transform(cells, cells, transform).unwrap();
         for (kx, ky) in [(0, 0), (2, 5), (6, 1), (1, 6), (3, 0)] {
-            let phase = |at: usize| {
-                std::f64::consts::TAU * ((kx * (at % cells) + ky * (at / cells)) as f64)
-                    / cells as f64
-            };
-            let from: Vec<f64> = (0..cells * cells).map(|at| phase(at).cos()).collect();
+            let mut from = Vec::new();
+            for index in 0..cells * cells {
+                let waves = (kx * (index % cells) + ky * (index / cells)) as f64 / cells as f64;
+                from.push((std::f64::consts::TAU * waves).cos());
+            }
             let to = apply(&mut planned, &from, cells);
             let factor = transform(f64::from(kx as u32), f64::from(ky as u32));
-            assert!(
-                from.iter()
-                    .zip(&to)
-                    .all(|(one, other)| (factor * one - other).abs() < 1e-13)
-            );
+            for (value, found) in from.iter().zip(&to) {
+                assert!((factor * value - found).abs() < 1e-13);
+            }
         }
     }
 }

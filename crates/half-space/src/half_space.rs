@@ -121,20 +121,20 @@ impl HalfSpace {
             Load::Indentation(depth) => {
                 positive("indentation", depth)?;
                 if self.boundary == Boundary::Periodic {
-                    let allowed = "a force: the displacement of a periodic half-space has no zero";
                     return Err(HalfSpaceError::Value {
                         name: "indentation",
                         found: depth,
-                        allowed,
+                        allowed: "a force: the displacement of a periodic half-space has no zero",
                     });
                 }
                 Given::Indentation(depth / side)
             }
         };
-        let height = self.lay(square)?;
-        // A flat punch has no height: its residual is over its indentation by the mean pressure.
-        let height = if height > 0.0 {
-            height
+        let rms_height = self.set_depths(square)?;
+        // A flat punch has no height: its residual is divided by the indentation, or by the mean
+        // pressure in units of E*.
+        let height = if rms_height > 0.0 {
+            rms_height
         } else {
             match given {
                 Given::MeanPressure(mean) => mean,
@@ -145,14 +145,15 @@ impl HalfSpace {
             &mut self.grids,
             self.boundary,
             given,
-            (tolerance, height),
+            tolerance,
+            height,
             stop,
         )?;
         Ok(self.pressed(square, ended))
     }
 
     /// Sets the depths of the finest grid, and returns the rms height in units of the side.
-    fn lay(&mut self, square: &Square<'_>) -> Result<f64, HalfSpaceError> {
+    fn set_depths(&mut self, square: &Square<'_>) -> Result<f64, HalfSpaceError> {
         let Some(grid) = self.grids.last_mut() else {
             return Ok(0.0);
         };
@@ -163,32 +164,14 @@ impl HalfSpace {
                 allowed,
             });
         }
-        let mut highest = f64::NEG_INFINITY;
-        for &found in square.heights {
-            if !(found / square.side).is_finite() {
-                return Err(HalfSpaceError::Value {
-                    name: "height",
-                    found,
-                    allowed: "finite numbers",
-                });
-            }
-            highest = highest.max(found);
+        let highest = highest(square)?;
+        for (depth, height) in grid.depths.iter_mut().zip(square.heights) {
+            *depth = (highest - height) / square.side;
         }
-        let depths = square
-            .heights
-            .iter()
-            .map(|height| (highest - height) / square.side);
-        grid.depths
-            .iter_mut()
-            .zip(depths)
-            .for_each(|(to, of)| *to = of);
-        let mean = grid.depths.iter().sum::<f64>() / allowed as f64;
-        let square = grid
-            .depths
-            .iter()
-            .map(|depth| (depth - mean).powi(2))
-            .sum::<f64>();
-        Ok((square / allowed as f64).sqrt())
+        let count = allowed as f64;
+        let mean = grid.depths.iter().sum::<f64>() / count;
+        let squares: f64 = grid.depths.iter().map(|depth| (depth - mean).powi(2)).sum();
+        Ok((squares / count).sqrt())
     }
 
     fn pressed(&self, square: &Square<'_>, ended: Ended) -> Pressed {
@@ -236,6 +219,25 @@ pub fn check_cells(cells: usize) -> Result<(), HalfSpaceError> {
     }
 }
 
+/// Returns the largest height of a square in m.
+///
+/// # Errors
+/// Returns an error if a height is not finite.
+pub fn highest(square: &Square<'_>) -> Result<f64, HalfSpaceError> {
+    let mut highest = f64::NEG_INFINITY;
+    for &found in square.heights {
+        if !(found / square.side).is_finite() {
+            return Err(HalfSpaceError::Value {
+                name: "height",
+                found,
+                allowed: "finite numbers",
+            });
+        }
+        highest = highest.max(found);
+    }
+    Ok(highest)
+}
+
 /// Checks a number that has to be positive.
 pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     if found.is_normal() && found > 0.0 {
@@ -251,7 +253,7 @@ pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
 /// Returns the numbers of cells along the sides of nested grids, the coarsest first.
 fn nested(cells: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(COARSEST), |cells| Some(2 * cells))
-        .take_while(move |of| *of <= cells)
+        .take_while(move |side| *side <= cells)
 }
 
 #[cfg(test)]

@@ -23,18 +23,17 @@ pub fn random_map(
     let mut waves = resized(Vec::new(), cells * cells, Complex64::default())?;
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let half = cells as i64 / 2;
-    let mut set = |x: i64, y: i64| {
-        let phase = TAU * (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        // A pair of opposite waves is one cosine, whose mean square is half its squared amplitude.
-        let amplitude = 2.0 * variance((x as f64).hypot(y as f64)).sqrt();
-        let at = |k: i64| k.rem_euclid(cells as i64) as usize;
-        waves[at(y) * cells + at(x)] = Complex64::from_polar(amplitude, phase);
-    };
-    // Shell by shell, half of each: the other half are the opposite waves. Waves of half the cells
-    // have no phase.
+    // Waves of half the cells have no phase.
     for shell in 1..half {
-        (1 - shell..=shell).for_each(|y| set(shell, y));
-        (1 - shell..=shell).for_each(|x| set(-x, shell));
+        for (x, y) in half_shell(shell) {
+            let phase = TAU * (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+            // A pair of opposite waves is one cosine, whose mean square is half its squared
+            // amplitude.
+            let amplitude = 2.0 * variance((x as f64).hypot(y as f64)).sqrt();
+            let column = x.rem_euclid(cells as i64) as usize;
+            let row = y.rem_euclid(cells as i64) as usize;
+            waves[row * cells + column] = Complex64::from_polar(amplitude, phase);
+        }
     }
     let plan = plan_inverse(cells);
     let mut scratch = resized(
@@ -46,17 +45,23 @@ pub fn random_map(
     let mut column = resized(Vec::new(), cells, Complex64::default())?;
     let mut heights = resized(Vec::new(), cells * cells, 0.0)?;
     for x in 0..cells {
-        column
-            .iter_mut()
-            .enumerate()
-            .for_each(|(y, value)| *value = waves[y * cells + x]);
+        for (y, value) in column.iter_mut().enumerate() {
+            *value = waves[y * cells + x];
+        }
         plan.process_with_scratch(&mut column, &mut scratch);
-        column
-            .iter()
-            .enumerate()
-            .for_each(|(y, value)| heights[y * cells + x] = value.re);
+        for (y, value) in column.iter().enumerate() {
+            heights[y * cells + x] = value.re;
+        }
     }
     Ok(heights)
+}
+
+/// Lists the wave numbers (k_x, k_y) of one half of a shell, which is the boundary of a square. Its
+/// other half are the opposite waves.
+fn half_shell(shell: i64) -> impl Iterator<Item = (i64, i64)> {
+    let side = (1 - shell..=shell).map(move |y| (shell, y));
+    let top = (1 - shell..=shell).map(move |x| (-x, shell));
+    side.chain(top)
 }
 
 #[cfg(test)]
@@ -72,46 +77,39 @@ mod tests {
                 0.0
             }
         };
-        let (coarse, fine) = (
-            random_map(32, variance, 7).unwrap(),
-            random_map(64, variance, 7).unwrap(),
-        );
+        let coarse = random_map(32, variance, 7).unwrap();
+        let fine = random_map(64, variance, 7).unwrap();
         let expected: f64 = (-16..=16_i32)
             .flat_map(|x| (-16..=16_i32).map(move |y| (x, y)))
             .filter(|wave| *wave != (0, 0))
             .map(|(x, y)| variance(f64::from(x).hypot(f64::from(y))))
             .sum();
-        let square =
-            |of: &[f64]| of.iter().map(|height| height * height).sum::<f64>() / of.len() as f64;
+        let squares: f64 = coarse.iter().map(|height| height * height).sum();
+        let mean_square = squares / coarse.len() as f64;
         assert!(
-            (square(&coarse) / expected - 1.0).abs() < 1e-12,
-            "{} {expected}",
-            square(&coarse)
+            (mean_square / expected - 1.0).abs() < 1e-12,
+            "{mean_square} {expected}"
         );
-        for at in 0..32 * 32 {
-            assert!((coarse[at] - fine[at / 32 * 2 * 64 + at % 32 * 2]).abs() < 1e-12);
+        for (index, height) in coarse.iter().enumerate() {
+            let index_of_fine = index / 32 * 2 * 64 + index % 32 * 2;
+            assert!((height - fine[index_of_fine]).abs() < 1e-12);
         }
         assert_ne!(random_map(32, variance, 8).unwrap(), coarse);
         // Isotropic in the mean: as much power along x as along y, over many maps.
-        let slopes = |along: usize| -> f64 {
-            let of = |seed: u64| {
-                let map = random_map(32, variance, seed).unwrap();
-                let slope = |at: usize| {
-                    if along == 1 && at % 32 == 31 {
-                        0.0
-                    } else {
-                        map[at + along] - map[at]
-                    }
-                };
-                (0..31 * 32).map(|at| slope(at).powi(2)).sum::<f64>()
-            };
-            (0..40).map(of).sum()
-        };
+        let mut along_x = 0.0;
+        let mut along_y = 0.0;
+        for seed in 0..40 {
+            let map = random_map(32, variance, seed).unwrap();
+            for index in 0..31 * 32 {
+                if index % 32 < 31 {
+                    along_x += (map[index + 1] - map[index]).powi(2);
+                }
+                along_y += (map[index + 32] - map[index]).powi(2);
+            }
+        }
         assert!(
-            (slopes(1) / slopes(32) - 1.0).abs() < 0.05,
-            "{} {}",
-            slopes(1),
-            slopes(32)
+            (along_x / along_y - 1.0).abs() < 0.05,
+            "{along_x} {along_y}"
         );
     }
 }

@@ -35,15 +35,15 @@ pub struct Operators {
 impl Operators {
     /// Returns the number of bytes of the operators of a grid.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
-        let (displacement, stiffness) = paddings(cells, boundary);
-        Convolution::<f64>::bytes(cells, displacement)
-            + Convolution::<f32>::bytes(cells, stiffness)
-            + (12 * (SWEEPS + 1) * cells) as u64
+        let padded = PaddedSides::of(cells, boundary);
+        let sweeps = size_of::<f32>() * Sweeps::numbers(cells);
+        Convolution::<f64>::bytes(cells, padded.displacement)
+            + Convolution::<f32>::bytes(cells, padded.stiffness)
+            + sweeps as u64
     }
 
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
-        let (margin, padded) = paddings(cells, boundary);
-        let length = padded as f64 / cells as f64;
+        let padded = PaddedSides::of(cells, boundary);
         let displacement = match boundary {
             // 2/(E*|q|); the mean displacement of a periodic half-space is infinite and left out.
             Boundary::Periodic => Convolution::by_transform(cells, cells, |x, y| {
@@ -53,21 +53,22 @@ impl Operators {
                     2.0 / (TAU * x.hypot(y))
                 }
             })?,
-            Boundary::Free => Convolution::by_kernel(cells, margin, |x, y| {
-                of_a_cell(x as f64, y as f64) / cells as f64
+            Boundary::Free => Convolution::by_kernel(cells, padded.displacement, |x, y| {
+                displacement_by_cell(x as f64, y as f64) / cells as f64
             })?,
         };
-        // A mean pressure takes the inverse of the longest wave: under a force it is taken out,
-        // else it need not be exact.
+        // A mean pressure takes the inverse of the longest wave. Under a force the mean is
+        // subtracted later, and under an indentation it need not be exact.
+        let length = padded.stiffness as f64 / cells as f64;
         let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
         Ok(Operators {
             cells,
             displacement,
-            stiffness: Convolution::by_transform(cells, padded, stiffness)?,
+            stiffness: Convolution::by_transform(cells, padded.stiffness, stiffness)?,
             convolutions: 0,
             sweeps: Sweeps {
                 cells,
-                rows: resized(Vec::new(), 3 * (SWEEPS + 1) * cells, 0.0)?,
+                rows: resized(Vec::new(), Sweeps::numbers(cells), 0.0)?,
             },
         })
     }
@@ -93,57 +94,89 @@ impl Operators {
         residual: &[f32],
         outside: &[f32],
         pressure: &mut [f32],
-        mut visit: impl FnMut(usize, &[f32]),
+        visit: impl FnMut(usize, &[f32]),
     ) {
-        let Operators {
-            cells,
-            stiffness,
-            sweeps,
-            ..
-        } = self;
-        let cells = *cells;
         self.convolutions += 1;
-        // In E a cell of the contact keeps its number, and another one becomes the mean of its
-        // neighbours.
-        let extend = |sweeps: &mut Sweeps, row: usize, to: &mut [f32]| {
-            for time in if row == 0 { 0 } else { row + SWEEPS }..=row + SWEEPS {
-                if let Some(fixed) = residual.chunks_exact(cells).nth(time) {
-                    sweeps.row_mut(0, time).copy_from_slice(fixed);
-                }
-                sweeps.sweep(time, (residual, outside), |_, fixed, out, sum| {
-                    fixed + 0.25 * out * sum
-                });
-            }
-            to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
+        let mut extension = Extension {
+            sweeps: &mut self.sweeps,
+            residual,
+            outside,
+            pressure,
+            visit,
         };
-        // E sums over the ways of up to as many steps off the contact, and Eᵀ over the same ways
-        // back.
-        let mut restrict = |(sweeps, pressure): &mut (&mut Sweeps, &mut [f32]), time: usize| {
-            sweeps.sweep(time, (pressure, outside), |is_last, fixed, out, sum| {
-                (if is_last { 1.0 - out } else { out }) * (fixed + 0.25 * sum)
-            });
-            if let Some(row) = time.checked_sub(SWEEPS) {
-                let to = &mut pressure[row * cells..][..cells];
-                to.copy_from_slice(sweeps.row_mut(SWEEPS, row));
-                visit(row, to);
-            }
-        };
-        let mut context = (sweeps, pressure);
-        stiffness.apply(
-            &mut context,
-            |(sweeps, _), row, to| extend(sweeps, row, to),
-            |context, row, found| {
-                let (sweeps, pressure) = context;
-                pressure[row * cells..][..cells].copy_from_slice(found);
-                let off = sweeps
-                    .row_mut(0, row)
-                    .iter_mut()
-                    .zip(found.iter().zip(&outside[row * cells..]));
-                off.for_each(|(to, (of, out))| *to = of * out);
-                restrict(context, row);
+        self.stiffness.apply(
+            &mut extension,
+            |extension, row, extended| extension.extend(row, extended),
+            |extension, row, found| {
+                extension.take(row, found);
+                extension.restrict(row);
             },
         );
-        (cells..cells + SWEEPS).for_each(|time| restrict(&mut context, time));
+        for time in self.cells..self.cells + SWEEPS {
+            extension.restrict(time);
+        }
+    }
+}
+
+/// Extension E of the residuals beyond the contact, and its transpose Eᵀ for the pressures. In E a
+/// cell of the contact keeps its number, and another one becomes the mean of its neighbours. E sums
+/// over the paths of up to as many steps off the contact as there are sweeps, and Eᵀ over the same
+/// paths back.
+struct Extension<'a, V> {
+    sweeps: &'a mut Sweeps,
+    residual: &'a [f32],
+    outside: &'a [f32],
+    /// Pressures before and after Eᵀ. A row is replaced once no sweep needs it any more.
+    pressure: &'a mut [f32],
+    /// Gets each row of the pressures after Eᵀ.
+    visit: V,
+}
+
+impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
+    /// Computes a row of the extended residuals. The rows are computed in order.
+    fn extend(&mut self, row: usize, extended: &mut [f32]) {
+        let cells = self.sweeps.cells;
+        // The first row needs all rows that its sweeps reach, each other row one more.
+        let first = if row == 0 { 0 } else { row + SWEEPS };
+        for time in first..=row + SWEEPS {
+            if let Some(residual) = self.residual.chunks_exact(cells).nth(time) {
+                self.sweeps.row_mut(0, time).copy_from_slice(residual);
+            }
+            self.sweeps
+                .sweep(time, self.residual, self.outside, |_, fixed, out, sum| {
+                    fixed + 0.25 * out * sum
+                });
+        }
+        extended.copy_from_slice(self.sweeps.row_mut(SWEEPS, row));
+    }
+
+    /// Takes a row of the pressures before Eᵀ.
+    fn take(&mut self, row: usize, found: &[f32]) {
+        let cells = self.sweeps.cells;
+        self.pressure[row * cells..][..cells].copy_from_slice(found);
+        let outside = &self.outside[row * cells..];
+        let swept = self.sweeps.row_mut(0, row);
+        for (to, (pressure, out)) in swept.iter_mut().zip(found.iter().zip(outside)) {
+            *to = pressure * out;
+        }
+    }
+
+    /// Sweeps once the row `time` is taken, or, after the last one, further rows without numbers.
+    fn restrict(&mut self, time: usize) {
+        let cells = self.sweeps.cells;
+        self.sweeps.sweep(
+            time,
+            self.pressure,
+            self.outside,
+            |is_last, fixed, out, sum| {
+                (if is_last { 1.0 - out } else { out }) * (fixed + 0.25 * sum)
+            },
+        );
+        if let Some(row) = time.checked_sub(SWEEPS) {
+            let pressure = &mut self.pressure[row * cells..][..cells];
+            pressure.copy_from_slice(self.sweeps.row_mut(SWEEPS, row));
+            (self.visit)(row, pressure);
+        }
     }
 }
 
@@ -156,99 +189,131 @@ struct Sweeps {
 }
 
 impl Sweeps {
+    /// Returns the number of numbers of all rows.
+    fn numbers(cells: usize) -> usize {
+        3 * (SWEEPS + 1) * cells
+    }
+
     fn row_mut(&mut self, sweep: usize, row: usize) -> &mut [f32] {
         &mut self.rows[(3 * sweep + row % 3) * self.cells..][..self.cells]
     }
 
-    /// Sweeps the row `time` − n by the sweep n. `each` makes a number of the last sweep, or
-    /// another one, of the fixed number of the cell, its being outside, and the sum of its four
-    /// neighbours; a neighbour beyond the grid is the cell itself.
+    /// Sweeps the row `time` − n by the sweep n. `each` is called for each number of a row. It gets
+    /// true for the last sweep, the fixed number of the cell, its being outside, and the sum of its
+    /// four neighbours; a neighbour beyond the grid is the cell itself.
     fn sweep(
         &mut self,
         time: usize,
-        (fixed, outside): (&[f32], &[f32]),
+        fixed: &[f32],
+        outside: &[f32],
         each: impl Fn(bool, f32, f32, f32) -> f32,
     ) {
-        let (cells, last) = (self.cells, self.cells - 1);
+        let cells = self.cells;
+        let last = cells - 1;
         for sweep in 1..=SWEEPS {
             let Some(row) = time.checked_sub(sweep).filter(|row| *row < cells) else {
                 continue;
             };
             let (before, own) = self.rows.split_at_mut(3 * sweep * cells);
             let before = &before[3 * (sweep - 1) * cells..];
-            let near = [row.saturating_sub(1), row, (row + 1).min(last)];
-            let [above, middle, below] = near.map(|row| &before[row % 3 * cells..][..cells]);
-            let of = [
-                above,
-                middle,
-                below,
-                &fixed[row * cells..],
-                &outside[row * cells..],
-            ];
+            let row_before = |row: usize| &before[row % 3 * cells..][..cells];
+            let around = Around {
+                above: row_before(row.saturating_sub(1)),
+                middle: row_before(row),
+                below: row_before((row + 1).min(last)),
+                fixed: &fixed[row * cells..],
+                outside: &outside[row * cells..],
+            };
             let to = &mut own[row % 3 * cells..][..cells];
             if sweep < SWEEPS {
-                sweep_row(of, to, |fixed, out, sum| each(false, fixed, out, sum));
+                around.sweep(to, |fixed, out, sum| each(false, fixed, out, sum));
             } else {
-                sweep_row(of, to, |fixed, out, sum| each(true, fixed, out, sum));
+                around.sweep(to, |fixed, out, sum| each(true, fixed, out, sum));
             }
         }
     }
 }
 
-/// Makes a row of the rows above, at and below it, of the fixed numbers and of being outside.
-fn sweep_row(of: [&[f32]; 5], to: &mut [f32], each: impl Fn(f32, f32, f32) -> f32) {
-    let last = to.len() - 1;
-    let at = |at: usize, left: usize, right: usize| {
-        let [above, middle, below, fixed, outside] = of;
-        each(
-            fixed[at],
-            outside[at],
-            above[at] + below[at] + (middle[left] + middle[right]),
-        )
-    };
-    (to[0], to[last]) = (at(0, 0, 1), at(last, last - 1, last));
-    let [above, middle, below, fixed, outside] = of.map(|of| &of[1..]);
-    // Iterators without indices are compiled to instructions on several numbers.
-    let around = above
-        .iter()
-        .zip(below)
-        .zip(of[1].iter().zip(&middle[1..last]));
-    let to = to[1..last].iter_mut().zip(fixed.iter().zip(outside));
-    for ((to, (fixed, outside)), ((above, below), (left, right))) in to.zip(around) {
-        *to = each(*fixed, *outside, above + below + (left + right));
+/// What a sweep makes a row of: the rows above, at and below it after the sweep before, its fixed
+/// numbers, and its being outside.
+struct Around<'a> {
+    above: &'a [f32],
+    middle: &'a [f32],
+    below: &'a [f32],
+    fixed: &'a [f32],
+    outside: &'a [f32],
+}
+
+impl Around<'_> {
+    fn sweep(&self, to: &mut [f32], each: impl Fn(f32, f32, f32) -> f32) {
+        let last = to.len() - 1;
+        let swept = |column: usize, left: usize, right: usize| {
+            each(
+                self.fixed[column],
+                self.outside[column],
+                self.above[column] + self.below[column] + (self.middle[left] + self.middle[right]),
+            )
+        };
+        to[0] = swept(0, 0, 1);
+        to[last] = swept(last, last - 1, last);
+        // Iterators without indices are compiled to instructions on several numbers.
+        let vertical = self.above[1..].iter().zip(&self.below[1..]);
+        let horizontal = self.middle[..last - 1].iter().zip(&self.middle[2..]);
+        let own = self.fixed[1..].iter().zip(&self.outside[1..]);
+        let to = to[1..last].iter_mut().zip(own);
+        for ((to, (fixed, outside)), ((above, below), (left, right))) in
+            to.zip(vertical.zip(horizontal))
+        {
+            *to = each(*fixed, *outside, above + below + (left + right));
+        }
     }
 }
 
-/// Returns the sides of the padded grids of both operators.
-fn paddings(cells: usize, boundary: Boundary) -> (usize, usize) {
-    match boundary {
-        Boundary::Periodic => (cells, cells),
-        // Multiples of 16 have no large prime factor on the grids used.
-        Boundary::Free => (
-            (2 * cells).next_multiple_of(16),
-            (cells + cells / 4).next_multiple_of(16),
-        ),
+/// Sides of the padded grids of both operators.
+struct PaddedSides {
+    displacement: usize,
+    stiffness: usize,
+}
+
+impl PaddedSides {
+    fn of(cells: usize, boundary: Boundary) -> Self {
+        match boundary {
+            Boundary::Periodic => PaddedSides {
+                displacement: cells,
+                stiffness: cells,
+            },
+            // Multiples of 16 have no large prime factor on the grids used.
+            Boundary::Free => PaddedSides {
+                displacement: (2 * cells).next_multiple_of(16),
+                stiffness: (cells + cells / 4).next_multiple_of(16),
+            },
+        }
     }
 }
 
 /// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in
 /// units of the cell (Love 1929).
-fn of_a_cell(x: f64, y: f64) -> f64 {
-    let part = |x: f64, y: f64| {
-        let r = x.hypot(y);
-        // y ln(x + r), written without the difference of near numbers for negative x.
-        let along = |x: f64, y: f64| {
-            y * if x < 0.0 {
-                (y * y / (r - x)).ln()
-            } else {
-                (x + r).ln()
-            }
-        };
-        along(x, y) + along(y, x)
+fn displacement_by_cell(x: f64, y: f64) -> f64 {
+    let left = x - 0.5;
+    let right = x + 0.5;
+    let bottom = y - 0.5;
+    let top = y + 0.5;
+    (corner(right, top) - corner(left, top) - corner(right, bottom) + corner(left, bottom)) / PI
+}
+
+/// Returns the part of a corner of the cell, y ln(x + r) + x ln(y + r), in the displacement at the
+/// distance (x, y) from this corner.
+fn corner(x: f64, y: f64) -> f64 {
+    let r = x.hypot(y);
+    // Written without the difference of near numbers for a negative number beside r.
+    let along = |x: f64, y: f64| {
+        y * if x < 0.0 {
+            (y * y / (r - x)).ln()
+        } else {
+            (x + r).ln()
+        }
     };
-    (part(x + 0.5, y + 0.5) - part(x - 0.5, y + 0.5) - part(x + 0.5, y - 0.5)
-        + part(x - 0.5, y - 0.5))
-        / PI
+    along(x, y) + along(y, x)
 }
 
 #[cfg(test)]
@@ -257,18 +322,27 @@ mod tests {
 
     #[test]
     fn a_cell_displaces_by_the_integral_over_it() {
-        assert!((of_a_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
+        assert!((displacement_by_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
         // By the sum over small parts of the cell.
+        let parts = 200;
         for (x, y) in [(1.0, 0.0), (3.0, 2.0), (0.0, 7.0), (40.0, 9.0)] {
-            let parts = 200;
-            let at = |index: usize| (index as f64 + 0.5) / parts as f64 - 0.5;
-            let sum: f64 = (0..parts * parts)
-                .map(|index| 1.0 / (x - at(index % parts)).hypot(y - at(index / parts)))
-                .sum::<f64>()
-                / (parts * parts) as f64
-                / PI;
-            assert!((of_a_cell(x, y) / sum - 1.0).abs() < 1e-5, "{x} {y}");
+            let mut sum = 0.0;
+            for index in 0..parts * parts {
+                let part_x = ((index % parts) as f64 + 0.5) / parts as f64 - 0.5;
+                let part_y = ((index / parts) as f64 + 0.5) / parts as f64 - 0.5;
+                sum += 1.0 / (x - part_x).hypot(y - part_y);
+            }
+            let expected = sum / (parts * parts) as f64 / PI;
+            let found = displacement_by_cell(x, y);
+            assert!((found / expected - 1.0).abs() < 1e-5, "{x} {y}");
         }
+    }
+
+    fn scalar_product(one: &[f32], other: &[f32]) -> f64 {
+        one.iter()
+            .zip(other)
+            .map(|(one, other)| f64::from(*one) * f64::from(*other))
+            .sum()
     }
 
     #[test]
@@ -287,25 +361,20 @@ mod tests {
                     .map(|(index, out)| (1.0 - out) * number(index * shift + 3) as f32)
                     .collect()
             };
-            let (one, other) = (vector(1), vector(5));
-            let mut on = |of: &[f32]| {
-                let mut to = vec![0.0; of.len()];
-                operators.precondition(of, &outside, &mut to, |_, _| ());
-                to
+            let first = vector(1);
+            let second = vector(5);
+            let mut precondition = |residual: &[f32]| {
+                let mut pressure = vec![0.0; residual.len()];
+                operators.precondition(residual, &outside, &mut pressure, |_, _| ());
+                pressure
             };
-            let (of_one, of_other) = (on(&one), on(&other));
-            let product = |a: &[f32], b: &[f32]| {
-                a.iter()
-                    .zip(b)
-                    .map(|(a, b)| f64::from(*a) * f64::from(*b))
-                    .sum::<f64>()
-            };
-            let (left, right) = (product(&one, &of_other), product(&other, &of_one));
-            assert!(
-                (left - right).abs() < 1e-6 * product(&one, &of_one).abs(),
-                "{left} {right}"
-            );
-            assert!(product(&one, &of_one) > 0.0);
+            let by_first = precondition(&first);
+            let by_second = precondition(&second);
+            let left = scalar_product(&first, &by_second);
+            let right = scalar_product(&second, &by_first);
+            let square = scalar_product(&first, &by_first);
+            assert!((left - right).abs() < 1e-6 * square.abs(), "{left} {right}");
+            assert!(square > 0.0);
         }
     }
 }

@@ -2,21 +2,25 @@
 //!
 //! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed
 //! set of cells, preconditioned conjugate gradients (Polak and Ribière) make the gap uniform.
-//! Pressures may become negative in the meantime. The set changes where the cells that pull or
-//! penetrate outweigh what the gradients have left over. An active set in one loop with the
-//! gradients is the idea of Polonsky and Keer (1999).
+//! Pressures may become negative in the meantime. The set changes once the violations by cells that
+//! pull or penetrate outweigh the residual that the gradients have left on the contact. An active
+//! set in one loop with the gradients is the idea of Polonsky and Keer (1999).
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
 use asperity_data::{OutOfMemory, resized};
 use std::array::from_fn;
+use std::mem::swap;
 
 /// Number of cells along the side of the coarsest grid.
 pub const COARSEST: usize = 32;
+
 /// Residual to which coarser grids are solved, in rms heights.
 const COARSE: f64 = 1e-3;
+
 /// Ratio of the violations of the set to the residual on it at which the set changes.
 const OUTWEIGHS: f64 = 1.5;
+
 /// Largest number of steps of the gradients on one grid.
 const MOST_STEPS: u64 = 400;
 
@@ -58,10 +62,56 @@ pub struct Grid {
     /// Number of cells of the contact.
     count: f64,
     residual: Vec<f32>,
-    former: Vec<f32>,
+    /// Residual before the last step.
+    former_residual: Vec<f32>,
     gradient: Vec<f32>,
+    /// Pressures that a step adds, but for its length.
     direction: Vec<f64>,
+    /// Displacements by the direction.
     image: Vec<f64>,
+}
+
+/// Violations of the conditions of contact.
+#[derive(Clone, Copy)]
+struct Violations {
+    /// Largest residual on the contact.
+    on_contact: f64,
+    /// Deepest penetration elsewhere.
+    penetration: f64,
+    lowest_pressure: f64,
+}
+
+/// Result of a step of the gradients.
+struct Step {
+    /// Scalar product of gradient and residual before the step, which the next step needs.
+    product: f64,
+    violations: Violations,
+}
+
+/// Sums over the contact with the gradient at a step.
+struct GradientSums {
+    /// Scalar product of gradient and residual.
+    with_residual: f64,
+    /// Scalar product of gradient and former residual.
+    with_former_residual: f64,
+    total: f64,
+}
+
+/// Sums with the direction of a step.
+struct DirectionSums {
+    /// Scalar product of direction and residual.
+    with_residual: f64,
+    /// Scalar product of direction and image.
+    with_image: f64,
+    /// Sum of the image over the contact.
+    image_on_contact: f64,
+}
+
+/// Borrowed rows while the displacements by a direction are computed.
+struct DirectionRows<'a> {
+    direction: &'a mut [f64],
+    image: &'a mut [f64],
+    sums: Sums<3>,
 }
 
 impl Grid {
@@ -83,7 +133,7 @@ impl Grid {
             level: 0.0,
             count: 0.0,
             residual: singles()?,
-            former: singles()?,
+            former_residual: singles()?,
             gradient: singles()?,
             direction: zeros()?,
             image: zeros()?,
@@ -92,12 +142,13 @@ impl Grid {
 
     /// Sets each depth to the mean over four cells of a finer grid.
     pub fn coarsen(&mut self, finer: &Grid) {
-        let (cells, fine) = (self.cells, finer.cells);
-        for (at, depth) in self.depths.iter_mut().enumerate() {
-            let corner = 2 * (at / cells) * fine + 2 * (at % cells);
-            let of =
-                [corner, corner + 1, corner + fine, corner + fine + 1].map(|at| finer.depths[at]);
-            *depth = 0.25 * (of[0] + of[1] + (of[2] + of[3]));
+        let cells = self.cells;
+        let fine = finer.cells;
+        for (index, depth) in self.depths.iter_mut().enumerate() {
+            let corner = 2 * (index / cells) * fine + 2 * (index % cells);
+            let [a, b, c, d] = [corner, corner + 1, corner + fine, corner + fine + 1]
+                .map(|corner| finer.depths[corner]);
+            *depth = 0.25 * (a + b + (c + d));
         }
     }
 
@@ -111,67 +162,60 @@ impl Grid {
             }
             Given::Indentation(depth) => {
                 self.pressure.fill(0.0);
-                let outside = |of: &f64| f32::from(u8::from(*of >= depth));
-                self.outside
-                    .iter_mut()
-                    .zip(&self.depths)
-                    .for_each(|(out, of)| *out = outside(of));
+                for (out, own_depth) in self.outside.iter_mut().zip(&self.depths) {
+                    *out = f32::from(u8::from(*own_depth >= depth));
+                }
             }
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of the contact lies where a number
-    /// changes its sign. The number is the pressure as a displacement of one cell on the contact,
-    /// and minus the gap elsewhere.
+    /// Begins with the solution of a coarser grid. The edge of the contact lies where the
+    /// [signed pressure](Grid::signed_pressure) changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
-        let own = OWN_DISPLACEMENT / coarse.cells as f64;
-        let signed = |at: usize| {
-            if coarse.outside[at] == 0.0 {
-                own * coarse.pressure[at]
-            } else {
-                -(coarse.levels[at] - coarse.level).max(0.0)
-            }
-        };
-        let (cells, half) = (self.cells, coarse.cells);
-        let apart = |index: usize, is_upper: bool| match (is_upper, boundary) {
-            (true, Boundary::Periodic) => (index + 1) % half,
-            (false, Boundary::Periodic) => (index + half - 1) % half,
-            (true, Boundary::Free) => (index + 1).min(half - 1),
-            (false, Boundary::Free) => index.saturating_sub(1),
-        };
-        let mut any = false;
+        let cells = self.cells;
+        let half = coarse.cells;
+        let mut has_contact = false;
         for row in 0..cells {
-            let (near_row, far_row) = (row / 2, apart(row / 2, row % 2 == 1));
+            let near_row = row / 2;
+            let far_row = neighbour(near_row, row % 2 == 1, half, boundary);
             for column in 0..cells {
-                let (near, far) = (column / 2, apart(column / 2, column % 2 == 1));
+                let near_column = column / 2;
+                let far_column = neighbour(near_column, column % 2 == 1, half, boundary);
                 let corners = [
-                    (near_row, near),
-                    (near_row, far),
-                    (far_row, near),
-                    (far_row, far),
-                ]
-                .map(|(row, column)| row * half + column);
-                let mean = |of: &dyn Fn(usize) -> f64| {
-                    let [a, b, c, d] = corners.map(of);
-                    0.0625 * (9.0 * a + 3.0 * (b + c) + d)
-                };
-                let at = row * cells + column;
-                let is_on = mean(&signed) > 0.0;
-                any |= is_on;
-                self.outside[at] = f32::from(u8::from(!is_on));
-                self.pressure[at] = if is_on {
-                    mean(&|at: usize| coarse.pressure[at]).max(0.0)
+                    near_row * half + near_column,
+                    near_row * half + far_column,
+                    far_row * half + near_column,
+                    far_row * half + far_column,
+                ];
+                let index = row * cells + column;
+                let is_on =
+                    interpolated(corners.map(|corner| coarse.signed_pressure(corner))) > 0.0;
+                has_contact |= is_on;
+                self.outside[index] = f32::from(u8::from(!is_on));
+                self.pressure[index] = if is_on {
+                    interpolated(corners.map(|corner| coarse.pressure[corner])).max(0.0)
                 } else {
                     0.0
                 };
             }
         }
-        if !any && matches!(given, Given::MeanPressure(_)) {
+        if !has_contact && matches!(given, Given::MeanPressure(_)) {
             // A contact of a few cells, all of whose finer cells would be open.
-            for at in 0..cells * cells {
-                let of = at / cells / 2 * half + at % cells / 2;
-                (self.pressure[at], self.outside[at]) = (coarse.pressure[of], coarse.outside[of]);
+            for index in 0..cells * cells {
+                let parent = index / cells / 2 * half + index % cells / 2;
+                self.pressure[index] = coarse.pressure[parent];
+                self.outside[index] = coarse.outside[parent];
             }
+        }
+    }
+
+    /// Returns a number that is positive on the contact and negative elsewhere: the pressure as a
+    /// displacement of one cell on the contact, and minus the gap elsewhere.
+    fn signed_pressure(&self, index: usize) -> f64 {
+        if self.outside[index] == 0.0 {
+            OWN_DISPLACEMENT / self.cells as f64 * self.pressure[index]
+        } else {
+            -(self.levels[index] - self.level).max(0.0)
         }
     }
 
@@ -180,9 +224,9 @@ impl Grid {
         if let Given::MeanPressure(mean) = given {
             let [sum] = Sums::of([&self.pressure], [], |[pressure], []| [pressure]);
             let factor = mean * self.pressure.len() as f64 / sum;
-            self.pressure
-                .iter_mut()
-                .for_each(|pressure| *pressure *= factor);
+            for pressure in &mut self.pressure {
+                *pressure *= factor;
+            }
         }
         self.displace();
     }
@@ -200,13 +244,12 @@ impl Grid {
         let cells = *cells;
         operators.displace(
             levels,
-            |_, row, to| to.copy_from_slice(&pressure[row * cells..][..cells]),
+            |_, row, pressures| pressures.copy_from_slice(&pressure[row * cells..][..cells]),
             |levels, row, displacement| {
-                let of = displacement.iter().zip(&depths[row * cells..]);
-                levels[row * cells..]
-                    .iter_mut()
-                    .zip(of)
-                    .for_each(|(to, (u, z))| *to = u + z);
+                let sums = displacement.iter().zip(&depths[row * cells..]);
+                for (level, (displacement, depth)) in levels[row * cells..].iter_mut().zip(sums) {
+                    *level = displacement + depth;
+                }
             },
         );
     }
@@ -224,40 +267,35 @@ impl Grid {
         };
     }
 
-    /// Moves by a length along the direction, and finds the residuals on the contact. Returns the
-    /// largest of them, the deepest penetration elsewhere and the lowest pressure.
-    fn advance(&mut self, length: f64) -> [f64; 3] {
-        std::mem::swap(&mut self.residual, &mut self.former);
+    /// Moves by a length along the direction, and finds the residuals on the contact.
+    fn advance(&mut self, length: f64) -> Violations {
+        swap(&mut self.residual, &mut self.former_residual);
         let level = self.level;
-        let mut found = [[0.0; LANES]; 3];
-        let moved = groups_of(&mut self.pressure).zip(groups_of(&mut self.levels));
+        let mut on_contact = [0.0; LANES];
+        let mut penetration = [0.0; LANES];
+        let mut pull = [0.0; LANES];
+        let moved = groups_mut(&mut self.pressure).zip(groups_mut(&mut self.levels));
         let by = groups(&self.direction).iter().zip(groups(&self.image));
         let cells = groups(&self.outside)
             .iter()
-            .zip(groups_of(&mut self.residual));
+            .zip(groups_mut(&mut self.residual));
         for (((p, u), (direction, image)), (out, residual)) in moved.zip(by).zip(cells) {
             // Group by group, for instructions on several numbers.
             *p = from_fn(|lane| p[lane] + length * direction[lane]);
             *u = from_fn(|lane| u[lane] + length * image[lane]);
-            let (missing, out) = (u.map(|u| level - u), out.map(f64::from));
+            let missing = u.map(|u| level - u);
+            let out = out.map(f64::from);
             let on: [f64; LANES] = from_fn(|lane| (1.0 - out[lane]) * missing[lane]);
             *residual = on.map(|on| on as f32);
-            let beyond = from_fn(|lane| out[lane] * missing[lane]);
-            for (most, of) in found
-                .iter_mut()
-                .zip([on.map(f64::abs), beyond, p.map(|p| -p)])
-            {
-                *most = from_fn(|lane| {
-                    if of[lane] > most[lane] {
-                        of[lane]
-                    } else {
-                        most[lane]
-                    }
-                });
-            }
+            keep_larger(&mut on_contact, on.map(f64::abs));
+            keep_larger(&mut penetration, from_fn(|lane| out[lane] * missing[lane]));
+            keep_larger(&mut pull, p.map(|p| -p));
         }
-        let [on_contact, beyond, pull] = found.map(|lanes| lanes.into_iter().fold(0.0, f64::max));
-        [on_contact, beyond, -pull]
+        Violations {
+            on_contact: largest(on_contact),
+            penetration: largest(penetration),
+            lowest_pressure: -largest(pull),
+        }
     }
 
     /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a
@@ -265,63 +303,67 @@ impl Grid {
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
         let level = self.level;
-        for ((pressure, out), of) in self
-            .pressure
-            .iter_mut()
-            .zip(&mut self.outside)
-            .zip(&self.levels)
-        {
+        let cells = self.pressure.iter_mut().zip(&mut self.outside);
+        for ((pressure, out), own_level) in cells.zip(&self.levels) {
             if *out == 0.0 && *pressure <= 0.0 {
                 is_clipped |= *pressure < 0.0;
-                (*pressure, *out) = (0.0, 1.0);
-            } else if *out == 1.0 && level > *of {
+                *pressure = 0.0;
+                *out = 1.0;
+            } else if *out == 1.0 && level > *own_level {
                 *out = 0.0;
             }
         }
         is_clipped
     }
 
-    /// Solves the contact on this grid to a residual in rms heights `height`.
+    /// Solves the contact on this grid until its violations are below `tolerance` times the rms
+    /// height `height`.
     pub fn solve(
         &mut self,
         given: Given,
-        (tolerance, height): (f64, f64),
+        tolerance: f64,
+        height: f64,
         stop: &dyn Fn() -> bool,
     ) -> Result<Ended, HalfSpaceError> {
-        let before = self.operators.convolutions;
+        let convolutions_before = self.operators.convolutions;
         let own = OWN_DISPLACEMENT / self.cells as f64;
         self.load(given);
         self.find_level(given);
-        let mut found = self.advance(0.0);
-        // Scalar product of the last gradient and residual; without one the next step is that of
-        // the steepest descent.
-        let mut last = None;
+        let mut violations = self.advance(0.0);
+        // Without a product of the last step, the next step is that of the steepest descent.
+        let mut last_product = None;
         let mut steps = 0;
         loop {
-            let [on_contact, beyond, lowest] = found;
-            let residual = on_contact.max(beyond) / height;
-            let is_reached = residual <= tolerance && lowest >= 0.0;
+            let Violations {
+                on_contact,
+                penetration,
+                lowest_pressure,
+            } = violations;
+            let residual = on_contact.max(penetration) / height;
+            let is_reached = residual <= tolerance && lowest_pressure >= 0.0;
             if is_reached || steps == MOST_STEPS {
-                let convolutions = self.operators.convolutions - before;
                 return Ok(Ended {
                     residual,
                     is_reached,
                     steps,
-                    convolutions,
+                    convolutions: self.operators.convolutions - convolutions_before,
                 });
             }
             if stop() {
                 return Err(HalfSpaceError::Stopped);
             }
-            if last.is_some() && beyond.max(own * -lowest) > OUTWEIGHS * on_contact {
+            let by_set = penetration.max(own * -lowest_pressure);
+            if last_product.is_some() && by_set > OUTWEIGHS * on_contact {
                 if self.change_set() {
                     self.load(given);
                 }
                 self.find_level(given);
-                (last, found) = (None, self.advance(0.0));
+                last_product = None;
+                violations = self.advance(0.0);
             } else {
-                let (product, next) = self.step(given, last);
-                (last, found) = (Some(product), next);
+                let step = self.step(given, last_product);
+                last_product = Some(step.product);
+                violations = step.violations;
                 steps += 1;
             }
         }
@@ -336,29 +378,97 @@ impl Grid {
         stop: &dyn Fn() -> bool,
     ) -> Result<(), HalfSpaceError> {
         self.level = depth;
-        let mut found = self.advance(0.0);
-        let mut last = None;
+        let mut violations = self.advance(0.0);
+        let mut last_product = None;
         for _ in 0..MOST_STEPS {
-            if found[0] <= tolerance {
+            if violations.on_contact <= tolerance {
                 break;
             }
             if stop() {
                 return Err(HalfSpaceError::Stopped);
             }
-            let (product, next) = self.step(Given::Indentation(depth), last);
-            (last, found) = (Some(product), next);
+            let step = self.step(Given::Indentation(depth), last_product);
+            last_product = Some(step.product);
+            violations = step.violations;
         }
         Ok(())
     }
 
-    /// Makes one step of the gradients on the present contact. Returns the product that the next
-    /// step needs, and what `advance` finds.
-    fn step(&mut self, given: Given, last: Option<f64>) -> (f64, [f64; 3]) {
+    /// Makes one step of the gradients on the present contact. `last_product` is the product of the
+    /// step before.
+    fn step(&mut self, given: Given, last_product: Option<f64>) -> Step {
+        let gradient = self.find_gradient();
+        let product = gradient.with_residual;
+        let turned = product - gradient.with_former_residual;
+        let carried = match last_product {
+            Some(last) if last > 0.0 => (turned / last).max(0.0),
+            _ => 0.0,
+        };
+        let mean = self.mean_to_subtract(given, gradient.total);
+        let direction = self.find_direction(mean, carried);
+        let length = if direction.with_image > 0.0 {
+            direction.with_residual / direction.with_image
+        } else {
+            0.0
+        };
+        self.level += length * self.mean_to_subtract(given, direction.image_on_contact);
+        Step {
+            product,
+            violations: self.advance(length),
+        }
+    }
+
+    /// Returns the mean over the contact of numbers with this total. Under a force the mean of the
+    /// residual over the contact is zero, and so is the mean of the step. Under an indentation
+    /// nothing is subtracted.
+    fn mean_to_subtract(&self, given: Given, total: f64) -> f64 {
+        match given {
+            Given::MeanPressure(_) => total / self.count,
+            Given::Indentation(_) => 0.0,
+        }
+    }
+
+    /// Computes the gradient: the residual after the preconditioner.
+    fn find_gradient(&mut self) -> GradientSums {
         let Grid {
             cells,
             operators,
             residual,
-            former,
+            former_residual,
+            outside,
+            gradient,
+            ..
+        } = self;
+        let cells = *cells;
+        let mut sums = Sums::default();
+        operators.precondition(residual, outside, gradient, |row, gradient| {
+            let residual = &residual[row * cells..];
+            let former = &former_residual[row * cells..];
+            let singles = [gradient, residual, former];
+            sums.add([], singles, |[], [gradient, residual, former]| {
+                let gradient = f64::from(gradient);
+                [
+                    gradient * f64::from(residual),
+                    gradient * f64::from(former),
+                    gradient,
+                ]
+            });
+        });
+        let [with_residual, with_former_residual, total] = sums.total();
+        GradientSums {
+            with_residual,
+            with_former_residual,
+            total,
+        }
+    }
+
+    /// Computes the direction of a step, from the gradient less its `mean` on the contact and from
+    /// the part `carried` of the former direction, and the displacements by this direction.
+    fn find_direction(&mut self, mean: f64, carried: f64) -> DirectionSums {
+        let Grid {
+            cells,
+            operators,
+            residual,
             outside,
             gradient,
             direction,
@@ -366,85 +476,92 @@ impl Grid {
             ..
         } = self;
         let cells = *cells;
-        let mut found = Sums::default();
-        operators.precondition(residual, outside, gradient, |row, gradient| {
-            let singles = [gradient, &residual[row * cells..], &former[row * cells..]];
-            found.add([], singles, |[], [gradient, residual, former]| {
-                let of = |value: f32| f64::from(gradient) * f64::from(value);
-                [of(residual), of(former), f64::from(gradient)]
-            });
-        });
-        let [product, former, total] = found.total();
-        // Under a force the mean of the residual over the contact is zero, and so is the mean of
-        // the step.
-        let count = self.count;
-        let mean_of = |total: f64| {
-            if matches!(given, Given::MeanPressure(_)) {
-                total / count
-            } else {
-                0.0
-            }
+        let mut rows = DirectionRows {
+            direction,
+            image,
+            sums: Sums::default(),
         };
-        let (mean, turned) = (mean_of(total), product - former);
-        let carried = last.map_or(0.0, |last| {
-            if last > 0.0 {
-                (turned / last).max(0.0)
-            } else {
-                0.0
-            }
-        });
-        let mut context = (direction, image, Sums::default());
         operators.displace(
-            &mut context,
-            |(direction, ..), row, to| {
+            &mut rows,
+            |rows, row, pressures| {
                 let singles = gradient[row * cells..].iter().zip(&outside[row * cells..]);
-                let both = direction[row * cells..].iter_mut().zip(to);
-                for ((direction, to), (gradient, out)) in both.zip(singles) {
+                let both = rows.direction[row * cells..].iter_mut().zip(pressures);
+                for ((direction, pressure), (gradient, out)) in both.zip(singles) {
                     *direction = f64::from(*gradient) - (1.0 - f64::from(*out)) * mean
                         + carried * *direction;
-                    *to = *direction;
+                    *pressure = *direction;
                 }
             },
-            |(direction, image, found), row, of| {
-                image[row * cells..][..cells].copy_from_slice(of);
+            |rows, row, displacements| {
+                rows.image[row * cells..][..cells].copy_from_slice(displacements);
+                let doubles = [displacements, &rows.direction[row * cells..]];
                 let singles = [&residual[row * cells..], &outside[row * cells..]];
-                found.add(
-                    [of, &direction[row * cells..]],
-                    singles,
-                    |[image, direction], [residual, out]| {
+                rows.sums
+                    .add(doubles, singles, |[image, direction], [residual, out]| {
                         [
                             direction * f64::from(residual),
                             direction * image,
                             (1.0 - f64::from(out)) * image,
                         ]
-                    },
-                );
+                    });
             },
         );
-        let [along, curvature, total] = context.2.total();
-        let length = if curvature > 0.0 {
-            along / curvature
-        } else {
-            0.0
-        };
-        self.level += length * mean_of(total);
-        (product, self.advance(length))
+        let [with_residual, with_image, image_on_contact] = rows.sums.total();
+        DirectionSums {
+            with_residual,
+            with_image,
+            image_on_contact,
+        }
     }
+}
+
+/// Returns the index of a neighbour in a row of `half` cells, after the cell if `is_upper` is true.
+fn neighbour(index: usize, is_upper: bool, half: usize, boundary: Boundary) -> usize {
+    match (is_upper, boundary) {
+        (true, Boundary::Periodic) => (index + 1) % half,
+        (false, Boundary::Periodic) => (index + half - 1) % half,
+        (true, Boundary::Free) => (index + 1).min(half - 1),
+        (false, Boundary::Free) => index.saturating_sub(1),
+    }
+}
+
+/// Returns the bilinear interpolation in the middle of a quarter of a cell, between the number of
+/// the cell itself, of the two cells beside this quarter, and of the cell across its corner.
+fn interpolated(corners: [f64; 4]) -> f64 {
+    let [own, beside, above, across] = corners;
+    0.0625 * (9.0 * own + 3.0 * (beside + above) + across)
 }
 
 /// Numbers that are summed side by side, in an order of their own.
 const LANES: usize = 4;
 
 /// Returns the numbers in groups. The numbers of a grid, whose side is even, leave no rest.
-fn groups<T>(of: &[T]) -> &[[T; LANES]] {
-    of.as_chunks().0
+fn groups<T>(numbers: &[T]) -> &[[T; LANES]] {
+    numbers.as_chunks().0
 }
 
-fn groups_of<T>(of: &mut [T]) -> impl Iterator<Item = &mut [T; LANES]> {
-    of.as_chunks_mut().0.iter_mut()
+fn groups_mut<T>(numbers: &mut [T]) -> impl Iterator<Item = &mut [T; LANES]> {
+    numbers.as_chunks_mut().0.iter_mut()
 }
 
-/// Sums over cells of what a function makes of their numbers, in double and in single precision.
+#[inline]
+fn keep_larger(largest: &mut [f64; LANES], found: [f64; LANES]) {
+    *largest = from_fn(|lane| {
+        if found[lane] > largest[lane] {
+            found[lane]
+        } else {
+            largest[lane]
+        }
+    });
+}
+
+/// Returns the largest number of all lanes, at least 0.
+fn largest(lanes: [f64; LANES]) -> f64 {
+    lanes.into_iter().fold(0.0, f64::max)
+}
+
+/// Sums over cells of what a function makes of their numbers, which are in double and in single
+/// precision.
 struct Sums<const N: usize>([[f64; LANES]; N]);
 
 impl<const N: usize> Default for Sums<N> {
@@ -472,34 +589,40 @@ impl<const N: usize> Sums<N> {
         single: [&[f32]; S],
         each: impl Fn([f64; D], [f32; S]) -> [f64; N],
     ) {
-        let count = double
-            .iter()
-            .map(|of| of.len())
-            .chain(single.iter().map(|of| of.len()))
-            .min();
-        let count = count.unwrap_or(0);
-        let (double, single) = (double.map(|of| &of[..count]), single.map(|of| &of[..count]));
-        let mut add = |lane: usize, of: [f64; N]| {
-            self.0
-                .iter_mut()
-                .zip(of)
-                .for_each(|(total, of)| total[lane] += of);
-        };
-        let (doubles, singles) = (double.map(groups), single.map(groups));
+        let lengths_of_double = double.iter().map(|numbers| numbers.len());
+        let lengths_of_single = single.iter().map(|numbers| numbers.len());
+        let count = lengths_of_double
+            .chain(lengths_of_single)
+            .min()
+            .unwrap_or(0);
+        let double = double.map(|numbers| &numbers[..count]);
+        let single = single.map(|numbers| &numbers[..count]);
+        let double_groups = double.map(groups);
+        let single_groups = single.map(groups);
         for group in 0..count / LANES {
-            let (double, single) = (doubles.map(|of| &of[group]), singles.map(|of| &of[group]));
-            (0..LANES).for_each(|lane| {
-                add(
-                    lane,
-                    each(double.map(|of| of[lane]), single.map(|of| of[lane])),
-                )
-            });
+            let double = double_groups.map(|groups| &groups[group]);
+            let single = single_groups.map(|groups| &groups[group]);
+            for lane in 0..LANES {
+                let terms = each(
+                    double.map(|numbers| numbers[lane]),
+                    single.map(|numbers| numbers[lane]),
+                );
+                self.add_to_lane(lane, terms);
+            }
         }
-        for at in count / LANES * LANES..count {
-            add(
-                at % LANES,
-                each(double.map(|of| of[at]), single.map(|of| of[at])),
+        for index in count / LANES * LANES..count {
+            let terms = each(
+                double.map(|numbers| numbers[index]),
+                single.map(|numbers| numbers[index]),
             );
+            self.add_to_lane(index % LANES, terms);
+        }
+    }
+
+    #[inline]
+    fn add_to_lane(&mut self, lane: usize, terms: [f64; N]) {
+        for (sums, term) in self.0.iter_mut().zip(terms) {
+            sums[lane] += term;
         }
     }
 
@@ -513,7 +636,8 @@ pub fn press(
     grids: &mut [Grid],
     boundary: Boundary,
     given: Given,
-    (tolerance, height): (f64, f64),
+    tolerance: f64,
+    height: f64,
     stop: &dyn Fn() -> bool,
 ) -> Result<Ended, HalfSpaceError> {
     for finer in (1..grids.len()).rev() {
@@ -522,20 +646,10 @@ pub fn press(
     }
     grids[0].begin(given);
     let finest = grids.len() - 1;
-    for at in 0..=finest {
-        if at > 0 {
-            let (coarse, fine) = grids.split_at_mut(at);
-            fine[0].refine(&coarse[at - 1], given, boundary);
-        }
-        let asked = if at == finest {
-            tolerance
-        } else {
-            tolerance.max(COARSE)
-        };
-        let ended = grids[at].solve(given, (asked, height), stop)?;
-        if at == finest {
-            return Ok(ended);
-        }
+    for index in 0..finest {
+        grids[index].solve(given, tolerance.max(COARSE), height, stop)?;
+        let (coarse, fine) = grids.split_at_mut(index + 1);
+        fine[0].refine(&coarse[index], given, boundary);
     }
-    Err(HalfSpaceError::Stopped)
+    grids[finest].solve(given, tolerance, height, stop)
 }

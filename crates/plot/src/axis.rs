@@ -4,16 +4,15 @@ use super::label::{Label, prefixed};
 use super::scale::Span;
 use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
+use std::ops::Range;
 
-/// Smallest and largest value of the largest number on a linear axis for which the numbers at the
-/// ticks have few digits.
-const SHORT: (f64, f64) = (1e-3, 1e6);
+/// Largest numbers on a linear axis with which all numbers at the ticks have few digits.
+const SHORT: Range<f64> = 1e-3..1e6;
 
 /// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers
 /// that the axis shows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
-    /// Scale of the axis, linear or logarithmic.
     pub scale: AxisScale,
     /// Range of coordinates that the axis shows. A coordinate is the number itself on a linear
     /// axis, and the decadic logarithm of the number on a logarithmic axis.
@@ -32,15 +31,13 @@ pub struct ChartAxis {
 }
 
 impl ChartAxis {
-    /// Creates an axis of a quantity with this name, symbol and SI unit.
     pub fn new(scale: AxisScale, span: Span, name: &str, symbol: &str, unit: &str) -> ChartAxis {
-        let [name, symbol, unit] = [name, symbol, unit].map(str::to_owned);
         ChartAxis {
             scale,
             span,
-            name,
-            symbol,
-            unit,
+            name: name.to_owned(),
+            symbol: symbol.to_owned(),
+            unit: unit.to_owned(),
             names: Vec::new(),
             counts: false,
         }
@@ -68,40 +65,37 @@ impl ChartAxis {
     /// Returns the divisor of the numbers at the ticks, and the unit of the divided numbers, such
     /// as 1e-6 and `µN`.
     pub fn prefix(&self) -> (f64, String) {
-        let ends = self.span.bounds().map(|end| self.scale.number(end).abs());
-        let largest = ends[0].max(ends[1]);
+        let lowest = self.scale.number(self.span.low).abs();
+        let highest = self.scale.number(self.span.high).abs();
+        let largest = lowest.max(highest);
         if self.scale == AxisScale::Logarithmic {
-            let largest = (0..6).map(|thousands| largest / 1000_f64.powi(thousands));
-            let prefixes = largest.map(|largest| prefixed(&self.unit, largest));
-            let is_plain = |(divisor, _): &(f64, String)| are_plain(self.span, *divisor);
-            return prefixes
-                .into_iter()
-                .find(is_plain)
-                .unwrap_or_else(|| (1.0, prefixed(&self.unit, 1.0).1));
+            // The prefix of a smaller number may give plain numbers in place of powers of ten.
+            for thousands in 0..6 {
+                let (divisor, unit) = prefixed(&self.unit, largest / 1000_f64.powi(thousands));
+                if are_plain(self.span, divisor) {
+                    return (divisor, unit);
+                }
+            }
+            let (_, unit) = prefixed(&self.unit, 1.0);
+            return (1.0, unit);
         }
         let (divisor, unit) = prefixed(&self.unit, largest);
-        let is_short = (SHORT.0..SHORT.1).contains(&(largest / divisor));
-        if is_short || !largest.is_normal() {
+        if SHORT.contains(&(largest / divisor)) || !largest.is_normal() {
             return (divisor, unit);
         }
         let power = 3 * (largest.log10() / 3.0).floor() as i32;
-        (
-            10_f64.powi(power),
-            format!("{} {unit}", Label::power_of_ten(power))
-                .trim_end()
-                .to_owned(),
-        )
+        let unit = format!("{} {unit}", Label::power_of_ten(power));
+        (10_f64.powi(power), unit.trim_end().to_owned())
     }
 
     /// Returns the axis with its numbers divided by a unit with this symbol.
     pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
-        let end = |at: f64| self.scale.coordinate(self.scale.number(at) / unit);
-        let span = Span {
-            low: end(self.span.low),
-            high: end(self.span.high),
-        };
+        let divided = |coordinate: f64| self.scale.coordinate(self.scale.number(coordinate) / unit);
         ChartAxis {
-            span,
+            span: Span {
+                low: divided(self.span.low),
+                high: divided(self.span.high),
+            },
             symbol: format!("{}/{symbol}", self.symbol),
             unit: "1".to_owned(),
             ..self.clone()
@@ -148,15 +142,16 @@ impl ChartAxis {
         self.with_unit(self.symbol_or_name())
     }
 
-    /// Returns the symbol of the quantity, or the name if the quantity has no symbol.
     pub fn symbol_or_name(&self) -> Label {
         Label::symbol_or_name(&self.symbol, &self.name)
     }
 
     fn with_unit(&self, label: Label) -> Label {
-        match self.prefix().1 {
-            unit if unit.is_empty() => label,
-            unit => label.then(&format!(" ({unit})")),
+        let (_, unit) = self.prefix();
+        if unit.is_empty() {
+            label
+        } else {
+            label.then(&format!(" ({unit})"))
         }
     }
 
@@ -164,25 +159,27 @@ impl ChartAxis {
     /// number between them. An axis with names has a tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
-            let tick = |(at, name): (usize, &Label)| Tick {
-                at: at as f64,
+            let named = self.names.iter().enumerate().map(|(index, name)| Tick {
+                at: index as f64,
                 label: Some(name.clone()),
-            };
-            return self.names.iter().enumerate().map(tick).collect();
+            });
+            return named.collect();
         }
+        // One or two more ticks, if with fewer ticks a single one would have a number.
+        for count in most..=most + 2 {
+            let ticks = self.ticks_with_numbers(count);
+            let labelled = ticks.iter().filter(|tick| tick.label.is_some());
+            if labelled.count() >= 2 {
+                return ticks;
+            }
+        }
+        self.ticks_with_numbers(most)
+    }
+
+    fn ticks_with_numbers(&self, most: usize) -> Vec<Tick> {
+        let (divisor, _) = self.prefix();
         let least = if self.counts { 1.0 } else { 0.0 };
-        let of = |most| ticks(self.scale, self.span, self.prefix().0, most, least);
-        let two = |ticks: &Vec<Tick>| {
-            ticks
-                .iter()
-                .filter(|tick| tick.label.is_some())
-                .nth(1)
-                .is_some()
-        };
-        (most..=most + 2)
-            .map(of)
-            .find(two)
-            .unwrap_or_else(|| of(most))
+        ticks(self.scale, self.span, divisor, most, least)
     }
 }
 
@@ -198,69 +195,76 @@ pub(super) struct Axes<'a> {
 impl Axes<'_> {
     /// Returns the position of a point, or the nearest position on the border for a point outside
     /// the chart; `None` if the point has no coordinates.
-    pub(super) fn place(self, (x, y): (f64, f64)) -> Option<Share> {
-        self.y
-            .share(y)
-            .is_finite()
-            .then(|| self.place_at_end((x, y)))
-            .flatten()
+    pub(super) fn place(self, point: (f64, f64)) -> Option<Share> {
+        let (_, y) = point;
+        if !self.y.share(y).is_finite() {
+            return None;
+        }
+        self.place_at_end(point)
     }
 
     /// Returns the position of a point. A y without a coordinate is placed at the end of the axis.
-    pub(super) fn place_at_end(self, (x, y): (f64, f64)) -> Option<Share> {
-        let (x, y) = (self.x.share(x), self.y.share(y));
-        x.is_finite().then(|| {
-            (
-                x.clamp(0.0, 1.0),
-                if y.is_nan() { 0.0 } else { y.clamp(0.0, 1.0) },
-            )
-        })
+    pub(super) fn place_at_end(self, point: (f64, f64)) -> Option<Share> {
+        let (x, y) = point;
+        let across = self.x.share(x);
+        let up = self.y.share(y);
+        if !across.is_finite() {
+            return None;
+        }
+        let up = if up.is_nan() { 0.0 } else { up.clamp(0.0, 1.0) };
+        Some((across.clamp(0.0, 1.0), up))
     }
 
     /// Returns the positions of points, divided into runs where a point has no coordinates.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
-        let places: Vec<Option<Share>> = points.map(|point| self.place(point)).collect();
-        let runs = places
-            .split(Option::is_none)
-            .map(|run| run.iter().flatten().copied().collect());
-        runs.filter(|run: &Vec<Share>| !run.is_empty()).collect()
+        let mut runs = Vec::new();
+        let mut run = Vec::new();
+        for point in points {
+            if let Some(place) = self.place(point) {
+                run.push(place);
+            } else if !run.is_empty() {
+                runs.push(std::mem::take(&mut run));
+            }
+        }
+        if !run.is_empty() {
+            runs.push(run);
+        }
+        runs
     }
 
     /// Returns the positions along an envelope through both ends of each column, beginning with the
     /// end nearer to the previous point. A column outside the chart begins a new run.
-    pub(super) fn envelope(
-        self,
-        (from, to): (f64, f64),
-        columns: &[Option<(f64, f64)>],
-    ) -> Vec<Vec<Share>> {
+    pub(super) fn envelope(self, x: (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
+        let (from, to) = x;
+        let mut points = Vec::with_capacity(2 * columns.len());
         let mut last: Option<f64> = None;
-        let points = columns.iter().enumerate().flat_map(|(column, ends)| {
+        for (column, ends) in columns.iter().enumerate() {
             let inside =
                 ends.filter(|(low, high)| self.y.share(*high) >= 0.0 && self.y.share(*low) <= 1.0);
             let (low, high) = inside.unwrap_or((f64::NAN, f64::NAN));
             let falls = last.is_some_and(|last| (last - high).abs() < (last - low).abs());
-            let ends = if falls { [high, low] } else { [low, high] };
-            last = Some(ends[1]).filter(|end| end.is_finite());
+            let [first, second] = if falls { [high, low] } else { [low, high] };
+            last = second.is_finite().then_some(second);
             let middle = from + (to - from) * (column as f64 + 0.5) / columns.len() as f64;
-            ends.map(|end| (middle, end))
-        });
-        self.runs(points)
+            points.push((middle, first));
+            points.push((middle, second));
+        }
+        self.runs(points.into_iter())
     }
 
-    /// Returns the ends of a vertical (`upright`) or horizontal line across the chart; `None` if
+    /// Returns the ends of a vertical or horizontal line across the chart at this number; `None` if
     /// the line lies outside.
-    pub(super) fn guide(self, at: f64, upright: bool) -> Option<[Share; 2]> {
-        let share = if upright {
-            self.x.share(at)
+    pub(super) fn guide(self, number: f64, is_vertical: bool) -> Option<[Share; 2]> {
+        let axis = if is_vertical { self.x } else { self.y };
+        let share = axis.share(number);
+        if !(0.0..=1.0).contains(&share) {
+            return None;
+        }
+        if is_vertical {
+            Some([(share, 0.0), (share, 1.0)])
         } else {
-            self.y.share(at)
-        };
-        let ends = if upright {
-            [(share, 0.0), (share, 1.0)]
-        } else {
-            [(0.0, share), (1.0, share)]
-        };
-        (0.0..=1.0).contains(&share).then_some(ends)
+            Some([(0.0, share), (1.0, share)])
+        }
     }
 }
 

@@ -74,30 +74,22 @@ impl Figure {
     /// charts contain the titles and notes of the given figures.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
-        let panels = figures.into_iter().flat_map(
-            |Figure {
-                 title,
-                 notes,
-                 charts,
-                 ..
-             }| {
-                charts.into_iter().map(move |chart| {
-                    let parts = [Label::plain(&title), chart.heading.clone()];
-                    let parts = parts
-                        .iter()
-                        .chain(&notes)
-                        .filter(|part| !part.is_empty())
-                        .cloned();
-                    let heading = parts.reduce(|heading, part| heading.then(", ").join(&part));
-                    Chart {
-                        heading: heading.unwrap_or_default(),
-                        ..chart
+        let mut charts = Vec::new();
+        for figure in figures {
+            for chart in figure.charts {
+                let mut heading = Label::default();
+                let parts = [Label::plain(&figure.title), chart.heading.clone()];
+                for part in parts.iter().chain(&figure.notes) {
+                    if !heading.is_empty() && !part.is_empty() {
+                        heading = heading.then(", ");
                     }
-                })
-            },
-        );
+                    heading = heading.join(part);
+                }
+                charts.push(Chart { heading, ..chart });
+            }
+        }
         Figure {
-            charts: panels.collect(),
+            charts,
             size,
             ..Figure::default()
         }
@@ -110,29 +102,30 @@ impl Figure {
     /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists
     /// the letters of the charts.
     pub fn with_panels(self, letters: &str) -> Result<Figure, String> {
-        let panel = |letter: char| {
-            (letter as usize)
-                .checked_sub('a' as usize)
-                .and_then(|at| self.charts.get(at))
-        };
-        let chosen: Option<Vec<Chart>> = letters
-            .chars()
-            .map(|letter| panel(letter).cloned())
-            .collect();
-        match chosen {
-            Some(charts) if !charts.is_empty() => Ok(Figure { charts, ..self }),
-            _ => Err(self
-                .charts
-                .iter()
-                .zip('a'..='z')
-                .map(|(_, letter)| letter)
-                .collect()),
+        let mut charts = Vec::new();
+        for letter in letters.chars() {
+            let index = (letter as usize).checked_sub('a' as usize);
+            match index.and_then(|index| self.charts.get(index)) {
+                Some(chart) => charts.push(chart.clone()),
+                None => return Err(self.panel_letters()),
+            }
         }
+        if charts.is_empty() {
+            return Err(self.panel_letters());
+        }
+        Ok(Figure { charts, ..self })
+    }
+
+    fn panel_letters(&self) -> String {
+        ('a'..='z').take(self.charts.len()).collect()
     }
 
     /// Returns the heading of a chart with its letter; `None` in a figure of one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
-        let chart = self.charts.get(index).filter(|_| self.charts.len() > 1)?;
+        if self.charts.len() < 2 {
+            return None;
+        }
+        let chart = self.charts.get(index)?;
         let letter = char::from(b'a' + (index % 26) as u8);
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
@@ -148,9 +141,7 @@ impl Figure {
 pub struct Chart {
     /// Heading of the chart, shown in figures of several charts; may be empty.
     pub heading: Label,
-    /// Horizontal axis.
     pub x: ChartAxis,
-    /// Vertical axis.
     pub y: ChartAxis,
     /// Layers of data. Later layers are drawn over earlier ones.
     pub layers: Vec<Layer>,
@@ -169,11 +160,10 @@ impl Chart {
 
     /// Removes the name of each axis that has a symbol, so that the symbol alone labels the axis.
     pub fn with_symbols(mut self) -> Chart {
-        for axis in [&mut self.x, &mut self.y]
-            .into_iter()
-            .filter(|axis| !axis.symbol.is_empty())
-        {
-            axis.name.clear();
+        for axis in [&mut self.x, &mut self.y] {
+            if !axis.symbol.is_empty() {
+                axis.name.clear();
+            }
         }
         self
     }
@@ -182,41 +172,18 @@ impl Chart {
     /// F_a,max. Each unit has a value and a symbol; `None` leaves an axis as it is. Heat maps are
     /// not changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
-        for (axis, unit) in [(&mut self.x, x), (&mut self.y, y)] {
-            *axis = unit.map_or_else(|| axis.clone(), |(unit, symbol)| axis.over(unit, symbol));
+        let mut x_unit = 1.0;
+        if let Some((unit, symbol)) = x {
+            self.x = self.x.over(unit, symbol);
+            x_unit = unit;
         }
-        let [x, y] = [x, y].map(|unit| unit.map_or(1.0, |(unit, _)| unit));
+        let mut y_unit = 1.0;
+        if let Some((unit, symbol)) = y {
+            self.y = self.y.over(unit, symbol);
+            y_unit = unit;
+        }
         for layer in &mut self.layers {
-            match &mut layer.shape {
-                Shape::Curve { points, .. } | Shape::Inside(points) => {
-                    points
-                        .iter_mut()
-                        .for_each(|point| *point = (point.0 / x, point.1 / y));
-                }
-                Shape::Band(points) => {
-                    points
-                        .iter_mut()
-                        .for_each(|point| *point = (point.0 / x, point.1 / y, point.2 / y));
-                }
-                Shape::Envelope { x: ends, columns } => {
-                    *ends = (ends.0 / x, ends.1 / x);
-                    columns
-                        .iter_mut()
-                        .flatten()
-                        .for_each(|ends| *ends = (ends.0 / y, ends.1 / y));
-                }
-                Shape::Boxes(boxes) => {
-                    let divided =
-                        |ends: &mut (f64, f64), unit: f64| *ends = (ends.0 / unit, ends.1 / unit);
-                    boxes.iter_mut().for_each(|(across, up)| {
-                        divided(across, x);
-                        divided(up, y);
-                    });
-                }
-                Shape::Upright(at) => *at /= x,
-                Shape::Level(at) => *at /= y,
-                Shape::Map(_) => {}
-            }
+            layer.shape.divide(x_unit, y_unit);
         }
         self
     }
@@ -229,7 +196,6 @@ impl Chart {
         })
     }
 
-    /// Returns the first heat map of the chart for changes; `None` for a chart without one.
     pub fn map_mut(&mut self) -> Option<&mut HeatMap> {
         self.layers
             .iter_mut()
@@ -279,26 +245,67 @@ impl Shape {
                 x: (from, to),
                 columns,
             } => {
-                let at =
-                    |index: usize| from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
-                let ends = columns
-                    .iter()
-                    .enumerate()
-                    .filter_map(|(index, ends)| Some((at(index), (*ends)?)));
-                let both = |(x, (low, high))| {
-                    [(x, low)]
-                        .into_iter()
-                        .chain((low < high).then_some((x, high)))
-                };
-                ends.flat_map(both).collect()
+                let mut points = Vec::new();
+                for (index, ends) in columns.iter().enumerate() {
+                    let Some((low, high)) = *ends else {
+                        continue;
+                    };
+                    let x = from + (to - from) * (index as f64 + 0.5) / columns.len() as f64;
+                    points.push((x, low));
+                    if low < high {
+                        points.push((x, high));
+                    }
+                }
+                points
             }
             _ => Vec::new(),
+        }
+    }
+
+    /// Divides all numbers on the horizontal and on the vertical axis by a unit each. Heat maps are
+    /// not changed.
+    fn divide(&mut self, x_unit: f64, y_unit: f64) {
+        match self {
+            Shape::Curve { points, .. } | Shape::Inside(points) => {
+                for (x, y) in points {
+                    *x /= x_unit;
+                    *y /= y_unit;
+                }
+            }
+            Shape::Band(points) => {
+                for (x, low, high) in points {
+                    *x /= x_unit;
+                    *low /= y_unit;
+                    *high /= y_unit;
+                }
+            }
+            Shape::Envelope {
+                x: (from, to),
+                columns,
+            } => {
+                *from /= x_unit;
+                *to /= x_unit;
+                for (low, high) in columns.iter_mut().flatten() {
+                    *low /= y_unit;
+                    *high /= y_unit;
+                }
+            }
+            Shape::Boxes(boxes) => {
+                for ((left, right), (low, high)) in boxes {
+                    *left /= x_unit;
+                    *right /= x_unit;
+                    *low /= y_unit;
+                    *high /= y_unit;
+                }
+            }
+            Shape::Upright(x) => *x /= x_unit,
+            Shape::Level(y) => *y /= y_unit,
+            Shape::Map(_) => {}
         }
     }
 }
 
 impl Layer {
-    /// Creates a layer with an entry in the legend.
     pub fn new(name: Label, ink: Ink, shape: Shape) -> Layer {
         Layer { name, ink, shape }
     }
@@ -316,7 +323,6 @@ impl Layer {
 pub enum Shape {
     /// Line through points, markers at the points, or both.
     Curve {
-        /// Points of the curve as (x, y).
         points: Vec<(f64, f64)>,
         /// Stroke of the line; `None` for no line.
         stroke: Option<Stroke>,
@@ -349,13 +355,10 @@ pub enum Shape {
 /// Pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Line without gaps.
     Solid,
-    /// Long dashes.
     Dashed,
-    /// Short dashes.
+    /// Dashes as short as the gaps.
     Dotted,
-    /// Dashes and dots in turn.
     DashDotted,
     /// Dots far apart.
     Sparse,
@@ -364,25 +367,15 @@ pub enum Stroke {
 /// Marker that is drawn at a point, such as a filled circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Filled circle.
     Dot,
-    /// Filled square.
     Square,
-    /// Triangle that points upwards.
     Up,
-    /// Filled diamond.
     Diamond,
-    /// Open circle.
     Ring,
-    /// Triangle that points downwards.
     Down,
-    /// Triangle that points to the left.
     Left,
-    /// Triangle that points to the right.
     Right,
-    /// Diagonal cross.
     Cross,
-    /// Open diamond.
     HollowDiamond,
     /// Smallest marker of an output format, for curves of thousands of points.
     Point,
@@ -459,21 +452,22 @@ impl HeatMap {
     /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis,
     /// with one cell around each of these values. There is one border more than there are values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
-        let places: Vec<f64> = values
+        let coordinates: Vec<f64> = values
             .iter()
             .map(|value| scale.coordinate(*value))
             .collect();
-        let (Some(first), Some(last)) = (places.first(), places.last()) else {
+        let (Some(first), Some(last)) = (coordinates.first(), coordinates.last()) else {
             return vec![0.0, 1.0];
         };
-        let between: Vec<f64> = places
+        if coordinates.len() == 1 {
+            return vec![first - 0.5, last + 0.5];
+        }
+        let between: Vec<f64> = coordinates
             .windows(2)
             .map(|pair| f64::midpoint(pair[0], pair[1]))
             .collect();
-        let (before, after) = match (between.first(), between.last()) {
-            (Some(second), Some(before_last)) => (2.0 * first - second, 2.0 * last - before_last),
-            _ => (first - 0.5, last + 0.5),
-        };
+        let before = 2.0 * first - between[0];
+        let after = 2.0 * last - between[between.len() - 1];
         [vec![before], between, vec![after]].concat()
     }
 
@@ -490,7 +484,6 @@ impl HeatMap {
 /// Entry of a legend: a name, with the line, area or marker of each layer of this name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the layers.
     pub name: Label,
     /// Lines, areas or markers that the legend shows before the name, each with its ink.
     pub samples: Vec<(Ink, Sample)>,
@@ -517,45 +510,20 @@ impl Entry {
     /// Returns the legend entries for the layers of charts. Layers of the same name share one
     /// entry.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
-        let mut entries: Vec<Entry> = Vec::new();
-        let mut add = |name: &Label, ink: Ink, sample: Sample| {
-            if name.is_empty() {
-                return;
-            }
-            match entries.iter_mut().find(|entry| entry.name == *name) {
-                Some(entry) if entry.samples.contains(&(ink, sample)) => {}
-                Some(entry) => entry.samples.push((ink, sample)),
-                None => entries.push(Entry {
-                    name: name.clone(),
-                    samples: vec![(ink, sample)],
-                }),
-            }
-        };
+        let mut entries = Vec::new();
         for Layer { name, ink, shape } in charts.iter().flat_map(|chart| &chart.layers) {
-            match shape {
-                Shape::Curve { stroke, sign, .. } => add(name, *ink, Sample::Line(*stroke, *sign)),
-                Shape::Envelope { .. } => add(name, *ink, Sample::Line(Some(Stroke::Solid), None)),
-                Shape::Band(_) | Shape::Inside(_) => add(name, *ink, Sample::Area),
-                Shape::Boxes(_) => add(name, *ink, Sample::Solid),
-                Shape::Upright(_) | Shape::Level(_) => add(name, *ink, Sample::Guide),
+            let sample = match shape {
+                Shape::Curve { stroke, sign, .. } => Sample::Line(*stroke, *sign),
+                Shape::Envelope { .. } => Sample::Line(Some(Stroke::Solid), None),
+                Shape::Band(_) | Shape::Inside(_) => Sample::Area,
+                Shape::Boxes(_) => Sample::Solid,
+                Shape::Upright(_) | Shape::Level(_) => Sample::Guide,
                 Shape::Map(map) => {
-                    for (class, Class { sign, name, .. }) in map.class_names.iter().enumerate() {
-                        if map.classes.contains(&Some(class)) {
-                            add(
-                                &Label::plain(name),
-                                Ink::Text,
-                                Sample::Line(None, Some(*sign)),
-                            );
-                        }
-                    }
-                    if let Some(contour) = &map.contour {
-                        add(&contour.name, Ink::Text, Sample::Contour);
-                    }
-                    if map.values.contains(&None) {
-                        add(&"no value".into(), Ink::Quiet, Sample::Empty);
-                    }
+                    add_entries_of_map(&mut entries, map);
+                    continue;
                 }
-            }
+            };
+            add_entry(&mut entries, name, *ink, sample);
         }
         // Lines first: an area belongs to a line.
         entries.sort_by_key(|entry| {
@@ -565,5 +533,35 @@ impl Entry {
                 .any(|(_, sample)| *sample == Sample::Area)
         });
         entries
+    }
+}
+
+fn add_entries_of_map(entries: &mut Vec<Entry>, map: &HeatMap) {
+    for (index, class) in map.class_names.iter().enumerate() {
+        if map.classes.contains(&Some(index)) {
+            let sample = Sample::Line(None, Some(class.sign));
+            add_entry(entries, &Label::plain(&class.name), Ink::Text, sample);
+        }
+    }
+    if let Some(contour) = &map.contour {
+        add_entry(entries, &contour.name, Ink::Text, Sample::Contour);
+    }
+    if map.values.contains(&None) {
+        add_entry(entries, &"no value".into(), Ink::Quiet, Sample::Empty);
+    }
+}
+
+/// Adds a sample to the entry of this name. A layer without a name has no entry.
+fn add_entry(entries: &mut Vec<Entry>, name: &Label, ink: Ink, sample: Sample) {
+    if name.is_empty() {
+        return;
+    }
+    match entries.iter_mut().find(|entry| entry.name == *name) {
+        Some(entry) if entry.samples.contains(&(ink, sample)) => {}
+        Some(entry) => entry.samples.push((ink, sample)),
+        None => entries.push(Entry {
+            name: name.clone(),
+            samples: vec![(ink, sample)],
+        }),
     }
 }

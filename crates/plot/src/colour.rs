@@ -155,10 +155,11 @@ impl Shades {
         };
         let place = share * (colours.len() - 1) as f64;
         let index = (place as usize).min(colours.len() - 2);
-        let (from, to) = (colours[index], colours[index + 1]);
+        let fraction = place - index as f64;
         std::array::from_fn(|channel| {
-            let (from, to) = (f64::from(from[channel]), f64::from(to[channel]));
-            (from + (to - from) * (place - index as f64)).round() as u8
+            let from = f64::from(colours[index][channel]);
+            let to = f64::from(colours[index + 1][channel]);
+            (from + (to - from) * fraction).round() as u8
         })
     }
 }

@@ -3,6 +3,21 @@
 /// Point in coordinates of the grid.
 type Point = (f64, f64);
 
+/// Corner of a square of the grid.
+#[derive(Clone, Copy)]
+struct Corner {
+    x: f64,
+    y: f64,
+    /// Value of the field less the level.
+    excess: f64,
+}
+
+impl Corner {
+    fn is_low(self) -> bool {
+        self.excess < 0.0
+    }
+}
+
 /// Returns straight pieces of the line on which a field has the value `level`. The field is
 /// interpolated linearly along the edges of the grid, and pieces meet at their ends. A square with
 /// a missing corner has no piece. In a square that the line crosses twice, the mean of the corners
@@ -16,52 +31,66 @@ pub(super) fn contour(
     let mut pieces = Vec::new();
     for row in 1..up.len() {
         for column in 1..across.len() {
-            let corner = |dx: usize, dy: usize| {
-                let (column, row) = (column - 1 + dx, row - 1 + dy);
+            let corner = |column: usize, row: usize| {
                 let value = *field.get(row * across.len() + column)?;
-                Some((across[column], up[row], value? - level))
+                Some(Corner {
+                    x: across[column],
+                    y: up[row],
+                    excess: value? - level,
+                })
             };
             // Around the square, so that neighbours share an edge.
-            let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(dx, dy)| corner(dx, dy));
-            let [Some(a), Some(b), Some(c), Some(d)] = corners else {
-                continue;
-            };
-            let square = [a, b, c, d];
-            let cuts: Vec<(usize, Point)> = (0..4)
-                .filter_map(|edge| Some((edge, cut(square[edge], square[(edge + 1) % 4])?)))
-                .collect();
-            match cuts.as_slice() {
-                [(_, from), (_, to)] => pieces.push([*from, *to]),
-                [(_, south), (_, east), (_, north), (_, west)] => {
-                    let middle = square.iter().map(|corner| corner.2).sum::<f64>();
-                    // The corners on the side of the mean are connected.
-                    if (middle < 0.0) == (square[0].2 < 0.0) {
-                        pieces.extend([[*south, *east], [*north, *west]]);
-                    } else {
-                        pieces.extend([[*west, *south], [*east, *north]]);
-                    }
-                }
-                _ => {}
+            let corners = [
+                corner(column - 1, row - 1),
+                corner(column, row - 1),
+                corner(column, row),
+                corner(column - 1, row),
+            ];
+            if let [Some(a), Some(b), Some(c), Some(d)] = corners {
+                add_pieces(&mut pieces, [a, b, c, d]);
             }
         }
     }
     pieces
 }
 
-fn cut(from: (f64, f64, f64), to: (f64, f64, f64)) -> Option<Point> {
-    ((from.2 < 0.0) != (to.2 < 0.0)).then(|| {
-        // Always from the lower corner, so that two squares compute the same point to the last bit.
-        let (low, high) = if from.2 < to.2 {
-            (from, to)
-        } else {
-            (to, from)
-        };
-        let share = low.2 / (low.2 - high.2);
-        (
-            low.0 + (high.0 - low.0) * share,
-            low.1 + (high.1 - low.1) * share,
-        )
-    })
+/// Adds the pieces of the line inside a square.
+fn add_pieces(pieces: &mut Vec<[Point; 2]>, square: [Corner; 4]) {
+    let [a, b, c, d] = square;
+    let cuts: Vec<Point> = [cut(a, b), cut(b, c), cut(c, d), cut(d, a)]
+        .into_iter()
+        .flatten()
+        .collect();
+    match cuts[..] {
+        [from, to] => pieces.push([from, to]),
+        [south, east, north, west] => {
+            let sum = square.iter().map(|corner| corner.excess).sum::<f64>();
+            // The corners on the side of the mean are connected.
+            if (sum < 0.0) == a.is_low() {
+                pieces.extend([[south, east], [north, west]]);
+            } else {
+                pieces.extend([[west, south], [east, north]]);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Returns the point at which the line cuts the edge between two corners; `None` if it does not.
+fn cut(from: Corner, to: Corner) -> Option<Point> {
+    if from.is_low() == to.is_low() {
+        return None;
+    }
+    // Always from the lower corner, so that two squares compute the same point to the last bit.
+    let (low, high) = if from.excess < to.excess {
+        (from, to)
+    } else {
+        (to, from)
+    };
+    let share = low.excess / (low.excess - high.excess);
+    let x = low.x + (high.x - low.x) * share;
+    let y = low.y + (high.y - low.y) * share;
+    Some((x, y))
 }
 
 #[cfg(test)]

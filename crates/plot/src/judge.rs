@@ -7,27 +7,26 @@ use roxmltree::Document;
 /// the document. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
-    let tag = |element: roxmltree::Node<'_, '_>| {
-        let tag = svg[element.range()].split('>').next().unwrap_or_default();
-        tag.trim_start_matches('<').trim_end_matches('/').to_owned()
-    };
-    let elements = document
-        .descendants()
-        .filter(roxmltree::Node::is_element)
-        .map(tag)
-        .collect();
-    let text = document
-        .descendants()
-        .filter(roxmltree::Node::is_text)
-        .filter_map(|node| node.text());
-    (elements, text.collect())
+    let mut elements = Vec::new();
+    let mut text = String::new();
+    for node in document.descendants() {
+        if node.is_element() {
+            let tag = svg[node.range()].split('>').next().unwrap_or_default();
+            let tag = tag.trim_start_matches('<').trim_end_matches('/');
+            elements.push(tag.to_owned());
+        } else if node.is_text() {
+            text += node.text().unwrap_or_default();
+        }
+    }
+    (elements, text)
 }
 
 /// Returns the elements of an SVG document whose tag has this name, such as `rect`, each with its
 /// attributes.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
-    let is_kind = |element: &String| element.split(' ').next() == Some(tag);
-    parsed(svg).0.into_iter().filter(is_kind).collect()
+    let (mut elements, _) = parsed(svg);
+    elements.retain(|element| element.split(' ').next() == Some(tag));
+    elements
 }
 
 /// Asserts that all numbers of an SVG document are finite, and that its texts lie within the
@@ -35,57 +34,87 @@ pub fn elements(svg: &str, tag: &str) -> Vec<String> {
 pub fn check_picture(svg: &str) {
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     let paper = &elements(svg, "rect")[0];
-    let size = (attribute(paper, "width"), attribute(paper, "height"));
-    let mut boxes: Vec<[f64; 4]> = Vec::new();
-    for (element, rest) in svg
-        .split("<text")
-        .skip(1)
-        .map(|rest| rest.split_once('>').unwrap())
-    {
-        let words = rest.split("</text>").next().unwrap_or_default();
-        let plain: String = words
-            .split('<')
-            .map(|part| part.rsplit('>').next().unwrap_or(""))
-            .collect();
-        let plain = plain
-            .replace("&lt;", "<")
-            .replace("&gt;", ">")
-            .replace("&quot;", "\"")
-            .replace("&amp;", "&");
-        let [x, y, height] = ["x", "y", "font-size"].map(|name| attribute(element, name));
-        let width = 0.9 * Label::plain(plain.trim()).width() * height;
-        let left = match () {
-            () if element.contains("\"middle\"") => x - width / 2.0,
-            () if element.contains("\"end\"") => x - width,
-            () => x,
-        };
-        let (middle, half) = (y - 0.35 * height, 0.4 * height);
-        let place = match element.contains("rotate") {
-            true => [
-                x - half,
-                middle - width / 2.0,
-                x + half,
-                middle + width / 2.0,
-            ],
-            false => [left, middle - half, left + width, middle + half],
-        };
-        let is_inside = place[0] > 0.0 && place[1] > 0.0 && place[2] < size.0 && place[3] < size.1;
-        assert!(is_inside, "{plain}: {place:?} {size:?}");
-        let is_over = |other: &&[f64; 4]| {
-            place[0] < other[2] && other[0] < place[2] && place[1] < other[3] && other[1] < place[3]
-        };
-        assert_eq!(boxes.iter().find(is_over), None, "{plain}: {place:?}");
+    let width = attribute(paper, "width");
+    let height = attribute(paper, "height");
+    let mut boxes: Vec<TextBox> = Vec::new();
+    for text in svg.split("<text").skip(1) {
+        let (element, rest) = text.split_once('>').unwrap();
+        let words = plain_words(rest.split("</text>").next().unwrap_or_default());
+        let place = TextBox::new(element, &words);
+        let is_inside =
+            place.left > 0.0 && place.top > 0.0 && place.right < width && place.bottom < height;
+        assert!(is_inside, "{words}: {place:?} {width} {height}");
+        let other = boxes.iter().find(|other| place.overlaps(other));
+        assert_eq!(other, None, "{words}: {place:?}");
         boxes.push(place);
+    }
+}
+
+/// Returns the words of a text element without its tags.
+fn plain_words(elements: &str) -> String {
+    let words: String = elements
+        .split('<')
+        .map(|part| part.rsplit('>').next().unwrap_or(""))
+        .collect();
+    words
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&quot;", "\"")
+        .replace("&amp;", "&")
+}
+
+/// Approximate extent of a text in px.
+#[derive(Debug, PartialEq)]
+struct TextBox {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+impl TextBox {
+    fn new(element: &str, words: &str) -> TextBox {
+        let x = attribute(element, "x");
+        let size = attribute(element, "font-size");
+        let middle = attribute(element, "y") - 0.35 * size;
+        let width = 0.9 * Label::plain(words.trim()).width() * size;
+        let half = 0.4 * size;
+        if element.contains("rotate") {
+            return TextBox {
+                left: x - half,
+                top: middle - width / 2.0,
+                right: x + half,
+                bottom: middle + width / 2.0,
+            };
+        }
+        let left = if element.contains("\"middle\"") {
+            x - width / 2.0
+        } else if element.contains("\"end\"") {
+            x - width
+        } else {
+            x
+        };
+        TextBox {
+            left,
+            top: middle - half,
+            right: left + width,
+            bottom: middle + half,
+        }
+    }
+
+    fn overlaps(&self, other: &TextBox) -> bool {
+        let overlaps_across = self.left < other.right && other.left < self.right;
+        let overlaps_down = self.top < other.bottom && other.top < self.bottom;
+        overlaps_across && overlaps_down
     }
 }
 
 /// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the
 /// texts that [`elements`] returns. Returns NaN if the attribute is missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
-    let value = element
-        .split_once(&format!(" {name}=\""))
-        .and_then(|(_, rest)| rest.split('"').next());
-    value
-        .and_then(|value| value.parse().ok())
-        .unwrap_or(f64::NAN)
+    let Some((_, rest)) = element.split_once(&format!(" {name}=\"")) else {
+        return f64::NAN;
+    };
+    let value = rest.split('"').next().unwrap_or_default();
+    value.parse().unwrap_or(f64::NAN)
 }

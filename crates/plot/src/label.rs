@@ -3,8 +3,9 @@
 use asperity_data::{format_rounded, grouped, printable, si_prefix};
 use std::fmt;
 
-/// Powers of ten of the smallest and the largest SI prefix on an axis: femto and giga.
+/// Power of ten of the smallest SI prefix on an axis, femto.
 const LEAST_POWER: i32 = -15;
+/// Power of ten of the largest SI prefix on an axis, giga.
 const LARGEST_POWER: i32 = 9;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +89,6 @@ impl Label {
         }
     }
 
-    /// Creates the label of ten to the power of `exponent`.
     pub fn power_of_ten(exponent: i32) -> Label {
         let mut label = Label::plain("10");
         label.push(Face::Exponent, &exponent.to_string());
@@ -101,16 +101,13 @@ impl Label {
         self
     }
 
-    /// Appends another label.
     pub fn join(mut self, other: &Label) -> Label {
-        other
-            .runs
-            .iter()
-            .for_each(|(face, text)| self.push(*face, text));
+        for (face, text) in &other.runs {
+            self.push(*face, text);
+        }
         self
     }
 
-    /// Returns true for a label without characters.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
@@ -130,40 +127,21 @@ impl Label {
     /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above
     /// `most`.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
-        let all = self
-            .runs
-            .iter()
-            .flat_map(|(face, text)| text.chars().map(move |c| (*face, c)));
-        let (mut lines, mut line, mut width) = (Vec::new(), Vec::new(), 0.0);
-        for (face, character) in all {
-            line.push((face, character));
-            width += width_of(face, character);
-            if width > most && line.len() > 1 {
-                let last = |blank| line.iter().rposition(|(_, character)| *character == blank);
-                let blank = last(' ').or_else(|| last(FIXED));
-                let rest = line.split_off(blank.map_or(line.len() - 1, |blank| blank + 1));
-                lines.push(std::mem::replace(&mut line, rest));
-                width = line
-                    .iter()
-                    .map(|(face, character)| width_of(*face, *character))
-                    .sum();
+        let mut lines = Vec::new();
+        let mut line = Line::default();
+        for (face, text) in &self.runs {
+            for character in text.chars() {
+                line.push(*face, character);
+                if line.width > most && line.letters.len() > 1 {
+                    let rest = line.split_off_rest();
+                    lines.push(std::mem::replace(&mut line, rest));
+                }
             }
         }
         lines.push(line);
-        let label = |line: Vec<(Face, char)>| {
-            let mut label = Label::default();
-            let end = line
-                .iter()
-                .rposition(|(_, character)| ![' ', FIXED].contains(character))
-                .map_or(0, |last| last + 1);
-            line[..end]
-                .iter()
-                .for_each(|(face, c)| label.push(*face, c.encode_utf8(&mut [0; 4])));
-            label
-        };
         lines
             .into_iter()
-            .map(label)
+            .map(Line::into_label)
             .filter(|line| !line.is_empty())
             .collect()
     }
@@ -174,6 +152,51 @@ impl Label {
             _ if text.is_empty() => {}
             _ => self.runs.push((face, text.to_owned())),
         }
+    }
+}
+
+/// Letters of a line while a label is divided, and their width in units of the font size.
+#[derive(Default)]
+struct Line {
+    letters: Vec<(Face, char)>,
+    width: f64,
+}
+
+impl Line {
+    fn push(&mut self, face: Face, character: char) {
+        self.letters.push((face, character));
+        self.width += width_of(face, character);
+    }
+
+    /// Removes the letters after the last blank, or the last letter of a line without a blank, and
+    /// returns them as a new line. A fixed blank is used only if there is no other one.
+    fn split_off_rest(&mut self) -> Line {
+        let last = |blank: char| {
+            let is_blank = |(_, character): &(Face, char)| *character == blank;
+            self.letters.iter().rposition(is_blank)
+        };
+        let end = match last(' ').or_else(|| last(FIXED)) {
+            Some(blank) => blank + 1,
+            None => self.letters.len() - 1,
+        };
+        let letters = self.letters.split_off(end);
+        let width = letters
+            .iter()
+            .map(|(face, character)| width_of(*face, *character))
+            .sum();
+        Line { letters, width }
+    }
+
+    /// Returns the label of the line without the blanks at its end.
+    fn into_label(mut self) -> Label {
+        while let Some((_, ' ' | FIXED)) = self.letters.last() {
+            self.letters.pop();
+        }
+        let mut label = Label::default();
+        for (face, character) in self.letters {
+            label.push(face, character.encode_utf8(&mut [0; 4]));
+        }
+        label
     }
 }
 
@@ -189,9 +212,11 @@ impl fmt::Display for Label {
             match face {
                 Face::Upright | Face::Italic => out.write_str(&text.replace(FIXED, " "))?,
                 Face::Index => write!(out, "_{text}")?,
-                Face::Exponent => text
-                    .chars()
-                    .try_for_each(|c| write!(out, "{}", raised(c)))?,
+                Face::Exponent => {
+                    for character in text.chars() {
+                        write!(out, "{}", raised(character))?;
+                    }
+                }
             }
         }
         Ok(())
@@ -201,23 +226,23 @@ impl fmt::Display for Label {
 /// Size of indices and exponents, in units of the font size.
 pub(crate) const SMALL: f64 = 0.72;
 
+/// Returns the width of a character divided by the font size, for a wide sans-serif font.
 fn width_of(face: Face, character: char) -> f64 {
-    let share = if matches!(face, Face::Index | Face::Exponent) {
-        SMALL
-    } else {
-        1.0
+    let width = match character {
+        'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
+        't' | 'f' | 'r' | '(' | ')' => 0.4,
+        'm' | 'w' | 'M' | 'W' => 0.95,
+        '=' | '+' | '±' | '×' => 0.84,
+        letter if letter.is_uppercase() => 0.72,
+        _ => 0.636,
     };
-    share
-        * match character {
-            'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
-            't' | 'f' | 'r' | '(' | ')' => 0.4,
-            'm' | 'w' | 'M' | 'W' => 0.95,
-            '=' | '+' | '±' | '×' => 0.84,
-            c if c.is_uppercase() => 0.72,
-            _ => 0.636,
-        }
+    match face {
+        Face::Index | Face::Exponent => SMALL * width,
+        Face::Upright | Face::Italic => width,
+    }
 }
 
+/// Returns a digit or a minus sign as a superscript.
 fn raised(character: char) -> char {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     match character {
@@ -232,10 +257,9 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
     }
-    if !(["N", "m", "J", "Pa", "J/m²", "N/m", "N/m²", "s"].contains(&unit)
-        && largest > 0.0
-        && largest.is_finite())
-    {
+    let has_prefixes = ["N", "m", "J", "Pa", "J/m²", "N/m", "N/m²", "s"].contains(&unit);
+    let is_positive = largest > 0.0 && largest.is_finite();
+    if !has_prefixes || !is_positive {
         return (1.0, unit.into());
     }
     // 999.9999999 nm is 1 µm.
@@ -249,37 +273,33 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
-    let zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
+    let is_zero = text.chars().all(|digit| matches!(digit, '0' | '.'));
+    let sign = if value < 0.0 && !is_zero { "-" } else { "" };
     let (whole, fraction) = text.split_at(text.find('.').unwrap_or(text.len()));
     let whole = whole.parse().map_or_else(|_| whole.to_owned(), grouped);
-    format!(
-        "{}{whole}{fraction}",
-        if value < 0.0 && !zero { "-" } else { "" }
-    )
+    format!("{sign}{whole}{fraction}")
 }
 
 /// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a
 /// symbol, or `preload 12.5 µN` if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
-    statement(
-        name,
-        symbol,
-        &if is_count {
-            grouped(value as u64)
-        } else {
-            format_rounded(value, 3, unit)
-        },
-    )
+    let text = if is_count {
+        grouped(value as u64)
+    } else {
+        format_rounded(value, 3, unit)
+    };
+    statement(name, symbol, &text)
 }
 
 /// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or
 /// `Hurst exponent 0.3` if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
-    match symbol {
-        "" => Label::plain(name).then(&format!("{FIXED}{value}")),
-        symbol => Label::symbol(symbol).then(&format!("{FIXED}={FIXED}{value}")),
+    if symbol.is_empty() {
+        Label::plain(name).then(&format!("{FIXED}{value}"))
+    } else {
+        Label::symbol(symbol).then(&format!("{FIXED}={FIXED}{value}"))
     }
 }
 

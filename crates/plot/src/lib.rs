@@ -1,5 +1,4 @@
 #![forbid(unsafe_code)]
-#![warn(missing_docs)]
 #![doc = include_str!("../README.md")]
 
 mod axis;

@@ -40,7 +40,8 @@ impl Figure {
 }
 
 fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
-    let [width, height] = [tree.size().width(), tree.size().height()].map(|side| POINTS * side);
+    let width = POINTS * tree.size().width();
+    let height = POINTS * tree.size().height();
     let mut page = Page {
         content: Content::new(),
         opacities: BTreeSet::new(),
@@ -52,15 +53,17 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     page.group(tree.root(), Transform::identity());
     let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
     packed.write_all(page.content.finish().as_slice())?;
-    let [catalog, pages, only, stream, info] = [1, 2, 3, 4, 5].map(Ref::new);
+    let [catalog_ref, pages_ref, page_ref, stream_ref, info_ref] = [1, 2, 3, 4, 5].map(Ref::new);
+    let first_of_fonts = info_ref.get() + 1;
     let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(pages);
-    pdf.pages(pages).kids([only]).count(1);
-    let mut one = pdf.page(only);
-    one.media_box(Rect::new(0.0, 0.0, width, height))
-        .parent(pages)
-        .contents(stream);
-    let mut resources = one.resources();
+    pdf.catalog(catalog_ref).pages(pages_ref);
+    pdf.pages(pages_ref).kids([page_ref]).count(1);
+    let mut page_object = pdf.page(page_ref);
+    page_object
+        .media_box(Rect::new(0.0, 0.0, width, height))
+        .parent(pages_ref)
+        .contents(stream_ref);
+    let mut resources = page_object.resources();
     let mut states = resources.ext_g_states();
     for percent in page.opacities {
         let name = state(percent);
@@ -70,22 +73,19 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
         opacity.non_stroking_alpha(f32::from(percent) / 100.0);
     }
     states.finish();
-    let first = info.get() + 1;
     let mut fonts = resources.fonts();
     for (index, font) in page.fonts.iter().enumerate() {
-        fonts.pair(
-            Name(font.name(index).as_bytes()),
-            font.reference(first, index),
-        );
+        let reference = font.reference(first_of_fonts, index);
+        fonts.pair(Name(font.name(index).as_bytes()), reference);
     }
     fonts.finish();
     resources.finish();
-    one.finish();
-    pdf.stream(stream, &packed.finish()?)
+    page_object.finish();
+    pdf.stream(stream_ref, &packed.finish()?)
         .filter(Filter::FlateDecode);
-    pdf.document_info(info).title(TextStr(title));
+    pdf.document_info(info_ref).title(TextStr(title));
     for (index, font) in page.fonts.iter().enumerate() {
-        font.write(&mut pdf, first, index)?;
+        font.write(&mut pdf, first_of_fonts, index)?;
     }
     Ok(pdf.finish())
 }
@@ -96,6 +96,27 @@ struct Page<'a> {
     opacities: BTreeSet<u8>,
     letters: &'a Database,
     fonts: Vec<PdfFont>,
+}
+
+/// Matrix of the first glyph of a run, whose base line and font size the run has.
+#[derive(Clone, Copy)]
+struct RunStart {
+    matrix: Transform,
+    size: f32,
+}
+
+impl RunStart {
+    /// Returns the distance of a glyph with this matrix along the line, in units of the font size;
+    /// `None` for a glyph beside the line, or of another size or direction.
+    fn distance_to(self, matrix: Transform) -> Option<f32> {
+        let begin = self.matrix;
+        let dx = (matrix.tx - begin.tx) / self.size;
+        let dy = (matrix.ty - begin.ty) / self.size;
+        let across = dx * begin.ky - dy * begin.sx;
+        let along = dx * begin.sx + dy * begin.ky;
+        let is_alike = (matrix.sx - begin.sx).hypot(matrix.ky - begin.ky) < SAME * self.size;
+        (is_alike && across.abs() < SAME * self.size).then(|| along / self.size)
+    }
 }
 
 impl Page<'_> {
@@ -134,39 +155,33 @@ impl Page<'_> {
                 return;
             };
             let em = self.fonts[index].units_per_em();
-            let place = |glyph: &PositionedGlyph| {
-                to_page
-                    .pre_concat(glyph.outline_transform())
-                    .pre_concat(Transform::from_scale(em, em))
+            let start_matrix = glyph_matrix(first, to_page, em);
+            let start = RunStart {
+                matrix: start_matrix,
+                size: start_matrix.sx.hypot(start_matrix.ky),
             };
-            let begin = place(first);
-            let size = begin.sx.hypot(begin.ky);
-            // Distance along the line from the first glyph, in units of the font size; `None` for a
-            // glyph beside the line.
-            let along = |glyph: &PositionedGlyph| {
-                let at = place(glyph);
-                let (dx, dy) = ((at.tx - begin.tx) / size, (at.ty - begin.ty) / size);
-                let (across, along) =
-                    (dx * begin.ky - dy * begin.sx, dx * begin.sx + dy * begin.ky);
-                let is_alike = (at.sx - begin.sx).hypot(at.ky - begin.ky) < SAME * size;
-                (glyph.font == first.font && is_alike && across.abs() < SAME * size)
-                    .then(|| along / size)
-            };
-            let distances: Vec<f32> = rest.iter().map_while(along).collect();
+            let mut distances: Vec<f32> = Vec::new();
+            for glyph in rest {
+                let distance = start.distance_to(glyph_matrix(glyph, to_page, em));
+                match distance {
+                    Some(distance) if glyph.font == first.font => distances.push(distance),
+                    _ => break,
+                }
+            }
             let (run, next) = rest.split_at(distances.len().max(1));
             let font = &mut self.fonts[index];
             self.content
                 .set_font(Name(font.name(index).as_bytes()), 1.0)
-                .set_text_matrix(matrix(begin));
+                .set_text_matrix(matrix(start.matrix));
             let mut shown = self.content.show_positioned();
             let mut items = shown.items();
             let mut reached = 0.0;
-            for (glyph, at) in run.iter().zip(distances) {
+            for (glyph, distance) in run.iter().zip(distances) {
                 // In thousandths, to the left.
-                let adjusted = 1000.0 * (reached - at);
+                let adjusted = 1000.0 * (reached - distance);
                 if adjusted.abs() > 0.5 {
                     items.adjust(adjusted);
-                    reached = at;
+                    reached = distance;
                 }
                 reached += font.show(&mut items, glyph.id.0, &glyph.text) / 1000.0;
             }
@@ -187,7 +202,8 @@ impl Page<'_> {
         self.content.save_state().transform(matrix(to_page));
         // Figures have plain colours alone.
         if let Some((fill, Paint::Color(colour))) = path.fill().map(|fill| (fill, fill.paint())) {
-            let ([red, green, blue], opacity) = (rgb(*colour), fill.opacity().get());
+            let [red, green, blue] = rgb(*colour);
+            let opacity = fill.opacity().get();
             self.content
                 .set_fill_rgb(red, green, blue)
                 .set_stroke_rgb(red, green, blue);
@@ -234,13 +250,13 @@ impl Page<'_> {
                     // The cubic curve of the same shape.
                     let near =
                         |end: Point| (end.x + (by.x - end.x) / 1.5, end.y + (by.y - end.y) / 1.5);
-                    let (one, other) = (near(last), near(to));
-                    self.content
-                        .cubic_to(one.0, one.1, other.0, other.1, to.x, to.y)
+                    let (x1, y1) = near(last);
+                    let (x2, y2) = near(to);
+                    self.content.cubic_to(x1, y1, x2, y2, to.x, to.y)
                 }
-                PathSegment::CubicTo(one, other, to) => self
+                PathSegment::CubicTo(first, second, to) => self
                     .content
-                    .cubic_to(one.x, one.y, other.x, other.y, to.x, to.y),
+                    .cubic_to(first.x, first.y, second.x, second.y, to.x, to.y),
                 PathSegment::Close => self.content.close_path(),
             };
             if let PathSegment::MoveTo(to)
@@ -255,6 +271,14 @@ impl Page<'_> {
     }
 }
 
+/// Returns the matrix from the em square of a glyph to the page.
+fn glyph_matrix(glyph: &PositionedGlyph, to_page: Transform, em: f32) -> Transform {
+    to_page
+        .pre_concat(glyph.outline_transform())
+        .pre_concat(Transform::from_scale(em, em))
+}
+
+/// Returns the name of an opacity.
 fn state(percent: u8) -> String {
     format!("o{percent}")
 }
@@ -263,8 +287,16 @@ fn rgb(colour: Color) -> [f32; 3] {
     [colour.red, colour.green, colour.blue].map(|part| f32::from(part) / 255.0)
 }
 
-fn matrix(of: Transform) -> [f32; 6] {
-    [of.sx, of.ky, of.kx, of.sy, of.tx, of.ty]
+fn matrix(transform: Transform) -> [f32; 6] {
+    let Transform {
+        sx,
+        kx,
+        ky,
+        sy,
+        tx,
+        ty,
+    } = transform;
+    [sx, ky, kx, sy, tx, ty]
 }
 
 #[cfg(test)]

@@ -30,15 +30,22 @@ pub(super) struct PdfFont {
     is_italic: bool,
     data: Vec<u8>,
     units_per_em: f32,
-    /// Shown glyphs, each with its width in thousandths of the font size and its letters.
-    glyphs: BTreeMap<u16, (f32, String)>,
+    /// Shown glyphs by their numbers.
+    glyphs: BTreeMap<u16, ShownGlyph>,
+}
+
+struct ShownGlyph {
+    /// Width in thousandths of the font size.
+    width: f32,
+    letters: String,
 }
 
 impl PdfFont {
     /// Reads a font from the fonts of a document; `None` if it cannot be read.
     pub(super) fn new(fonts: &Database, id: ID) -> Option<PdfFont> {
         let face = fonts.face(id)?;
-        let (name, is_italic) = (face.post_script_name.clone(), face.style != Style::Normal);
+        let name = face.post_script_name.clone();
+        let is_italic = face.style != Style::Normal;
         let data = fonts.with_face_data(id, |data, _| data.to_vec())?;
         let units_per_em = f32::from(Face::parse(&data, 0).ok()?.units_per_em());
         Some(PdfFont {
@@ -79,22 +86,20 @@ impl PdfFont {
         letters: &str,
     ) -> f32 {
         items.show(Str(&glyph.to_be_bytes()));
-        let PdfFont {
-            glyphs,
-            data,
-            units_per_em,
-            ..
-        } = self;
-        let advance = || {
-            Face::parse(data, 0)
-                .ok()
-                .and_then(|face| face.glyph_hor_advance(GlyphId(glyph)))
-        };
-        let width = || 1000.0 * f32::from(advance().unwrap_or(0)) / *units_per_em;
-        glyphs
-            .entry(glyph)
-            .or_insert_with(|| (width(), letters.to_owned()))
-            .0
+        if let Some(shown) = self.glyphs.get(&glyph) {
+            return shown.width;
+        }
+        let width = self.width(glyph);
+        let letters = letters.to_owned();
+        self.glyphs.insert(glyph, ShownGlyph { width, letters });
+        width
+    }
+
+    /// Returns the width of a glyph in thousandths of the font size.
+    fn width(&self, glyph: u16) -> f32 {
+        let face = Face::parse(&self.data, 0).ok();
+        let advance = face.and_then(|face| face.glyph_hor_advance(GlyphId(glyph)));
+        1000.0 * f32::from(advance.unwrap_or(0)) / self.units_per_em
     }
 
     /// Writes the objects of the font.
@@ -117,14 +122,18 @@ impl PdfFont {
             .font_descriptor(descriptor);
         font.cid_to_gid_map_predefined(Name(b"Identity"));
         let mut widths = font.widths();
-        for (glyph, (width, _)) in &self.glyphs {
-            widths.same(*glyph, *glyph, *width);
+        for (glyph, shown) in &self.glyphs {
+            widths.same(*glyph, *glyph, shown.width);
         }
         widths.finish();
         font.finish();
         let bounds = face.global_bounding_box();
-        let [left, bottom, right, top] =
-            [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(scaled);
+        let bounding_box = Rect::new(
+            scaled(bounds.x_min),
+            scaled(bounds.y_min),
+            scaled(bounds.x_max),
+            scaled(bounds.y_max),
+        );
         let style = if self.is_italic {
             FontFlags::ITALIC
         } else {
@@ -133,7 +142,7 @@ impl PdfFont {
         pdf.font_descriptor(descriptor)
             .name(name)
             .flags(FontFlags::SYMBOLIC | style)
-            .bbox(Rect::new(left, bottom, right, top))
+            .bbox(bounding_box)
             .italic_angle(face.italic_angle())
             .ascent(scaled(face.ascender()))
             .descent(scaled(face.descender()))
@@ -141,8 +150,8 @@ impl PdfFont {
             .stem_v(STEM)
             .font_file2(file);
         let mut cmap = UnicodeCmap::new(Name(b"Letters"), IDENTITY);
-        for (glyph, (_, letters)) in &self.glyphs {
-            cmap.pair_with_multiple(*glyph, letters.chars());
+        for (glyph, shown) in &self.glyphs {
+            cmap.pair_with_multiple(*glyph, shown.letters.chars());
         }
         pdf.cmap(letters, cmap.finish().as_slice());
         let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());

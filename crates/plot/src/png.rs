@@ -15,8 +15,9 @@ const FONTS: [&[u8]; 2] = [
     include_bytes!("font/sans.ttf"),
     include_bytes!("font/sans-oblique.ttf"),
 ];
-/// Pixels for each px of a document: 2, or 600 per inch for a figure with a given width.
+/// Pixels for each px of a document.
 const SCALE: f32 = 2.0;
+/// Pixels for each px of a figure with a given width, which are 600 per inch.
 const PRINT_SCALE: f32 = 6.25;
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
 /// Number of px of 1/96 inch in a metre.
@@ -29,23 +30,21 @@ impl Figure {
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).
     pub fn png(&self) -> io::Result<Vec<u8>> {
-        png(
-            &self.svg(),
-            if self.width.is_some() {
-                PRINT_SCALE
-            } else {
-                SCALE
-            },
-        )
+        let scale = if self.width.is_some() {
+            PRINT_SCALE
+        } else {
+            SCALE
+        };
+        png(&self.svg(), scale)
     }
 }
 
 /// Converts an SVG document to outlines, in px of 1/96 inch.
 pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();
-    FONTS
-        .iter()
-        .for_each(|font| fonts.load_font_data(font.to_vec()));
+    for font in FONTS {
+        fonts.load_font_data(font.to_vec());
+    }
     let options = Options {
         fontdb: Arc::new(fonts),
         ..Options::default()
@@ -56,16 +55,14 @@ pub(super) fn tree(svg: &str) -> io::Result<Tree> {
 /// Draws an SVG document on white and returns the content of a PNG file.
 fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let tree = tree(svg)?;
-    let [width, height] =
-        [tree.size().width(), tree.size().height()].map(|side| (scale * side).ceil());
-    let is_small = f64::from(width) * f64::from(height) <= MOST_PIXELS;
-    let pixmap = is_small
-        .then(|| Pixmap::new(width as u32, height as u32))
-        .flatten();
-    let mut pixmap = pixmap.ok_or_else(|| {
-        let limit = format!("allowed: at most {MOST_PIXELS} in all; SVG has no limit");
-        io::Error::other(format!("a picture of {width} × {height} pixels; {limit}"))
-    })?;
+    let width = (scale * tree.size().width()).ceil();
+    let height = (scale * tree.size().height()).ceil();
+    if f64::from(width) * f64::from(height) > MOST_PIXELS {
+        return Err(too_many_pixels(width, height));
+    }
+    let Some(mut pixmap) = Pixmap::new(width as u32, height as u32) else {
+        return Err(too_many_pixels(width, height));
+    };
     // The last pixels may be covered in part.
     pixmap.fill(Color::WHITE);
     resvg::render(
@@ -90,6 +87,13 @@ fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
         .collect();
     encoder.write_header()?.write_image_data(&pixels)?;
     Ok(file)
+}
+
+fn too_many_pixels(width: f32, height: f32) -> io::Error {
+    io::Error::other(format!(
+        "a picture of {width} × {height} pixels; allowed: at most {MOST_PIXELS} in all; SVG has no \
+         limit"
+    ))
 }
 
 #[cfg(test)]

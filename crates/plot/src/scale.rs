@@ -6,9 +6,7 @@ use asperity_data::AxisScale;
 /// end is above the lower end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
-    /// Lower end of the range.
     pub low: f64,
-    /// Upper end of the range.
     pub high: f64,
 }
 
@@ -24,10 +22,12 @@ impl Span {
     /// assert!(span.low < 1.0 && span.high > 3.0);
     /// ```
     pub fn around(coordinates: impl Iterator<Item = f64>, room: f64) -> Span {
-        let finite = coordinates.filter(|coordinate| coordinate.is_finite());
-        let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
-            (low.min(at), high.max(at))
-        });
+        let mut low = f64::INFINITY;
+        let mut high = f64::NEG_INFINITY;
+        for coordinate in coordinates.filter(|coordinate| coordinate.is_finite()) {
+            low = low.min(coordinate);
+            high = high.max(coordinate);
+        }
         if low > high {
             return Span {
                 low: 0.0,
@@ -36,10 +36,12 @@ impl Span {
         }
         let width = high - low;
         let largest = low.abs().max(high.abs());
-        let margin = match () {
-            () if width > NO_SPREAD * largest => room * width,
-            () if largest > 0.0 => 0.1 * largest,
-            () => 1.0,
+        let margin = if width > NO_SPREAD * largest {
+            room * width
+        } else if largest > 0.0 {
+            0.1 * largest
+        } else {
+            1.0
         };
         Span {
             low: low - margin,
@@ -84,7 +86,6 @@ impl Span {
         }
     }
 
-    /// Returns the upper end minus the lower end.
     pub fn width(self) -> f64 {
         self.high - self.low
     }

@@ -3,10 +3,10 @@
 use super::label::{Label, number};
 use super::scale::Span;
 use asperity_data::AxisScale;
+use std::ops::RangeInclusive;
 
-/// Smallest and largest coordinate of a logarithmic axis with plain numbers: from about 0.001 to
-/// 10 000.
-const PLAIN: (f64, f64) = (-3.5, 4.5);
+/// Coordinates of a logarithmic axis with plain numbers, from about 0.001 to 10 000.
+const PLAIN: RangeInclusive<f64> = -3.5..=4.5;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tick {
@@ -21,72 +21,90 @@ pub struct Tick {
 /// `least` apart.
 pub(super) fn ticks(
     scale: AxisScale,
-    Span { low, high }: Span,
+    span: Span,
     divisor: f64,
     most: usize,
     least: f64,
 ) -> Vec<Tick> {
+    let Span { low, high } = span;
     if high <= low || !(high - low).is_finite() {
         return Vec::new();
     }
-    let (factor, shift, mut ticks) = match scale {
-        AxisScale::Linear => (
-            divisor,
-            0.0,
-            linear(low / divisor, high / divisor, most, least / divisor),
-        ),
+    match scale {
+        AxisScale::Linear => {
+            let mut ticks = linear(low / divisor, high / divisor, most, least / divisor);
+            for tick in &mut ticks {
+                tick.at *= divisor;
+            }
+            ticks
+        }
         AxisScale::Logarithmic => {
             let shift = divisor.log10();
-            (1.0, shift, logarithmic(low - shift, high - shift, most))
+            let mut ticks = logarithmic(low - shift, high - shift, most);
+            for tick in &mut ticks {
+                tick.at += shift;
+            }
+            ticks
         }
-    };
-    ticks
-        .iter_mut()
-        .for_each(|tick| tick.at = tick.at * factor + shift);
-    ticks
+    }
 }
 
 /// Returns true if a logarithmic axis has plain numbers over a range of coordinates, divided by
 /// `divisor`. Otherwise it has powers of ten.
-pub(super) fn are_plain(Span { low, high }: Span, divisor: f64) -> bool {
+pub(super) fn are_plain(span: Span, divisor: f64) -> bool {
     let shift = divisor.log10();
-    low - shift >= PLAIN.0 && high - shift <= PLAIN.1
+    span.low - shift >= *PLAIN.start() && span.high - shift <= *PLAIN.end()
 }
 
-/// Returns the step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width,
-/// and its number of minor steps.
-fn step_for(width: f64, most: usize) -> (f64, usize) {
+/// Distance of labelled ticks, and number of parts into which minor ticks divide it.
+#[derive(Clone, Copy)]
+struct Step {
+    width: f64,
+    parts: usize,
+}
+
+/// Returns the step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width.
+fn step_for(width: f64, most: usize) -> Step {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());
-    let (factor, between) = [(1.0, 5), (2.0, 4), (5.0, 5), (10.0, 5)]
-        .into_iter()
-        .find(|(factor, _)| factor * power >= 0.8 * least)
-        .unwrap_or((10.0, 5));
-    (factor * power, between)
+    for (factor, parts) in [(1.0, 5), (2.0, 4), (5.0, 5)] {
+        if factor * power >= 0.8 * least {
+            return Step {
+                width: factor * power,
+                parts,
+            };
+        }
+    }
+    Step {
+        width: 10.0 * power,
+        parts: 5,
+    }
 }
 
 fn linear(low: f64, high: f64, most: usize, least: f64) -> Vec<Tick> {
-    let (step, between) = match step_for(high - low, most) {
-        (step, _) if step <= least => (least, 1),
-        (step, between) if step < least * between as f64 => (step, (step / least) as usize),
-        wide => wide,
-    };
-    let small = step / between as f64;
-    let hair = 1e-6 * step;
-    let (first, last) = (
-        ((low - hair) / small).ceil() as i64,
-        ((high + hair) / small).floor() as i64,
-    );
-    (first..=last)
-        .map(|index| {
-            let at = index as f64 * small;
-            let large = index.rem_euclid(between as i64) == 0;
-            Tick {
-                at,
-                label: large.then(|| Label::plain(&number(at, step))),
-            }
-        })
-        .collect()
+    let mut step = step_for(high - low, most);
+    if step.width <= least {
+        step = Step {
+            width: least,
+            parts: 1,
+        };
+    } else if step.width < least * step.parts as f64 {
+        step.parts = (step.width / least) as usize;
+    }
+    let small = step.width / step.parts as f64;
+    let hair = 1e-6 * step.width;
+    let first = ((low - hair) / small).ceil() as i64;
+    let last = ((high + hair) / small).floor() as i64;
+    let mut ticks = Vec::new();
+    for index in first..=last {
+        let at = index as f64 * small;
+        let is_labelled = index.rem_euclid(step.parts as i64) == 0;
+        ticks.push(Tick {
+            at,
+            label: is_labelled.then(|| Label::plain(&number(at, step.width))),
+        });
+    }
+    ticks
 }
 
 fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
@@ -104,7 +122,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
         _ => &[1],
     };
     let every = whole.div_ceil(most.max(1)).max(1) as i32;
-    let powers = !are_plain(Span { low, high }, 1.0);
+    let is_plain = are_plain(Span { low, high }, 1.0);
     let mut ticks = Vec::new();
     for decade in decades {
         for digit in 1..10_i32 {
@@ -112,20 +130,10 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             if !inside(at) {
                 continue;
             }
-            let shown = labelled.contains(&digit) && decade.rem_euclid(every) == 0;
-            let label = || match (powers, digit) {
-                (true, 1) => Label::power_of_ten(decade),
-                (true, digit) => {
-                    Label::plain(&format!("{digit}·")).join(&Label::power_of_ten(decade))
-                }
-                (false, digit) => Label::plain(&number(
-                    f64::from(digit) * 10_f64.powi(decade),
-                    10_f64.powi(decade),
-                )),
-            };
+            let is_labelled = labelled.contains(&digit) && decade.rem_euclid(every) == 0;
             ticks.push(Tick {
                 at,
-                label: shown.then(label),
+                label: is_labelled.then(|| logarithmic_label(digit, decade, is_plain)),
             });
         }
     }
@@ -141,6 +149,20 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             .collect();
     }
     ticks
+}
+
+/// Returns the label of a digit from 1 to 9 times a power of ten.
+fn logarithmic_label(digit: i32, decade: i32, is_plain: bool) -> Label {
+    if is_plain {
+        let power = 10_f64.powi(decade);
+        return Label::plain(&number(f64::from(digit) * power, power));
+    }
+    let power = Label::power_of_ten(decade);
+    if digit == 1 {
+        power
+    } else {
+        Label::plain(&format!("{digit}·")).join(&power)
+    }
 }
 
 #[cfg(test)]

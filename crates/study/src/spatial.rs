@@ -243,7 +243,7 @@ impl Body {
         watch: Watch<'a>,
     ) -> Result<Loop<'a>, StudyError> {
         let [closing, opening] = works;
-        let body = AdhesiveSquare::new(&self.square(heights), (opening, closing))?;
+        let body = AdhesiveSquare::new(&self.square(heights), opening, closing)?;
         Ok(Loop::begin(body, watch)?)
     }
 

@@ -5,6 +5,7 @@ use crate::chart::{Chart, Entry, Sample, Stroke};
 use crate::label::Label;
 use ratatui::text::Span as Text;
 
+/// Returns the left, middle and right character of a sample of a line.
 fn strokes(stroke: Stroke) -> [&'static str; 3] {
     match stroke {
         Stroke::Solid => ["⠒"; 3],
@@ -32,19 +33,10 @@ fn text_of(sample: Sample) -> String {
 /// Returns the entries of the legend of these charts for a terminal. An entry is a list of coloured
 /// texts: samples of the lines, areas or markers of this name, and at the end the name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
-    // Cells of a map hold letters of their classes.
-    let classes = || {
-        charts
-            .iter()
-            .filter_map(Chart::map)
-            .flat_map(|map| &map.class_names)
-    };
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
+        let letter = letter_of_class(charts, &entry.name);
         let mut part: Vec<Text<'static>> = Vec::new();
-        let letter = classes()
-            .find(|class| Label::plain(&class.name) == entry.name)
-            .and_then(|class| class.letter);
         for (ink, sample) in entry.samples {
             let text = match (sample, letter) {
                 (Sample::Line(..), Some(letter)) => letter.to_string(),
@@ -58,4 +50,16 @@ pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>
         parts.push(part);
     }
     parts
+}
+
+/// Returns the letter that cells of a map have in place of the marker of this class.
+fn letter_of_class(charts: &[Chart], name: &Label) -> Option<char> {
+    for map in charts.iter().filter_map(Chart::map) {
+        for class in &map.class_names {
+            if Label::plain(&class.name) == *name {
+                return class.letter;
+            }
+        }
+    }
+    None
 }

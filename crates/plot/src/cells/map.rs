@@ -20,21 +20,22 @@ const WITH_LETTER: usize = 3;
 /// the axis.
 pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
-    let value = |cell: u16| {
+    let mut indices = Vec::with_capacity(usize::from(cells));
+    for cell in 0..cells {
         let share = (f64::from(cell) + 0.5) / f64::from(cells);
-        let at = axis.span.low + share * axis.span.width();
-        borders
-            .partition_point(|border| *border <= at)
-            .clamp(1, values.len().max(1))
-            - 1
-    };
-    (0..cells).map(value).collect()
+        let coordinate = axis.span.low + share * axis.span.width();
+        let borders_below = borders.partition_point(|border| *border <= coordinate);
+        indices.push(borders_below.clamp(1, values.len().max(1)) - 1);
+    }
+    indices
 }
 
 /// Returns the range of the screen cells that show the same value as this cell.
 fn run(values: &[usize], cell: usize) -> Range<usize> {
-    let first = |value: usize| values.partition_point(|one| *one < value);
-    first(values[cell])..first(values[cell] + 1)
+    let own = values[cell];
+    let start = values.partition_point(|value| *value < own);
+    let end = values.partition_point(|value| *value <= own);
+    start..end
 }
 
 pub(super) fn draw(
@@ -46,56 +47,59 @@ pub(super) fn draw(
 ) {
     let columns = values_behind(&chart.x, &map.columns, area.width);
     let rows = values_behind(&chart.y, &map.rows, area.height);
-    let cell = |column: usize, row: usize| rows[row] * map.columns.len() + columns[column];
+    let index = |column: usize, row: usize| rows[row] * map.columns.len() + columns[column];
     for (y, up) in (area.y..area.bottom()).zip((0..rows.len()).rev()) {
         for (x, across) in (area.x..).zip(0..columns.len()) {
-            let here = cell(across, up);
+            let here = index(across, up);
             let value = map.values.get(here).copied().flatten();
-            let class = map
-                .classes
-                .get(here)
-                .copied()
-                .flatten()
-                .and_then(|class| map.class_names.get(class));
-            let (mut symbol, looks) = match (value, style.colours) {
-                (None, _) => (" ", Style::new()),
-                (Some(value), Colours::None) => {
-                    let looks = class.map_or_else(Style::new, |class| (style.ink)(class.ink));
-                    (SHADES[step(map.key.share(value))], looks)
-                }
-                (Some(value), colours) => {
-                    let ground = map.colour(value);
-                    (
-                        " ",
-                        Style::new()
-                            .bg(colours.colour(ground))
-                            .fg(colours.colour(ink_on(ground))),
-                    )
-                }
-            };
-            let (wide, high) = (run(&columns, across), run(&rows, up));
+            let class = map.classes.get(here).copied().flatten();
+            let class = class.and_then(|class| map.class_names.get(class));
+            let wide = run(&columns, across);
+            let high = run(&rows, up);
             let is_wide = wide.len() >= WITH_LETTER;
             let is_end = !is_wide || across == wide.start || across + 1 == wide.end;
             let is_middle =
                 across == wide.start + wide.len() / 2 && up == high.start + high.len() / 2;
-            let mut letter = [0; 4];
-            if across + 1 < columns.len() && crosses(map, here, cell(across + 1, up)) {
-                symbol = "▕";
-            } else if up > 0 && is_end && crosses(map, here, cell(across, up - 1)) {
-                symbol = "▁";
-            } else if let Some(Class {
-                letter: Some(of_class),
-                ..
-            }) = class
+            let letter = class.and_then(|class| class.letter);
+            let cell = &mut buffer[(x, y)];
+            cell.set_symbol(shade(map, value, style))
+                .set_style(looks(map, value, class, style));
+            if across + 1 < columns.len() && crosses(map, here, index(across + 1, up)) {
+                cell.set_symbol("▕");
+            } else if up > 0 && is_end && crosses(map, here, index(across, up - 1)) {
+                cell.set_symbol("▁");
+            } else if let Some(letter) = letter
                 && value.is_some()
                 && is_wide
                 && is_middle
             {
-                symbol = of_class.encode_utf8(&mut letter);
+                cell.set_char(letter);
             }
-            buffer[(x, y)].set_symbol(symbol).set_style(looks);
         }
     }
+}
+
+/// Returns the character of a value, which is a blank in a terminal with colours.
+fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static str {
+    match value {
+        Some(value) if style.colours == Colours::None => SHADES[step(map.key.share(value))],
+        _ => " ",
+    }
+}
+
+/// Returns the style of a value: its colours, or the style of its class in a terminal without
+/// colours.
+fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellStyle<'_>) -> Style {
+    let Some(value) = value else {
+        return Style::new();
+    };
+    if style.colours == Colours::None {
+        return class.map_or_else(Style::new, |class| (style.ink)(class.ink));
+    }
+    let ground = map.colour(value);
+    Style::new()
+        .bg(style.colours.colour(ground))
+        .fg(style.colours.colour(ink_on(ground)))
 }
 
 fn step(share: f64) -> usize {
@@ -103,14 +107,16 @@ fn step(share: f64) -> usize {
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
-fn crosses(map: &HeatMap, cell: usize, other: usize) -> bool {
+/// Returns true if the contour lies between two cells.
+fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     let Some(contour) = &map.contour else {
         return false;
     };
-    let below = |cell: usize| Some(contour.field.get(cell).copied().flatten()? < contour.level);
-    below(cell)
-        .zip(below(other))
-        .is_some_and(|(here, there)| here != there)
+    let value = |cell: usize| contour.field.get(cell).copied().flatten();
+    let (Some(first), Some(second)) = (value(first), value(second)) else {
+        return false;
+    };
+    (first < contour.level) != (second < contour.level)
 }
 
 /// Returns the colour scale of a heat map as texts with styles, to be written one after the other.
@@ -128,23 +134,19 @@ pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Styl
             .number(map.key.span.low + share * map.key.span.width());
         format_rounded(value / divisor, 3, "")
     };
-    // Without room for all numbers, only those at the ends are shown.
-    let all = (0..=steps)
-        .map(|step| number(step).chars().count())
-        .sum::<usize>()
-        + 5 * steps
-        <= columns;
+    let width_of_numbers: usize = (0..=steps).map(|step| number(step).chars().count()).sum();
+    let has_all_numbers = width_of_numbers + 5 * steps <= columns;
     let mut parts = vec![(number(0), Style::new())];
     for (step, character) in SHADES.into_iter().enumerate() {
         let colour = map.shades.at((step as f64 + 0.5) / steps as f64);
-        if all || step == 0 {
+        if has_all_numbers || step == 0 {
             parts.push((" ".to_owned(), Style::new()));
         }
         parts.push(match colours {
             Colours::None => (character.repeat(3), Style::new()),
             colours => ("   ".to_owned(), Style::new().bg(colours.colour(colour))),
         });
-        if all || step + 1 == steps {
+        if has_all_numbers || step + 1 == steps {
             parts.push((format!(" {}", number(step + 1)), Style::new()));
         }
     }

@@ -2,29 +2,30 @@
 //! charts can be at the sides.
 
 use super::legend::legend;
-use super::plot::{CellPlot, Name};
+use super::plot::{CellPlot, Name, is_blank};
 use super::style::CellStyle;
 use crate::chart::{Chart, Shape};
 use crate::colour::Ink;
 use asperity_data::format_rounded;
-use ratatui::buffer::{Buffer, Cell};
+use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::text::Span as Text;
 use std::ops::RangeInclusive;
 
 /// Entry of the legend: samples and a name.
 type Entry = Vec<Text<'static>>;
 
-/// Width in columns of a chart beside another chart, including the line between them, and the
-/// smallest width of both.
+/// Width in columns of a chart beside another chart, including the line between them.
 const BESIDE: u16 = 14;
+/// Smallest width in columns of both charts.
 const WITH_BESIDE: u16 = 54;
 /// Largest number of rows for which the scales beside a chart are laid out. The plot has the rows
 /// of the chart.
 const MOST_BESIDE: u16 = 15;
-/// Smallest number of rows of an area with a chart below its chart, and the numbers of rows of the
-/// chart below.
+/// Smallest number of rows of an area with a chart below its chart.
 const WITH_BELOW: u16 = 11;
+/// Numbers of rows of the chart below.
 const BELOW: RangeInclusive<u16> = 3..=7;
 /// Smallest number of rows of a chart with a row of contact signs.
 const WITH_CONTACT: u16 = 5;
@@ -63,52 +64,70 @@ pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
     }
-    let width = area.width - BESIDE;
-    (
-        Rect { width, ..area },
-        Some(Rect {
-            x: area.x + width,
-            width: BESIDE,
-            ..area
-        }),
-    )
+    let left = Rect {
+        width: area.width - BESIDE,
+        ..area
+    };
+    let right = Rect {
+        x: left.right(),
+        width: BESIDE,
+        ..area
+    };
+    (left, Some(right))
 }
 
 /// Number of places along a curve at which its name may stand.
 const NAMED_AT: usize = 19;
 
-/// Shares of a curve at which its name may stand, from the middle to both ends.
+/// Returns the shares of a curve at which its name may stand, from the middle to both ends.
 fn shares() -> impl Iterator<Item = f64> {
     let step = 0.5 / (NAMED_AT as f64 + 1.0);
-    (0..NAMED_AT)
-        .map(move |place| 0.5 + if place % 2 == 0 { -1.0 } else { 1.0 } * step * place as f64)
+    (0..NAMED_AT).map(move |place| {
+        let side = if place % 2 == 0 { -1.0 } else { 1.0 };
+        0.5 + side * step * place as f64
+    })
 }
 
-/// Returns the name of each entry of the legend with the points where it may be written, and the
-/// entry.
-fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<(Name, Entry)> {
-    let named = legend(std::slice::from_ref(chart), style)
-        .into_iter()
-        .filter_map(|entry| {
-            let text = entry.last()?.content.trim().to_owned();
-            let layers = chart
-                .layers
-                .iter()
-                .filter(|layer| layer.name.to_string() == text);
-            let ink = layers.clone().next()?.ink;
-            let points: Vec<_> = layers.flat_map(|layer| layer.shape.points()).collect();
-            let last = points.len().checked_sub(1);
-            let at = shares().filter_map(|share| Some(points[(share * last? as f64) as usize]));
-            Some((
-                Name {
-                    at: at.collect(),
-                    texts: vec![text],
-                    ink,
-                },
-                entry,
-            ))
-        });
-    named.collect()
+/// Name of a curve with the points where it may be written, and its entry in the legend.
+struct NamedEntry {
+    name: Name,
+    entry: Entry,
+}
+
+/// Returns the entries of the legend of a chart with their names. Entries without layers are left
+/// out.
+fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<NamedEntry> {
+    let mut named = Vec::new();
+    for entry in legend(std::slice::from_ref(chart), style) {
+        let Some(last) = entry.last() else {
+            continue;
+        };
+        let text = last.content.trim().to_owned();
+        let mut ink = None;
+        let mut points = Vec::new();
+        for layer in &chart.layers {
+            if layer.name.to_string() == text {
+                ink = ink.or(Some(layer.ink));
+                points.extend(layer.shape.points());
+            }
+        }
+        let Some(ink) = ink else {
+            continue;
+        };
+        let mut at = Vec::new();
+        if let Some(last) = points.len().checked_sub(1) {
+            at = shares()
+                .map(|share| points[(share * last as f64) as usize])
+                .collect();
+        }
+        let name = Name {
+            at,
+            texts: vec![text],
+            ink,
+        };
+        named.push(NamedEntry { name, entry });
+    }
+    named
 }
 
 impl PaneChart {
@@ -155,62 +174,40 @@ impl PaneChart {
 
     /// Returns the number of rows of the chart below.
     fn rows_below(&self, area: Rect) -> u16 {
-        let has_room = self.below.is_some() && area.height >= WITH_BELOW;
-        if has_room {
-            (area.height / 4).clamp(*BELOW.start(), *BELOW.end())
-        } else {
-            0
+        if self.below.is_none() || area.height < WITH_BELOW {
+            return 0;
         }
+        (area.height / 4).clamp(*BELOW.start(), *BELOW.end())
     }
 
     /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on
     /// the left, and its name is shown if there is room.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
-        let Some(below) = self.below.as_ref().filter(|_| height > 0) else {
+        let Some(below) = &self.below else {
             return;
         };
+        if height == 0 {
+            return;
+        }
+        let quiet = (style.ink)(Ink::Quiet);
         let place = Rect {
             y: area.bottom() - height,
             height,
             ..plot
         };
-        // Numbers without a blank behind them if they need its column.
-        let columns = usize::from(plot.x - area.x).saturating_sub(1);
-        for row in (place.y..place.bottom()).filter(|_| columns > 0) {
-            let end = match (row == place.y, row + 1 == place.bottom()) {
-                (true, _) => Some(below.y.span.high),
-                (_, true) => Some(below.y.span.low),
-                _ => None,
-            };
-            let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
-            let number = match columns.checked_sub(number.len()) {
-                None => String::new(),
-                Some(0) => number,
-                Some(_) => format!("{number} "),
-            };
-            let mark = if end.is_some() { '┤' } else { '│' };
-            let text = format!("{number:>columns$}{mark}");
-            buffer.set_string(area.x, row, text, (style.ink)(Ink::Quiet));
-        }
+        draw_ends_beside(below, area, place, quiet, buffer);
         let mut cells = CellPlot::within(Rect { height: 1, ..place }, below);
         cells.plot = place;
         cells.draw(buffer, below, style);
         let name = &below.y.name;
-        let x = place
-            .right()
-            .saturating_sub(name.chars().count() as u16 + 1)
-            .max(place.x);
-        let is_blank = |x, y| matches!(buffer[(x, y)].symbol(), " " | "\u{2800}");
-        let row = (place.y..place.bottom()).find(|y| (x..place.right()).all(|x| is_blank(x, *y)));
-        if let Some(row) = row {
-            buffer.set_stringn(
-                x,
-                row,
-                name,
-                usize::from(place.width),
-                (style.ink)(Ink::Quiet),
-            );
+        let width = name.chars().count() as u16 + 1;
+        let x = place.right().saturating_sub(width).max(place.x);
+        for y in place.y..place.bottom() {
+            if (x..place.right()).all(|x| is_blank(&buffer[(x, y)])) {
+                buffer.set_stringn(x, y, name, usize::from(place.width), quiet);
+                break;
+            }
         }
     }
 
@@ -230,43 +227,49 @@ impl PaneChart {
             names_of_layers(&self.chart, style)
         };
         let mut left_out = Vec::new();
-        for (name, entry) in names {
+        for NamedEntry { name, entry } in names {
             if !place.draw_name(buffer, &self.chart, style, &name) {
                 left_out.push(entry);
             }
         }
         self.draw_below(plot, area, style, buffer);
-        if let Some((chart, right)) = self.beside.as_ref().zip(right) {
-            (plot.y..plot.bottom()).for_each(|y| {
-                buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
-            });
-            let right = Rect {
-                x: right.x + 1,
-                width: right.width - 1,
-                ..right
-            };
-            // The label below has no row of its own.
-            let height = right.height.min(MOST_BESIDE);
-            let mut beside = self.scaled(Rect { height, ..right }, chart);
-            (beside.plot.y, beside.plot.height) = (plot.y, plot.height);
-            beside.draw(buffer, chart, style);
+        if let Some(chart) = &self.beside
+            && let Some(right) = right
+        {
+            self.draw_beside(chart, plot, right, style, buffer);
         }
         if is_map {
             self.point_at_mark(&place, area, style, buffer);
         }
         if self.has_signs(area) {
-            let signs = self.contact.signs(usize::from(plot.width));
-            buffer.set_string(plot.x, plot.bottom(), signs, (style.ink)(Ink::Contact));
-            if let Some((from, to)) = self.contact.marked {
-                let last = plot.width.saturating_sub(1);
-                let cell = |share: f64| (share.clamp(0.0, 1.0) * f64::from(last)) as u16;
-                for (sign, column) in [("[", cell(from)), ("]", cell(to).max(cell(from) + 1))] {
-                    let column = plot.x + column.min(last);
-                    buffer.set_string(column, plot.bottom(), sign, (style.ink)(Ink::Text));
-                }
-            }
+            self.contact.draw(plot, style, buffer);
         }
         left_out
+    }
+
+    /// Draws the chart beside in the rows of the plot.
+    fn draw_beside(
+        &self,
+        chart: &Chart,
+        plot: Rect,
+        right: Rect,
+        style: &CellStyle<'_>,
+        buffer: &mut Buffer,
+    ) {
+        for y in plot.y..plot.bottom() {
+            buffer.set_string(right.x, y, "│", (style.ink)(Ink::Quiet));
+        }
+        let area = Rect {
+            x: right.x + 1,
+            width: right.width - 1,
+            // The label below has no row of its own.
+            height: right.height.min(MOST_BESIDE),
+            ..right
+        };
+        let mut beside = self.scaled(area, chart);
+        beside.plot.y = plot.y;
+        beside.plot.height = plot.height;
+        beside.draw(buffer, chart, style);
     }
 
     /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of
@@ -278,41 +281,37 @@ impl PaneChart {
         style: &CellStyle<'_>,
         buffer: &mut Buffer,
     ) {
-        let marked = self
-            .chart
-            .layers
-            .iter()
-            .rev()
-            .find(|layer| layer.ink == Ink::Cursor);
-        let Some(Shape::Curve { points, .. }) = marked.map(|layer| &layer.shape) else {
+        let mut layers = self.chart.layers.iter().rev();
+        let Some(mark) = layers.find(|layer| layer.ink == Ink::Cursor) else {
             return;
         };
-        let cell = points.first().and_then(|at| place.cell(&self.chart, *at));
-        let Some((x, y)) = cell else { return };
-        let (plot, style) = (place.plot, (style.ink)(Ink::Cursor));
-        for beside in [x.wrapping_sub(1), x + 1]
-            .into_iter()
-            .filter(|x| (plot.x..plot.right()).contains(x))
-        {
-            buffer[(beside, y)].set_symbol(" ");
+        let Shape::Curve { points, .. } = &mark.shape else {
+            return;
+        };
+        let Some(point) = points.first() else {
+            return;
+        };
+        let Some((x, y)) = place.cell(&self.chart, *point) else {
+            return;
+        };
+        let plot = place.plot;
+        let style = (style.ink)(Ink::Cursor);
+        for beside in [x.wrapping_sub(1), x + 1] {
+            if (plot.x..plot.right()).contains(&beside) {
+                buffer[(beside, y)].set_symbol(" ");
+            }
         }
-        let is_line = |cell: &Cell| ["─", "┬"].contains(&cell.symbol());
-        if let Some(cell) = buffer
-            .cell_mut((x, plot.bottom()))
-            .filter(|cell| is_line(cell))
+        if let Some(cell) = buffer.cell_mut((x, plot.bottom()))
+            && ["─", "┬"].contains(&cell.symbol())
         {
             cell.set_symbol("▲").set_style(style);
         }
-        let is_line = |cell: &Cell| ["│", "┤"].contains(&cell.symbol());
-        if let Some(cell) = buffer
-            .cell_mut((plot.x.wrapping_sub(1), y))
-            .filter(|cell| is_line(cell))
+        if let Some(cell) = buffer.cell_mut((plot.x.wrapping_sub(1), y))
+            && ["│", "┤"].contains(&cell.symbol())
         {
             cell.set_symbol("▶").set_style(style);
-            // The number of the mark itself, in place of one that the row has too.
-            let number = points.first().map_or_else(String::new, |at| {
-                format_rounded(at.1, 2, &self.chart.y.unit)
-            });
+            // The number of the mark replaces a number that the row has.
+            let number = format_rounded(point.1, 2, &self.chart.y.unit);
             let columns = usize::from(plot.x.saturating_sub(area.x + 2));
             if number.chars().count() <= columns {
                 buffer.set_string(area.x, y, format!("{number:>columns$}"), style);
@@ -321,20 +320,71 @@ impl PaneChart {
     }
 }
 
+/// Draws the vertical axis of the chart below, with the numbers at its ends, on the left of
+/// `place`.
+fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer: &mut Buffer) {
+    let columns = usize::from(place.x - area.x).saturating_sub(1);
+    if columns == 0 {
+        return;
+    }
+    for row in place.y..place.bottom() {
+        let end = if row == place.y {
+            Some(below.y.span.high)
+        } else if row + 1 == place.bottom() {
+            Some(below.y.span.low)
+        } else {
+            None
+        };
+        let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
+        // A number without a blank after it if it needs the column of the blank.
+        let number = match columns.checked_sub(number.len()) {
+            None => String::new(),
+            Some(0) => number,
+            Some(_) => format!("{number} "),
+        };
+        let mark = if end.is_some() { '┤' } else { '│' };
+        let text = format!("{number:>columns$}{mark}");
+        buffer.set_string(area.x, row, text, quiet);
+    }
+}
+
 impl ContactRow {
+    /// Draws the signs in the row below a plot, and the brackets of the marked part.
+    fn draw(&self, plot: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
+        let y = plot.bottom();
+        let signs = self.signs(usize::from(plot.width));
+        buffer.set_string(plot.x, y, signs, (style.ink)(Ink::Contact));
+        let Some((from, to)) = self.marked else {
+            return;
+        };
+        let last = plot.width.saturating_sub(1);
+        let column = |share: f64| (share.clamp(0.0, 1.0) * f64::from(last)) as u16;
+        let opening = column(from);
+        let closing = column(to).max(opening + 1);
+        for (bracket, column) in [("[", opening), ("]", closing)] {
+            let x = plot.x + column.min(last);
+            buffer.set_string(x, y, bracket, (style.ink)(Ink::Text));
+        }
+    }
+
     /// Returns a sign for each cell of a row: `■` if all springs are in contact, `▪` if some are,
     /// `·` if none is.
     fn signs(&self, cells: usize) -> String {
         let springs = &self.springs;
-        let sign = |cell: usize| {
+        let mut signs = String::new();
+        for cell in 0..cells {
             let from = cell * springs.len() / cells;
-            let part = &springs[from..((cell + 1) * springs.len() / cells).max(from + 1)];
-            match part.iter().filter(|touches| **touches).count() {
-                0 => '·',
-                touching if touching < part.len() => '▪',
-                _ => '■',
-            }
-        };
-        (0..cells).map(sign).collect()
+            let to = ((cell + 1) * springs.len() / cells).max(from + 1);
+            let part = &springs[from..to];
+            let in_contact = part.iter().filter(|is_in_contact| **is_in_contact).count();
+            signs.push(if in_contact == 0 {
+                '·'
+            } else if in_contact < part.len() {
+                '▪'
+            } else {
+                '■'
+            });
+        }
+        signs
     }
 }

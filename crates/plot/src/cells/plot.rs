@@ -6,25 +6,29 @@ use super::style::{CellStyle, glyph};
 use crate::axis::ChartAxis;
 use crate::chart::{Chart, Layer, Shape, Sign};
 use crate::colour::Ink;
-use crate::ticks::Tick;
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 use ratatui::symbols::Marker;
 use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
-/// Smallest area in columns and rows whose plot has a scale on the left.
-pub(super) const WITH_LEFT_SCALE: (u16, u16) = (26, 6);
-/// Smallest number of rows of an area with a scale below the plot, and of an area that also has a
-/// line between both.
+/// Smallest number of columns of an area whose plot has a scale on the left.
+pub(super) const COLUMNS_WITH_LEFT_SCALE: u16 = 26;
+/// Smallest number of rows of an area whose plot has a scale on the left.
+const ROWS_WITH_LEFT_SCALE: u16 = 6;
+/// Smallest number of rows of an area with a scale below the plot.
 const WITH_SCALE_BELOW: u16 = 5;
+/// Smallest number of rows of an area with a line between the plot and the scale below.
 const WITH_LINE_BELOW: u16 = 12;
 /// Smallest number of rows of an area whose label of the horizontal axis gets its own row if it
 /// would cover a number.
 const WITH_LABEL_BELOW: u16 = 16;
-/// Columns and rows of Braille dots in a cell.
-const DOTS: (u16, u16) = (2, 4);
+/// Columns of Braille dots in a cell.
+const COLUMNS_OF_DOTS: u16 = 2;
+/// Rows of Braille dots in a cell.
+const ROWS_OF_DOTS: u16 = 4;
 
 /// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +38,6 @@ pub struct Name {
     pub at: Vec<(f64, f64)>,
     /// Alternative texts, from the longest to the shortest. The first one that fits is written.
     pub texts: Vec<String>,
-    /// Ink of the text.
     pub ink: Ink,
 }
 
@@ -43,43 +46,45 @@ pub struct CellPlot {
     /// Area of the screen in which the data of the chart are drawn, without the numbers along the
     /// axes.
     pub plot: Rect,
+    /// Number of columns on the left of the plot.
     left: u16,
     /// Number of rows between the plot and the numbers below it.
     between: u16,
     /// True if the first of these rows has a line.
-    line: bool,
-    below: bool,
-    label: bool,
+    has_line: bool,
+    /// True if there are numbers below the plot.
+    has_scale_below: bool,
+    /// True if the label of the horizontal axis has its own row below these numbers.
+    has_label_row: bool,
 }
+
+/// Number of an axis, at a column or a row of the plot.
+type PlacedNumber = (u16, String);
 
 impl CellPlot {
     /// Divides an area of the screen between the plot of a chart and the numbers along its axes. A
     /// small area has no numbers.
     pub fn within(area: Rect, chart: &Chart) -> CellPlot {
-        let line = area.height >= WITH_LINE_BELOW;
+        let has_line = area.height >= WITH_LINE_BELOW;
         CellPlot {
-            line,
-            ..CellPlot::above(area, chart, u16::from(line))
+            has_line,
+            ..CellPlot::above(area, chart, u16::from(has_line))
         }
     }
 
     /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free directly
     /// below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
-        let below = area.height >= WITH_SCALE_BELOW;
-        let label = area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
-        let height = area
-            .height
-            .saturating_sub(u16::from(below) + between + u16::from(label));
+        let has_scale_below = area.height >= WITH_SCALE_BELOW;
+        let has_label_row =
+            area.height >= WITH_LABEL_BELOW && label_hides_numbers(chart, area.width);
+        let rows_below = u16::from(has_scale_below) + between + u16::from(has_label_row);
+        let height = area.height.saturating_sub(rows_below);
         let mut left = 0;
-        if area.width >= WITH_LEFT_SCALE.0 && area.height >= WITH_LEFT_SCALE.1 {
-            let labels = scale_beside(chart, height);
-            left = labels
-                .iter()
-                .map(|(_, text)| text.chars().count() as u16)
-                .max()
-                .unwrap_or(0)
-                + 2;
+        if area.width >= COLUMNS_WITH_LEFT_SCALE && area.height >= ROWS_WITH_LEFT_SCALE {
+            let numbers = scale_beside(chart, height);
+            let widths = numbers.iter().map(|(_, text)| text.chars().count() as u16);
+            left = widths.max().unwrap_or(0) + 2;
         }
         // The bars beside names have the same content as the names.
         let most = if chart.y.names.is_empty() {
@@ -87,7 +92,9 @@ impl CellPlot {
         } else {
             3 * area.width / 4
         };
-        let left = if left > most { 0 } else { left };
+        if left > most {
+            left = 0;
+        }
         let plot = Rect {
             x: area.x + left,
             width: area.width - left,
@@ -98,56 +105,58 @@ impl CellPlot {
             plot,
             left,
             between,
-            line: false,
-            below,
-            label,
+            has_line: false,
+            has_scale_below,
+            has_label_row,
         }
     }
 
     /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by
     /// column and row. For a heat map it is the pair of axis values of the map cell that is drawn
     /// there, or `None` outside the map.
-    pub fn data_at(&self, chart: &Chart, (column, row): (u16, u16)) -> Option<(f64, f64)> {
+    pub fn data_at(&self, chart: &Chart, cell: (u16, u16)) -> Option<(f64, f64)> {
+        let (column, row) = cell;
         let plot = self.plot;
         if let Some(map) = chart.map() {
-            let inside = plot.contains((column, row).into());
-            let (across, up) = inside.then(|| (column - plot.x, plot.bottom() - 1 - row))?;
-            let value = |axis: &ChartAxis, values: &[f64], cells: u16, cell: u16| {
-                values
-                    .get(map::values_behind(axis, values, cells)[usize::from(cell)])
-                    .copied()
-            };
-            let x = value(&chart.x, &map.columns, plot.width, across)?;
-            return Some((x, value(&chart.y, &map.rows, plot.height, up)?));
+            if !plot.contains(cell.into()) {
+                return None;
+            }
+            let columns = map::values_behind(&chart.x, &map.columns, plot.width);
+            let rows = map::values_behind(&chart.y, &map.rows, plot.height);
+            let x = map.columns.get(columns[usize::from(column - plot.x)])?;
+            let y = map.rows.get(rows[usize::from(plot.bottom() - 1 - row)])?;
+            return Some((*x, *y));
         }
-        let share = |at: u16, from: u16, cells: u16| {
-            ((f64::from(at) + 0.5 - f64::from(from)) / f64::from(cells.max(1))).clamp(0.0, 1.0)
-        };
-        let number = |axis: &ChartAxis, share: f64| {
-            axis.scale.number(axis.span.low + share * axis.span.width())
-        };
-        let x = number(&chart.x, share(column, plot.x, plot.width));
-        Some((x, number(&chart.y, 1.0 - share(row, plot.y, plot.height))))
+        let across = share_at(column, plot.x, plot.width);
+        let down = share_at(row, plot.y, plot.height);
+        Some((number_at(&chart.x, across), number_at(&chart.y, 1.0 - down)))
     }
 
     /// Returns column and row of the cell of the screen that contains the point (x, y) on the axes
     /// of the chart. Returns `None` for a point outside the chart; in a heat map such a point has
     /// the nearest cell at the edge.
-    pub fn cell(&self, chart: &Chart, (x, y): (f64, f64)) -> Option<(u16, u16)> {
-        let shares = (chart.x.share(x), 1.0 - chart.y.share(y));
-        let (across, down) = (shares.0.clamp(0.0, 1.0), shares.1.clamp(0.0, 1.0));
-        let inside = chart.map().is_some() || (across, down) == shares;
-        let cell = |share: f64, cells: u16, dots: u16| match chart.map() {
-            Some(_) => ((share * f64::from(cells)) as u16).min(cells - 1),
-            None => cell_at(share, cells, dots),
-        };
-        (inside && !self.plot.is_empty()).then(|| {
-            let column = cell(across, self.plot.width, DOTS.0);
-            (
-                self.plot.x + column,
-                self.plot.y + cell(down, self.plot.height, DOTS.1),
-            )
-        })
+    pub fn cell(&self, chart: &Chart, point: (f64, f64)) -> Option<(u16, u16)> {
+        let (x, y) = point;
+        let plot = self.plot;
+        let across = chart.x.share(x);
+        let down = 1.0 - chart.y.share(y);
+        let nearest_across = across.clamp(0.0, 1.0);
+        let nearest_down = down.clamp(0.0, 1.0);
+        if plot.is_empty() {
+            return None;
+        }
+        if chart.map().is_some() {
+            let column = ((nearest_across * f64::from(plot.width)) as u16).min(plot.width - 1);
+            let row = ((nearest_down * f64::from(plot.height)) as u16).min(plot.height - 1);
+            return Some((plot.x + column, plot.y + row));
+        }
+        // A share that is not a number differs from itself.
+        if (nearest_across, nearest_down) != (across, down) {
+            return None;
+        }
+        let column = cell_at(across, plot.width, COLUMNS_OF_DOTS);
+        let row = cell_at(down, plot.height, ROWS_OF_DOTS);
+        Some((plot.x + column, plot.y + row))
     }
 
     /// Draws the data of the chart and the numbers along its axes into the cells of a buffer.
@@ -161,22 +170,19 @@ impl CellPlot {
                 map::draw(buffer, self.plot, chart, map, style);
             }
         }
-        let drawn = |layer: &&Layer| !matches!(layer.shape, Shape::Map(_));
-        if chart.layers.iter().any(|layer| drawn(&layer)) {
+        if chart.layers.iter().any(is_on_canvas) {
             Canvas::default()
                 .marker(Marker::Braille)
                 .x_bounds([0.0, 1.0])
                 .y_bounds([0.0, 1.0])
                 .paint(|context| {
-                    for layer in chart.layers.iter().filter(drawn) {
+                    for layer in chart.layers.iter().filter(|layer| is_on_canvas(layer)) {
                         context.layer();
-                        let (shape, ink) = (&layer.shape, layer.ink);
-                        let colour = (style.ink)(ink).fg.unwrap_or_default();
                         context.draw(&LayerShape {
                             chart,
-                            shape,
-                            ink,
-                            colour,
+                            shape: &layer.shape,
+                            ink: layer.ink,
+                            colour: (style.ink)(layer.ink).fg.unwrap_or_default(),
                         });
                     }
                 })
@@ -194,14 +200,12 @@ impl CellPlot {
         style: &CellStyle<'_>,
         name: &Name,
     ) -> bool {
-        let pairs = name
-            .texts
-            .iter()
-            .flat_map(|text| name.at.iter().map(move |at| (text, *at)));
-        for (text, at) in pairs {
-            if let Some((x, y)) = self.free_place(buffer, chart, at, text) {
-                buffer.set_string(x, y, text, (style.ink)(name.ink));
-                return true;
+        for text in &name.texts {
+            for point in &name.at {
+                if let Some((x, y)) = self.free_place(buffer, chart, *point, text) {
+                    buffer.set_string(x, y, text, (style.ink)(name.ink));
+                    return true;
+                }
             }
         }
         false
@@ -215,27 +219,48 @@ impl CellPlot {
         point: (f64, f64),
         text: &str,
     ) -> Option<(u16, u16)> {
-        let plot = self.plot;
-        let all_columns = i32::from(plot.x)..i32::from(plot.right());
-        let all_rows = i32::from(plot.y)..i32::from(plot.bottom());
         let cell = self.cell(chart, point)?;
-        let (column, row) = (i32::from(cell.0), i32::from(cell.1));
-        let wide = text.chars().count() as i32;
-        let rows = [row, row + 1, row - 1].into_iter();
-        let sides = rows.flat_map(|y| [(column + 2, y), (column - 1 - wide, y)]);
-        let mut places = sides.chain([row + 1, row - 1].map(|y| (column - wide / 2, y)));
-        let free = places.find(|&(x, y)| {
-            let inside =
-                all_columns.start <= x && x + wide <= all_columns.end && all_rows.contains(&y);
-            // With a blank column on either side, unless the plot ends there.
-            let mut columns = (x - 1).max(all_columns.start)..(x + wide + 1).min(all_columns.end);
-            inside
-                && columns.all(|column| {
-                    let at = (column as u16, y as u16);
-                    at == cell || matches!(buffer[at].symbol(), " " | "\u{2800}")
-                })
-        });
-        free.map(|(x, y)| (x as u16, y as u16))
+        let column = i32::from(cell.0);
+        let row = i32::from(cell.1);
+        let width = text.chars().count() as i32;
+        let right = column + 2;
+        let left = column - 1 - width;
+        let middle = column - width / 2;
+        // Beside the point, then a row below and a row above.
+        let places = [
+            (right, row),
+            (left, row),
+            (right, row + 1),
+            (left, row + 1),
+            (right, row - 1),
+            (left, row - 1),
+            (middle, row + 1),
+            (middle, row - 1),
+        ];
+        for (x, y) in places {
+            if self.is_free(buffer, cell, x, y, width) {
+                return Some((x as u16, y as u16));
+            }
+        }
+        None
+    }
+
+    /// Returns true if a text of this width from the cell (x, y) on lies inside the plot on blank
+    /// cells, with a blank column on either side unless the plot ends there. The cell of the named
+    /// point may have content.
+    fn is_free(&self, buffer: &Buffer, point: (u16, u16), x: i32, y: i32, width: i32) -> bool {
+        let plot = self.plot;
+        let first = i32::from(plot.x);
+        let end = i32::from(plot.right());
+        let rows = i32::from(plot.y)..i32::from(plot.bottom());
+        if x < first || x + width > end || !rows.contains(&y) {
+            return false;
+        }
+        let mut columns = (x - 1).max(first)..(x + width + 1).min(end);
+        columns.all(|column| {
+            let cell = (column as u16, y as u16);
+            cell == point || is_blank(&buffer[cell])
+        })
     }
 
     fn draw_signs(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
@@ -267,55 +292,101 @@ impl CellPlot {
     }
 
     fn draw_scales(&self, buffer: &mut Buffer, chart: &Chart, style: &CellStyle<'_>) {
-        let (plot, quiet) = (self.plot, (style.ink)(Ink::Quiet));
+        let quiet = (style.ink)(Ink::Quiet);
         if self.left > 0 {
-            let labels = scale_beside(chart, plot.height);
-            for row in 0..plot.height {
-                let label = labels
-                    .iter()
-                    .find(|(at, _)| *at == row)
-                    .map(|(_, text)| text.as_str());
-                let mark = if label.is_some() { '┤' } else { '│' };
-                let width = usize::from(self.left) - 2;
-                let text = format!("{:>width$} {mark}", label.unwrap_or_default());
-                buffer.set_string(plot.x - self.left, plot.y + row, text, quiet);
-            }
+            self.draw_scale_beside(buffer, chart, quiet);
         }
-        let mut y = plot.bottom();
-        let (numbers, label) = scale_below(chart, plot.width, self.label);
-        if self.line {
-            let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
-            for (column, _) in &numbers {
-                line[usize::from(*column)] = '┬';
-            }
-            if self.left > 0 {
-                buffer.set_string(plot.x - 1, y, "└", quiet);
-            }
-            buffer.set_string(plot.x, y, line.into_iter().collect::<String>(), quiet);
+        let (numbers, label) = scale_below(chart, self.plot.width, self.has_label_row);
+        if self.has_line {
+            self.draw_line_below(buffer, &numbers, quiet);
         }
-        y += self.between;
-        if self.below {
-            let from = plot.x - self.left;
-            let width = (label.chars().count() as u16).min(plot.width);
-            let end = plot.right() - if self.label { 0 } else { width };
-            let mut free = from;
-            for (column, text) in numbers {
-                let width = text.chars().count() as u16;
-                let x = (plot.x + column).saturating_sub(width / 2).max(from);
-                let right = x + width;
-                if x >= free && right < end.max(from + 1) + u16::from(self.label) {
-                    buffer.set_string(x, y, text, quiet);
-                    free = right + 1;
-                }
-            }
-            let (x, y) = if self.label {
-                (plot.x + (plot.width - width) / 2, y + 1)
-            } else {
-                (end, y)
-            };
-            buffer.set_stringn(x, y, label, usize::from(width), quiet);
+        if self.has_scale_below {
+            self.draw_scale_below(buffer, numbers, &label, quiet);
         }
     }
+
+    fn draw_scale_beside(&self, buffer: &mut Buffer, chart: &Chart, quiet: Style) {
+        let plot = self.plot;
+        let numbers = scale_beside(chart, plot.height);
+        let width = usize::from(self.left) - 2;
+        for row in 0..plot.height {
+            let number = numbers.iter().find(|(number_row, _)| *number_row == row);
+            let text = match number {
+                Some((_, text)) => format!("{text:>width$} ┤"),
+                None => format!("{:>width$} │", ""),
+            };
+            buffer.set_string(plot.x - self.left, plot.y + row, text, quiet);
+        }
+    }
+
+    fn draw_line_below(&self, buffer: &mut Buffer, numbers: &[PlacedNumber], quiet: Style) {
+        let plot = self.plot;
+        let mut line: Vec<char> = vec!['─'; usize::from(plot.width)];
+        for (column, _) in numbers {
+            line[usize::from(*column)] = '┬';
+        }
+        if self.left > 0 {
+            buffer.set_string(plot.x - 1, plot.bottom(), "└", quiet);
+        }
+        let line: String = line.into_iter().collect();
+        buffer.set_string(plot.x, plot.bottom(), line, quiet);
+    }
+
+    fn draw_scale_below(
+        &self,
+        buffer: &mut Buffer,
+        numbers: Vec<PlacedNumber>,
+        label: &str,
+        quiet: Style,
+    ) {
+        let plot = self.plot;
+        let y = plot.bottom() + self.between;
+        let from = plot.x - self.left;
+        let label_width = (label.chars().count() as u16).min(plot.width);
+        let end = if self.has_label_row {
+            plot.right()
+        } else {
+            plot.right() - label_width
+        };
+        // One blank is left before a label in the same row.
+        let end_of_numbers = end.max(from + 1) + u16::from(self.has_label_row);
+        let mut free = from;
+        for (column, text) in numbers {
+            let width = text.chars().count() as u16;
+            let x = (plot.x + column).saturating_sub(width / 2).max(from);
+            let right = x + width;
+            if x >= free && right < end_of_numbers {
+                buffer.set_string(x, y, text, quiet);
+                free = right + 1;
+            }
+        }
+        let (x, y) = if self.has_label_row {
+            (plot.x + (plot.width - label_width) / 2, y + 1)
+        } else {
+            (end, y)
+        };
+        buffer.set_stringn(x, y, label, usize::from(label_width), quiet);
+    }
+}
+
+/// Returns true for a layer that is drawn as Braille dots.
+fn is_on_canvas(layer: &Layer) -> bool {
+    !matches!(layer.shape, Shape::Map(_))
+}
+
+/// Returns true for a cell without content.
+pub(super) fn is_blank(cell: &Cell) -> bool {
+    matches!(cell.symbol(), " " | "\u{2800}")
+}
+
+/// Returns the share of an axis in the middle of a cell, if the axis has `cells` cells from the
+/// cell `first` on.
+fn share_at(cell: u16, first: u16, cells: u16) -> f64 {
+    ((f64::from(cell) + 0.5 - f64::from(first)) / f64::from(cells.max(1))).clamp(0.0, 1.0)
+}
+
+fn number_at(axis: &ChartAxis, share: f64) -> f64 {
+    axis.scale.number(axis.span.low + share * axis.span.width())
 }
 
 /// Returns the cell at a share of `cells` cells. The share is rounded to one of the `dots` dots of
@@ -327,18 +398,12 @@ fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
 
 /// Returns the rows of a plot of this height that have a number of the vertical axis, with these
 /// numbers.
-fn scale_beside(chart: &Chart, height: u16) -> Vec<(u16, String)> {
-    let place = |at: f64| {
-        cell_at(
-            (chart.y.span.high - at) / chart.y.span.width(),
-            height,
-            DOTS.1,
-        )
-    };
+fn scale_beside(chart: &Chart, height: u16) -> Vec<PlacedNumber> {
+    let span = chart.y.span;
+    let row = |number: f64| cell_at((span.high - number) / span.width(), height, ROWS_OF_DOTS);
     let fewest = usize::from(height / 3).clamp(2, 6);
-    numbers_at(&chart.y, fewest..=fewest.max(height.into()), place, |_| {
-        true
-    })
+    let most = fewest.max(usize::from(height));
+    numbers_at(&chart.y, fewest..=most, row, |_| true)
 }
 
 /// Returns the numbers of an axis with their places. The fewest ticks of which two are visible are
@@ -347,61 +412,50 @@ fn numbers_at(
     axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
     place: impl Fn(f64) -> u16,
-    is_seen: impl Fn(&(u16, String)) -> bool,
-) -> Vec<(u16, String)> {
-    let number = |tick: Tick| Some((place(tick.at), tick.label?.to_string()));
-    let numbers = |most: usize| {
-        axis.ticks(most)
-            .into_iter()
-            .filter_map(number)
-            .collect::<Vec<_>>()
+    is_seen: impl Fn(&PlacedNumber) -> bool,
+) -> Vec<PlacedNumber> {
+    let numbers = |most: usize| -> Vec<PlacedNumber> {
+        let ticks = axis.ticks(most).into_iter();
+        ticks
+            .filter_map(|tick| Some((place(tick.at), tick.label?.to_string())))
+            .collect()
     };
     let fewest = *ticks.start();
-    // Numbers in one cell count as one.
-    let two = |numbers: &Vec<(u16, String)>| {
-        let mut seen = numbers
-            .iter()
-            .filter(|number| is_seen(number))
-            .map(|number| number.0);
-        seen.next()
-            .is_some_and(|first| seen.any(|other| other != first))
-    };
-    ticks
-        .map(numbers)
-        .find(two)
-        .unwrap_or_else(|| numbers(fewest))
+    for most in ticks {
+        let numbers = numbers(most);
+        let mut seen = numbers.iter().filter(|number| is_seen(number));
+        // Numbers in one cell count as one.
+        if let Some((first, _)) = seen.next()
+            && seen.any(|(place, _)| place != first)
+        {
+            return numbers;
+        }
+    }
+    numbers(fewest)
 }
 
 /// Returns the columns of a plot of this width that have a number of the horizontal axis, with
 /// these numbers, and the label of the axis. The label is complete if it has its own row. Otherwise
 /// it is only the symbol, if the name would take more than half of the columns.
-fn scale_below(chart: &Chart, width: u16, own_row: bool) -> (Vec<(u16, String)>, String) {
+fn scale_below(chart: &Chart, width: u16, has_own_row: bool) -> (Vec<PlacedNumber>, String) {
     let mut label = chart.x.label_with_unit().to_string();
-    let room = if own_row { width } else { width / 2 };
+    let room = if has_own_row { width } else { width / 2 };
     if label.chars().count() > usize::from(room) {
         label = chart.x.symbol_with_unit().to_string();
     }
-    let place = |at: f64| {
-        cell_at(
-            (at - chart.x.span.low) / chart.x.span.width(),
-            width,
-            DOTS.0,
-        )
-    };
+    let span = chart.x.span;
+    let column = |number: f64| cell_at((number - span.low) / span.width(), width, COLUMNS_OF_DOTS);
     let fewest = usize::from(width / 10).clamp(2, 9);
-    let is_seen = |number: &(u16, String)| !is_covered(number, width, &label);
-    let mut numbers = numbers_at(
-        &chart.x,
-        fewest..=fewest.max(usize::from(width / 4)),
-        place,
-        is_seen,
-    );
+    let most = fewest.max(usize::from(width / 4));
+    let is_seen = |number: &PlacedNumber| !is_covered(number, width, &label);
+    let mut numbers = numbers_at(&chart.x, fewest..=most, column, is_seen);
     numbers.retain(|(column, _)| *column < width);
     (numbers, label)
 }
 
 /// Returns true if a label at the right end of the same row would cover this number.
-fn is_covered((column, text): &(u16, String), width: u16, label: &str) -> bool {
+fn is_covered(number: &PlacedNumber, width: u16, label: &str) -> bool {
+    let (column, text) = number;
     let end = usize::from(width).saturating_sub(label.chars().count() + 1);
     usize::from(*column) + text.chars().count().div_ceil(2) > end
 }
@@ -423,7 +477,6 @@ mod tests {
     use crate::colour::Shades;
     use crate::scale::Span;
     use asperity_data::AxisScale;
-    use ratatui::style::Style;
 
     const SIZES: [(u16, u16); 6] = [(20, 5), (32, 8), (47, 13), (60, 20), (80, 24), (118, 37)];
 

@@ -24,7 +24,8 @@ impl LayerShape<'_> {
         }
     }
 
-    fn paint(&self, painter: &mut Painter<'_, '_>, (x, y): Dot) {
+    fn paint(&self, painter: &mut Painter<'_, '_>, dot: Dot) {
+        let (x, y) = dot;
         painter.paint(x, y, self.colour);
     }
 
@@ -55,44 +56,75 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Returns the dots of the area inside a closed line: every other dot, or one of eight in the
-    /// quiet ink. A dot is inside if the line crosses the column below it an odd number of times.
+    /// Paints the dots inside a closed line that are [shaded](Self::is_shaded). A dot is inside if
+    /// the line crosses the column below it an odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
-        let is_shaded = |column: usize, row: usize| match self.ink {
-            Ink::Quiet => column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4),
-            _ => (column + row).is_multiple_of(2),
-        };
         let Some((last, _)) = painter.get_point(1.0, 0.0) else {
             return;
         };
-        // A zero on a logarithmic axis is far below the chart.
-        let share = |(x, y): &(f64, f64)| {
-            (
-                self.chart.x.share(*x),
-                self.chart.y.share(*y).clamp(-9.0, 9.0),
-            )
-        };
-        let shares: Vec<(f64, f64)> = border.iter().map(share).collect();
-        let ends = || shares.iter().zip(shares.iter().cycle().skip(1));
+        let mut shares: Vec<Share> = Vec::new();
+        for (x, y) in border {
+            // A zero on a logarithmic axis is far below the chart.
+            let up = self.chart.y.share(*y).clamp(-9.0, 9.0);
+            shares.push((self.chart.x.share(*x), up));
+        }
         for column in 0..=last {
             let x = column as f64 / last.max(1) as f64;
-            let mut crossings: Vec<f64> = ends()
-                .filter(|(a, b)| (a.0 <= x) != (b.0 <= x))
-                .map(|(a, b)| a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0))
-                .filter(|y| y.is_finite())
-                .collect();
-            crossings.sort_unstable_by(f64::total_cmp);
-            for pair in crossings.chunks_exact(2) {
+            for pair in crossings(&shares, x).chunks_exact(2) {
                 let row = |y: f64| painter.get_point(x, y.clamp(0.0, 1.0)).map(|(_, row)| row);
                 let (Some(low), Some(high)) = (row(pair[0]), row(pair[1])) else {
                     continue;
                 };
-                (high..=low)
-                    .filter(|y| is_shaded(column, *y))
-                    .for_each(|y| self.paint(painter, (column, y)));
+                for row in high..=low {
+                    if self.is_shaded(column, row) {
+                        self.paint(painter, (column, row));
+                    }
+                }
             }
         }
     }
+
+    /// Returns true for every other dot, or for one of eight in the quiet ink.
+    fn is_shaded(&self, column: usize, row: usize) -> bool {
+        if self.ink == Ink::Quiet {
+            column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4)
+        } else {
+            (column + row).is_multiple_of(2)
+        }
+    }
+
+    fn filled_box(&self, painter: &mut Painter<'_, '_>, x: (f64, f64), y: (f64, f64)) {
+        let (left, right) = x;
+        let (low, high) = y;
+        let dot = |point| {
+            let (across, up) = self.axes().place(point)?;
+            painter.get_point(across, up)
+        };
+        let (Some(from), Some(to)) = (dot((left, high)), dot((right, low))) else {
+            return;
+        };
+        for row in from.1..=to.1 {
+            for column in from.0..=to.0 {
+                self.paint(painter, (column, row));
+            }
+        }
+    }
+}
+
+/// Returns the heights at which a closed line crosses the column at x, in ascending order.
+fn crossings(line: &[Share], x: f64) -> Vec<f64> {
+    let mut crossings = Vec::new();
+    for (a, b) in line.iter().zip(line.iter().cycle().skip(1)) {
+        if (a.0 <= x) == (b.0 <= x) {
+            continue;
+        }
+        let y = a.1 + (b.1 - a.1) * (x - a.0) / (b.0 - a.0);
+        if y.is_finite() {
+            crossings.push(y);
+        }
+    }
+    crossings.sort_unstable_by(f64::total_cmp);
+    crossings
 }
 
 impl CanvasShape for LayerShape<'_> {
@@ -124,26 +156,15 @@ impl CanvasShape for LayerShape<'_> {
             }
             Shape::Inside(border) => self.inside(painter, border),
             Shape::Boxes(boxes) => {
-                for ((left, right), (low, high)) in boxes {
-                    let dot = |point| {
-                        self.axes()
-                            .place(point)
-                            .and_then(|(x, y)| painter.get_point(x, y))
-                    };
-                    let (Some(from), Some(to)) = (dot((*left, *high)), dot((*right, *low))) else {
-                        continue;
-                    };
-                    for y in from.1..=to.1 {
-                        (from.0..=to.0).for_each(|x| self.paint(painter, (x, y)));
-                    }
+                for (x, y) in boxes {
+                    self.filled_box(painter, *x, *y);
                 }
             }
-            Shape::Upright(at) | Shape::Level(at) => {
-                let ends = self
-                    .axes()
-                    .guide(*at, matches!(self.shape, Shape::Upright(_)));
-                let runs = ends.map(Vec::from);
-                self.lines(painter, runs.as_slice(), Stroke::Sparse);
+            Shape::Upright(number) | Shape::Level(number) => {
+                let is_vertical = matches!(self.shape, Shape::Upright(_));
+                if let Some(ends) = self.axes().guide(*number, is_vertical) {
+                    self.lines(painter, &[Vec::from(ends)], Stroke::Sparse);
+                }
             }
             Shape::Curve { stroke: None, .. } | Shape::Map(_) => {}
         }
@@ -164,7 +185,8 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
 /// Returns the dots on the straight line from one dot to another without the first, unless both are
 /// the same.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
-    let (dx, dy) = (to.0 as f64 - from.0 as f64, to.1 as f64 - from.1 as f64);
+    let dx = to.0 as f64 - from.0 as f64;
+    let dy = to.1 as f64 - from.1 as f64;
     let steps = dx.abs().max(dy.abs()).max(1.0) as usize;
     (1..=steps).map(move |step| {
         let share = step as f64 / steps as f64;

@@ -27,7 +27,8 @@ pub enum Colours {
 impl Colours {
     /// Converts red, green and blue to the same or a similar colour that this terminal can show. A
     /// terminal without colours uses its default colour.
-    pub fn colour(self, [red, green, blue]: Rgb) -> Color {
+    pub fn colour(self, colour: Rgb) -> Color {
+        let [red, green, blue] = colour;
         // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
         let level = |value: u8| value.saturating_sub(35) / 40;
         match self {

@@ -2,9 +2,9 @@
 
 use super::legend::legend;
 use super::map;
-use super::plot::{CellPlot, WITH_LEFT_SCALE};
+use super::plot::{COLUMNS_WITH_LEFT_SCALE, CellPlot};
 use super::style::{CellStyle, Colours};
-use crate::chart::{Chart, Figure};
+use crate::chart::{Chart, Figure, HeatMap};
 use crate::colour::Ink;
 use crate::label::Label;
 use asperity_data::wrap;
@@ -13,29 +13,35 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
 use ratatui::text::Line;
 
-/// Smallest and largest width of the text in columns.
-const COLUMNS: (usize, usize) = (40, 160);
-/// Largest width of a plot of curves in columns, and its height in rows, with the scale below.
+/// Smallest width of the text in columns.
+const FEWEST_COLUMNS: usize = 40;
+/// Largest width of the text in columns.
+const MOST_COLUMNS: usize = 160;
+/// Largest width of a plot of curves in columns.
 const WIDEST_PLOT: u16 = 110;
+/// Height of a plot of curves in rows, with the scale below.
 const ROWS: u16 = 20;
-/// Largest width of a cell of a map in columns, and smallest and largest height of a map in rows.
+/// Largest width of a cell of a map in columns.
 const WIDEST_CELL: usize = 5;
+/// Smallest height of a map in rows.
 const FEWEST_ROWS: usize = 10;
+/// Largest height of a map in rows.
 const MOST_ROWS: usize = 48;
 
 /// Returns a figure as text for a terminal or a file, with its charts one below the other. A line
 /// has at most `columns` characters; values of `columns` below 40 count as 40, and values above 160
 /// as 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
-    let columns = columns.clamp(COLUMNS.0, COLUMNS.1);
+    let columns = columns.clamp(FEWEST_COLUMNS, MOST_COLUMNS);
     let ink = |ink: Ink| match (ink, colours) {
         (Ink::Text | Ink::Quiet, _) | (_, Colours::None) => Style::new(),
         (ink, colours) => Style::new().fg(colours.colour(ink.on_paper())),
     };
     let style = CellStyle { ink: &ink, colours };
     let mut text = String::new();
-    for line in std::iter::once(&Label::plain(&figure.title)).chain(&figure.notes) {
-        push_words(&mut text, &line.to_string(), columns);
+    push_words(&mut text, &Label::plain(&figure.title).to_string(), columns);
+    for note in &figure.notes {
+        push_words(&mut text, &note.to_string(), columns);
     }
     for (index, chart) in figure.charts.iter().enumerate() {
         if !text.is_empty() {
@@ -52,36 +58,21 @@ pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String 
 }
 
 fn heading(chart: &Chart) -> Label {
-    chart.map().map_or_else(
-        || chart.y.label_with_unit(),
-        |map| map.key.label_with_unit(),
-    )
+    match chart.map() {
+        Some(map) => map.key.label_with_unit(),
+        None => chart.y.label_with_unit(),
+    }
 }
 
 fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<'_>) {
-    let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
-    if let Some(map) = chart.map() {
-        // Every value has equal columns and rows, if there is room.
-        let rows = map.rows.len().max(1);
-        let rows = rows.div_ceil(rows.div_ceil(MOST_ROWS)) * FEWEST_ROWS.div_ceil(rows);
-        let left = area.width - CellPlot::within(area, chart).plot.width;
-        let (room, values) = (usize::from(columns - left), map.columns.len().max(1));
-        let plot = if values > room {
-            room
-        } else {
-            values * (room / values).min(WIDEST_CELL)
-        };
-        area.width = (plot as u16 + left).max(WITH_LEFT_SCALE.0);
-        area.height = rows as u16;
-        while usize::from(CellPlot::within(area, chart).plot.height) < rows {
-            area.height += 1;
+    let area = match chart.map() {
+        Some(map) => {
+            let label = format!("↑ {}", chart.y.label_with_unit());
+            push_words(text, &label, usize::from(columns));
+            area_of_map(chart, map, columns)
         }
-        push_words(
-            text,
-            &format!("↑ {}", chart.y.label_with_unit()),
-            usize::from(columns),
-        );
-    }
+        None => Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS),
+    };
     let mut buffer = Buffer::empty(area);
     let place = CellPlot::within(area, chart);
     place.draw(&mut buffer, chart, style);
@@ -106,68 +97,103 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
 }
 
+/// Returns the area of a map, in which every value has equal columns and rows if there is room.
+fn area_of_map(chart: &Chart, map: &HeatMap, columns: u16) -> Rect {
+    let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
+    let values_up = map.rows.len().max(1);
+    let values_for_a_row = values_up.div_ceil(MOST_ROWS);
+    let rows_for_a_value = FEWEST_ROWS.div_ceil(values_up);
+    let rows = values_up.div_ceil(values_for_a_row) * rows_for_a_value;
+    let left = area.width - CellPlot::within(area, chart).plot.width;
+    let room = usize::from(columns - left);
+    let values_across = map.columns.len().max(1);
+    let plot = if values_across > room {
+        room
+    } else {
+        values_across * (room / values_across).min(WIDEST_CELL)
+    };
+    area.width = (plot as u16 + left).max(COLUMNS_WITH_LEFT_SCALE);
+    area.height = rows as u16;
+    while usize::from(CellPlot::within(area, chart).plot.height) < rows {
+        area.height += 1;
+    }
+    area
+}
+
 fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellStyle<'_>) {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in legend(std::slice::from_ref(chart), style) {
         let part = Line::from(part);
-        match lines
-            .last_mut()
-            .filter(|line| line.width() + 2 + part.width() <= columns)
-        {
-            Some(line) => {
+        match lines.last_mut() {
+            Some(line) if line.width() + 2 + part.width() <= columns => {
                 line.push_span("  ");
                 line.spans.extend(part.spans);
             }
-            None => lines.push(part),
+            _ => lines.push(part),
         }
     }
     for line in lines {
-        push_line(
-            text,
-            &line
-                .spans
-                .iter()
-                .map(|span| (&span.content, span.style))
-                .collect::<Vec<_>>(),
-        );
+        let runs: Vec<(&str, Style)> = line
+            .spans
+            .iter()
+            .map(|span| (span.content.as_ref(), span.style))
+            .collect();
+        push_line(text, &runs);
     }
 }
+
+/// Escape sequence that ends all styles.
+const RESET: &str = "\x1b[0m";
 
 /// Appends a line of styled texts, without trailing blanks and with the escape sequences of the
 /// styles.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
-    let is_blank = |(text, style): &&(S, Style)| {
-        text.as_ref().trim_matches([' ', '\u{2800}']).is_empty() && code(style).is_empty()
-    };
-    let end = runs.len() - runs.iter().rev().take_while(is_blank).count();
+    let mut runs = runs;
+    while let [before @ .., (blank, style)] = runs {
+        let is_blank = blank.as_ref().trim_matches([' ', '\u{2800}']).is_empty();
+        if !is_blank || !code(style).is_empty() {
+            break;
+        }
+        runs = before;
+    }
     let mut last = String::new();
-    for (run, style) in &runs[..end] {
+    for (run, style) in runs {
         let code = code(style);
         if code != last {
-            text.push_str(if last.is_empty() { "" } else { "\x1b[0m" });
+            if !last.is_empty() {
+                text.push_str(RESET);
+            }
             text.push_str(&code);
             last = code;
         }
         text.push_str(run.as_ref());
     }
-    text.push_str(if last.is_empty() { "" } else { "\x1b[0m" });
+    if !last.is_empty() {
+        text.push_str(RESET);
+    }
     text.push('\n');
 }
 
+/// Returns the escape sequence of the colours of a style; empty for a style without colours.
 fn code(style: &Style) -> String {
-    let parameters = |kind: u8, colour: Option<Color>| match colour {
+    let colours = [(38, style.fg), (48, style.bg)];
+    let parameters: Vec<String> = colours
+        .iter()
+        .filter_map(|(kind, colour)| parameters(*kind, *colour))
+        .collect();
+    if parameters.is_empty() {
+        String::new()
+    } else {
+        format!("\x1b[{}m", parameters.join(";"))
+    }
+}
+
+/// Returns the parameters of a colour, whose kind is 38 for letters and 48 for the background.
+fn parameters(kind: u8, colour: Option<Color>) -> Option<String> {
+    match colour {
         Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),
         Some(Color::Indexed(index)) => Some(format!("{kind};5;{index}")),
         _ => None,
-    };
-    let both: Vec<String> = parameters(38, style.fg)
-        .into_iter()
-        .chain(parameters(48, style.bg))
-        .collect();
-    if both.is_empty() {
-        String::new()
-    } else {
-        format!("\x1b[{}m", both.join(";"))
     }
 }
 

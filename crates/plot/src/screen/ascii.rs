@@ -1,7 +1,7 @@
 //! The screen in ASCII, for terminals, fonts and files limited to ASCII.
 
 use super::{Glyph, dots, glyphs};
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell};
 use std::sync::LazyLock;
 
 /// ASCII characters and their patterns of dots, with one letter for each of four rows from above:
@@ -28,28 +28,42 @@ const SHAPES: [(char, &[&str]); 15] = [
 
 /// Character with the fewest different dots, for each pattern of dots.
 static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
-    let shapes: Vec<(char, u8)> = SHAPES
-        .iter()
-        .flat_map(|(character, shapes)| shapes.iter().map(|shape| (*character, bits(shape))))
-        .collect();
-    std::array::from_fn(|pattern| {
-        let nearest = shapes
-            .iter()
-            .min_by_key(|(_, shape)| (usize::from(*shape) ^ pattern).count_ones());
-        nearest
-            .filter(|_| pattern != 0)
-            .map_or(' ', |(character, _)| *character)
-    })
+    let mut nearest = [' '; 256];
+    for (pattern, character) in nearest.iter_mut().enumerate().skip(1) {
+        *character = nearest_character(pattern);
+    }
+    nearest
 });
 
+/// Returns the first character with the fewest dots that differ from a pattern.
+fn nearest_character(pattern: usize) -> char {
+    let mut nearest = ' ';
+    let mut fewest = u32::MAX;
+    for (character, shapes) in SHAPES {
+        for shape in shapes {
+            let different = (usize::from(bits(shape)) ^ pattern).count_ones();
+            if different < fewest {
+                nearest = character;
+                fewest = different;
+            }
+        }
+    }
+    nearest
+}
+
+/// Returns a pattern of dots as bits row by row from the upper left.
 fn bits(shape: &str) -> u8 {
-    let rows = shape.bytes().map(|row| match row {
-        b'L' => 1,
-        b'R' => 2,
-        b'B' => 3,
-        _ => 0,
-    });
-    rows.rev().fold(0, |bits, row| bits << 2 | row)
+    let mut bits = 0;
+    for row in shape.bytes().rev() {
+        let row = match row {
+            b'L' => 1,
+            b'R' => 2,
+            b'B' => 3,
+            _ => 0,
+        };
+        bits = bits << 2 | row;
+    }
+    bits
 }
 
 /// Replacements of characters: each word is an ASCII character, followed by the characters that it
@@ -65,29 +79,20 @@ const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
-        let blanks =
-            (1..row.len()).filter(|&at| row[at - 1].symbol() == "±" && row[at].symbol() == " ");
-        for at in blanks.collect::<Vec<_>>() {
-            row[at].set_char('-');
+        for index in 1..row.len() {
+            if row[index - 1].symbol() == "±" && row[index].symbol() == " " {
+                row[index].set_char('-');
+            }
         }
-        // A power of ten keeps its exponent: `1e5` for `10⁵`.
-        let is = |at: usize, signs: &str| {
-            row.get(at)
-                .is_some_and(|cell| signs.contains(cell.symbol()))
-        };
-        let powers = (0..row.len()).filter(|&at| {
-            is(at, "0")
-                && is(at + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-                && at > 0
-                && is(at - 1, "1")
-                && (at == 1 || is(at - 2, " │┤"))
-        });
-        for at in powers.collect::<Vec<_>>() {
-            row[at].set_char('e');
+        for index in 0..row.len() {
+            if begins_power_of_ten(row, index) {
+                row[index].set_char('e');
+            }
         }
     }
     let replaced: Vec<_> = glyphs(buffer)
-        .map(|glyph| (glyph.column, glyph.row, glyph.width, of_glyph(&glyph)))
+        .iter()
+        .map(|glyph| (glyph.column, glyph.row, glyph.width, of_glyph(glyph)))
         .collect();
     let origin = buffer.area.as_position();
     for (column, row, width, character) in replaced {
@@ -96,6 +101,20 @@ pub fn to_ascii(buffer: &mut Buffer) {
         }
         buffer[(origin.x + column, origin.y + row)].set_char(character);
     }
+}
+
+/// Returns true for the zero of a power of ten in a row, such as `10⁵`. An `e` in its place keeps
+/// the exponent: `1e5`.
+fn begins_power_of_ten(row: &[Cell], zero: usize) -> bool {
+    let is = |index: usize, signs: &str| {
+        row.get(index)
+            .is_some_and(|cell| signs.contains(cell.symbol()))
+    };
+    if !is(zero, "0") || !is(zero + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹") {
+        return false;
+    }
+    // The one before the zero is not the end of a longer number.
+    zero > 0 && is(zero - 1, "1") && (zero == 1 || is(zero - 2, " │┤"))
 }
 
 /// Returns the ASCII substitute of a symbol. Combining marks are dropped.

@@ -4,13 +4,13 @@ pub(crate) mod ascii;
 pub(crate) mod svg;
 
 use ratatui::buffer::{Buffer, Cell, CellWidth};
-use ratatui::layout::Rect;
 
 struct Glyph<'a> {
     /// Column, counted from 0 at the left edge of the screen.
     column: u16,
     /// Row, counted from 0 at the upper edge.
     row: u16,
+    /// Number of columns of the symbol.
     width: u16,
     cell: &'a Cell,
 }
@@ -33,28 +33,26 @@ impl<'a> Glyph<'a> {
 }
 
 /// Returns the symbols of a screen, row by row, without the cells covered by wide characters.
-fn glyphs(buffer: &Buffer) -> impl Iterator<Item = Glyph<'_>> {
-    let Rect {
-        x,
-        y,
-        width,
-        height,
-    } = buffer.area;
-    (0..height).flat_map(move |row| {
-        let mut next = 0;
-        std::iter::from_fn(move || {
-            let (column, left) = (next, width.checked_sub(next).filter(|left| *left > 0)?);
-            let cell = buffer.cell((x + column, y + row))?;
-            let width = cell.symbol().cell_width().clamp(1, left);
-            next += width;
-            Some(Glyph {
+fn glyphs(buffer: &Buffer) -> Vec<Glyph<'_>> {
+    let area = buffer.area;
+    let mut glyphs = Vec::new();
+    for row in 0..area.height {
+        let mut column = 0;
+        while column < area.width {
+            let Some(cell) = buffer.cell((area.x + column, area.y + row)) else {
+                break;
+            };
+            let width = cell.symbol().cell_width().clamp(1, area.width - column);
+            glyphs.push(Glyph {
                 column,
                 row,
                 width,
                 cell,
-            })
-        })
-    })
+            });
+            column += width;
+        }
+    }
+    glyphs
 }
 
 /// Returns the dots of a Braille character, two across and four down, as bits row by row from the
@@ -65,11 +63,13 @@ fn dots(character: char) -> Option<u8> {
     let pattern = u32::from(character)
         .checked_sub(0x2800)
         .and_then(|bits| u8::try_from(bits).ok())?;
-    let dots = PLACES
-        .iter()
-        .enumerate()
-        .filter(|(bit, _)| pattern >> bit & 1 == 1);
-    Some(dots.fold(0, |bits, (_, place)| bits | 1 << place))
+    let mut dots = 0;
+    for (bit, place) in PLACES.iter().enumerate() {
+        if pattern >> bit & 1 == 1 {
+            dots |= 1 << place;
+        }
+    }
+    Some(dots)
 }
 
 /// Returns a screen as plain text, with a line for each row. The lines have no blanks at their

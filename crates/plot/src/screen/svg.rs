@@ -10,17 +10,20 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
 
-/// Width and height of a cell, height of the baseline in a cell, and margin around the screen, in
-/// px.
+/// Width of a cell, px.
 const WIDTH: u32 = 8;
+/// Height of a cell, px.
 const HEIGHT: u32 = 16;
+/// Distance of the base line from the upper edge of a cell, px.
 const BASE: u32 = 12;
+/// Margin around the screen, px.
 const MARGIN: u32 = 8;
 /// Monospaced fonts of the common systems, whose letters are about 0.6 times as wide as the font
 /// size.
 const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 const FONT_SIZE: f64 = 13.3;
+
 /// Remaining share of a dimmed colour, per cent.
 const DIMMED: u8 = 60;
 
@@ -43,58 +46,55 @@ pub fn screen_svg(buffer: &Buffer, palette: &Palette, title: &str) -> String {
         "<rect width=\"{width}\" height=\"{height}\" rx=\"6\" fill=\"{ground}\"/>"
     ));
     svg.push(format_args!(
-        "<g transform=\"translate({MARGIN} {MARGIN})\" font-family=\"{FONTS}\" font-size=\"{FONT_SIZE}\" \
-         xml:space=\"preserve\">"
+        "<g transform=\"translate({MARGIN} {MARGIN})\" font-family=\"{FONTS}\" \
+         font-size=\"{FONT_SIZE}\" xml:space=\"preserve\">"
     ));
     for ((kind, colour), path) in paths(buffer, palette) {
         let colour = hex(colour);
-        let stroke = |width: f64, cap: &str| {
-            format!(
-                "fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\""
-            )
-        };
         let looks = match kind {
             Kind::Ground | Kind::Block => {
                 format!("fill=\"{colour}\" shape-rendering=\"crispEdges\"")
             }
-            Kind::Line => stroke(1.2, "square"),
-            Kind::Dots => stroke(2.8, "round"),
+            Kind::Line => stroke(&colour, 1.2, "square"),
+            Kind::Dots => stroke(&colour, 2.8, "round"),
         };
         svg.push(format_args!("<path {looks} d=\"{path}\"/>"));
     }
-    for Word {
-        column,
-        row,
-        cells,
-        look: (colour, is_bold),
-        letters,
-    } in words(buffer, palette)
-    {
-        let [x, y] = [u32::from(column) * WIDTH, u32::from(row) * HEIGHT + BASE];
-        let (long, colour, letters) = (u32::from(cells) * WIDTH, hex(colour), escaped(&letters));
-        let bold = if is_bold { " font-weight=\"bold\"" } else { "" };
+    for word in words(buffer, palette) {
+        let x = u32::from(word.column) * WIDTH;
+        let y = u32::from(word.row) * HEIGHT + BASE;
+        let length = u32::from(word.cells) * WIDTH;
+        let colour = hex(word.colour);
+        let weight = if word.is_bold {
+            " font-weight=\"bold\""
+        } else {
+            ""
+        };
+        let letters = escaped(&word.letters);
         svg.push(format_args!(
-            "<text x=\"{x}\" y=\"{y}\" textLength=\"{long}\" fill=\"{colour}\"{bold}>{letters}</text>"
+            "<text x=\"{x}\" y=\"{y}\" textLength=\"{length}\" \
+             fill=\"{colour}\"{weight}>{letters}</text>"
         ));
     }
     svg.push(format_args!("</g>"));
     svg.finish()
 }
 
+fn stroke(colour: &str, width: f64, cap: &str) -> String {
+    format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
+}
+
 /// Returns the backgrounds and drawn characters as path data, for each kind and colour.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
-        let (colour, ground) = colours(&glyph, palette);
-        if ground != palette.background {
+        let colours = CellColours::of(&glyph, palette);
+        if colours.ground != palette.background {
             let path = boxed(&glyph, u32::from(glyph.width) * WIDTH);
-            paths
-                .entry((Kind::Ground, ground))
-                .or_default()
-                .push_str(&path);
+            *paths.entry((Kind::Ground, colours.ground)).or_default() += &path;
         }
         if let Some((kind, path)) = shape(&glyph) {
-            paths.entry((kind, colour)).or_default().push_str(&path);
+            *paths.entry((kind, colours.ink)).or_default() += &path;
         }
     }
     paths
@@ -102,10 +102,8 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
 
 /// Returns the path around the left `width` px of the cells of a symbol.
 fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
-    let (x, y) = (
-        u32::from(glyph.column) * WIDTH,
-        u32::from(glyph.row) * HEIGHT,
-    );
+    let x = u32::from(glyph.column) * WIDTH;
+    let y = u32::from(glyph.row) * HEIGHT;
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
@@ -115,67 +113,85 @@ struct Word {
     row: u16,
     /// Number of cells.
     cells: u16,
-    look: (Rgb, bool),
+    colour: Rgb,
+    is_bold: bool,
     letters: String,
 }
 
 /// Returns the words on each row. Few viewers read a list of places for the letters of a text.
 fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
-    for glyph in glyphs(buffer).filter(|glyph| glyph.symbol() != " " && shape(glyph).is_none()) {
-        let (column, row, cells, letters) = (glyph.column, glyph.row, glyph.width, glyph.symbol());
-        let look = (
-            colours(&glyph, palette).0,
-            glyph.cell.modifier.contains(Modifier::BOLD),
-        );
+    for glyph in glyphs(buffer) {
+        if glyph.symbol() == " " || shape(&glyph).is_some() {
+            continue;
+        }
+        let next = Word {
+            column: glyph.column,
+            row: glyph.row,
+            cells: glyph.width,
+            colour: CellColours::of(&glyph, palette).ink,
+            is_bold: glyph.cell.modifier.contains(Modifier::BOLD),
+            letters: glyph.symbol().to_owned(),
+        };
         match words.last_mut() {
-            Some(word)
-                if word.row == row && word.column + word.cells == column && word.look == look =>
-            {
-                word.cells += cells;
-                word.letters += letters;
+            Some(word) if word.continues_with(&next) => {
+                word.cells += next.cells;
+                word.letters += &next.letters;
             }
-            _ => words.push(Word {
-                column,
-                row,
-                cells,
-                look,
-                letters: letters.to_owned(),
-            }),
+            _ => words.push(next),
         }
     }
     words
 }
 
-fn colours(glyph: &Glyph<'_>, palette: &Palette) -> (Rgb, Rgb) {
-    let (cell, modifier) = (glyph.cell, glyph.cell.modifier);
-    let mut ink = rgb(palette, cell.fg, palette.foreground);
-    let mut ground = rgb(palette, cell.bg, palette.background);
-    if modifier.contains(Modifier::DIM) {
-        ink = mixed(ink, ground, DIMMED);
+impl Word {
+    /// Returns true if other letters follow in the next cell with the same looks.
+    fn continues_with(&self, next: &Word) -> bool {
+        let is_adjacent = self.row == next.row && self.column + self.cells == next.column;
+        let looks_alike = self.colour == next.colour && self.is_bold == next.is_bold;
+        is_adjacent && looks_alike
     }
-    if modifier.contains(Modifier::REVERSED) {
-        std::mem::swap(&mut ink, &mut ground);
+}
+
+/// Colours of a cell.
+struct CellColours {
+    ink: Rgb,
+    ground: Rgb,
+}
+
+impl CellColours {
+    fn of(glyph: &Glyph<'_>, palette: &Palette) -> Self {
+        let modifier = glyph.cell.modifier;
+        let mut ink = rgb(palette, glyph.cell.fg, palette.foreground);
+        let mut ground = rgb(palette, glyph.cell.bg, palette.background);
+        if modifier.contains(Modifier::DIM) {
+            ink = mixed(ink, ground, DIMMED);
+        }
+        if modifier.contains(Modifier::REVERSED) {
+            std::mem::swap(&mut ink, &mut ground);
+        }
+        CellColours { ink, ground }
     }
-    (ink, ground)
 }
 
 /// Returns the RGB of a terminal colour in a palette, and `reset` for the default colour. The
 /// explorer uses the sixteen ANSI colours.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
-    const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen LightYellow \
-                        LightBlue LightMagenta LightCyan White";
+    const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen \
+                        LightYellow LightBlue LightMagenta LightCyan White";
     let name = colour.to_string();
     ANSI.split(' ')
-        .position(|one| one == name)
+        .position(|ansi| ansi == name)
         .map_or(reset, |index| palette.ansi[index])
 }
 
 /// Mixes two colours. `percent` is the share of the first colour.
-fn mixed(one: Rgb, other: Rgb, percent: u8) -> Rgb {
+fn mixed(first: Rgb, second: Rgb, percent: u8) -> Rgb {
+    let share = u32::from(percent);
     std::array::from_fn(|channel| {
-        let part = |colour: Rgb, percent: u8| u32::from(colour[channel]) * u32::from(percent);
-        ((part(one, percent) + part(other, 100 - percent)) / 100) as u8
+        let first = u32::from(first[channel]) * share;
+        let second = u32::from(second[channel]) * (100 - share);
+        ((first + second) / 100) as u8
     })
 }
 
@@ -189,35 +205,37 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
         ("│└┘├┤┴", "v-8"),
         ("│┌┐├┤┬", "v8"),
     ];
-    let character = glyph.character().filter(|_| glyph.width == 1)?;
-    let (x, y) = (
-        u32::from(glyph.column) * WIDTH,
-        u32::from(glyph.row) * HEIGHT,
-    );
+    if glyph.width != 1 {
+        return None;
+    }
+    let character = glyph.character()?;
+    let x = u32::from(glyph.column) * WIDTH;
+    let y = u32::from(glyph.row) * HEIGHT;
+    let mut path = String::new();
     match character {
         '─'..='┴' => {
-            let ends = ENDS
-                .iter()
-                .filter(|(characters, _)| characters.contains(character));
-            let path: String = ends
-                .map(|(_, end)| format!("M{} {}{end}", x + WIDTH / 2, y + HEIGHT / 2))
-                .collect();
-            Some((Kind::Line, path)).filter(|(_, path)| !path.is_empty())
+            for (characters, end) in ENDS {
+                if characters.contains(character) {
+                    path += &format!("M{} {}{end}", x + WIDTH / 2, y + HEIGHT / 2);
+                }
+            }
+            (!path.is_empty()).then_some((Kind::Line, path))
         }
-        '█'..='▏' => Some((
-            Kind::Block,
-            boxed(glyph, WIDTH - (character as u32 - '█' as u32)),
-        )),
+        '█'..='▏' => {
+            let width = WIDTH - (character as u32 - '█' as u32);
+            Some((Kind::Block, boxed(glyph, width)))
+        }
         _ => {
             // Bits row by row from the upper left, two across and four down.
-            let (bits, dot) = (dots(character)?, |bit: u32| {
-                (x + 2 + bit % 2 * 4, y + 2 + bit / 2 * 4)
-            });
-            let set = (0..8).filter(|bit| bits >> bit & 1 == 1).map(dot);
-            Some((
-                Kind::Dots,
-                set.map(|(x, y)| format!("M{x} {y}h.1")).collect(),
-            ))
+            let bits = dots(character)?;
+            for bit in 0..8 {
+                if bits >> bit & 1 == 1 {
+                    let dot_x = x + 2 + bit % 2 * 4;
+                    let dot_y = y + 2 + bit / 2 * 4;
+                    path += &format!("M{dot_x} {dot_y}h.1");
+                }
+            }
+            Some((Kind::Dots, path))
         }
     }
 }

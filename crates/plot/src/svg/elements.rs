@@ -66,18 +66,18 @@ pub struct Svg {
 impl Svg {
     /// Begins a document of this width and height, in user units.
     pub fn new(width: f64, height: f64, title: &str) -> Svg {
-        let (width, height, title) = (px(width), px(height), escaped(title));
-        let mut svg = Svg {
-            text: String::new(),
-        };
+        let width = px(width);
+        let height = px(height);
+        let title = escaped(title);
+        let mut svg = Svg::default();
         svg.push(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>"
+             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\n\
+             <title>{title}</title>"
         ));
         svg
     }
 
-    /// Adds elements.
     pub fn push(&mut self, elements: Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ = self.text.write_fmt(elements);
@@ -102,11 +102,10 @@ impl Svg {
     }
 
     fn rect(&mut self, from: Place, to: Place, looks: &str) {
-        // The ends are rounded, so that adjacent rectangles meet.
-        let length =
-            |from: f64, to: f64| px((100.0 * to).round() / 100.0 - (100.0 * from).round() / 100.0);
-        let (x, y) = (px(from.0), px(from.1));
-        let (width, height) = (length(from.0, to.0), length(from.1, to.1));
+        let x = px(from.0);
+        let y = px(from.1);
+        let width = px(rounded(to.0) - rounded(from.0));
+        let height = px(rounded(to.1) - rounded(from.1));
         self.push(format_args!(
             "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {looks}/>"
         ));
@@ -121,25 +120,28 @@ impl Svg {
     }
 
     pub(super) fn line(&mut self, places: &[Place], pen: Pen) {
-        let (points, pen) = (points(places), pen.attributes());
+        let points = points(places);
+        let pen = pen.attributes();
         self.push(format_args!(
             "<polyline points=\"{points}\" fill=\"none\" {pen} stroke-linejoin=\"round\"/>"
         ));
     }
 
     /// Draws straight lines with round ends, each given by its two ends.
-    pub(super) fn pieces(&mut self, pieces: impl Iterator<Item = [Place; 2]>, pen: Pen) {
-        let piece = |[from, to]: [Place; 2]| {
-            format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1))
-        };
-        let (path, pen) = (pieces.map(piece).collect::<String>(), pen.attributes());
+    pub(super) fn pieces(&mut self, pieces: &[[Place; 2]], pen: Pen) {
+        let mut path = String::new();
+        for [from, to] in pieces {
+            path += &format!("M{} {}L{} {}", px(from.0), px(from.1), px(to.0), px(to.1));
+        }
+        let pen = pen.attributes();
         self.push(format_args!(
             "<path d=\"{path}\" fill=\"none\" {pen} stroke-linecap=\"round\"/>"
         ));
     }
 
     pub(super) fn area(&mut self, places: &[Place], fill: Rgb, opacity: f64) {
-        let (points, fill) = (points(places), hex(fill));
+        let points = points(places);
+        let fill = hex(fill);
         let opacity = if opacity < 1.0 {
             format!(" fill-opacity=\"{}\"", px(opacity))
         } else {
@@ -155,12 +157,11 @@ impl Svg {
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
-            let (left, right, bottom) = (
-                px(from.0),
-                px(to.0.max(from.0 + 0.5)),
-                px(to.1.max(from.1 + 0.5)),
-            );
-            path += &format!("M{left} {}H{right}V{bottom}H{left}z", px(from.1));
+            let left = px(from.0);
+            let top = px(from.1);
+            let right = px(to.0.max(from.0 + 0.5));
+            let bottom = px(to.1.max(from.1 + 0.5));
+            path += &format!("M{left} {top}H{right}V{bottom}H{left}z");
         }
         let fill = hex(fill);
         self.push(format_args!(
@@ -168,8 +169,11 @@ impl Svg {
         ));
     }
 
-    pub(super) fn circle(&mut self, at: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
-        let (x, y, radius, fill) = (px(at.0), px(at.1), px(radius), hex(fill));
+    pub(super) fn circle(&mut self, middle: Place, radius: f64, fill: Rgb, pen: Option<Pen>) {
+        let x = px(middle.0);
+        let y = px(middle.1);
+        let radius = px(radius);
+        let fill = hex(fill);
         let pen = pen.map_or_else(String::new, |pen| format!(" {}", pen.attributes()));
         self.push(format_args!(
             "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{fill}\"{pen}/>"
@@ -181,72 +185,86 @@ impl Svg {
     pub(super) fn lines(
         &mut self,
         lines: &[Label],
-        (x, y): Place,
+        first: Place,
         size: f64,
         anchor: Anchor,
     ) -> f64 {
-        lines.iter().fold(y, |y, line| {
+        let (x, mut y) = first;
+        for line in lines {
             self.label(line, (x, y), size, anchor);
-            y + (1.4 * size).round()
-        })
+            y += (1.4 * size).round();
+        }
+        y
     }
 
-    pub(super) fn label(&mut self, label: &Label, at: Place, size: f64, anchor: Anchor) {
-        let (x, y, fill) = (px(at.0), px(at.1), hex(TEXT));
-        let (side, turned) = match anchor {
-            Anchor::Left => ("start", String::new()),
-            Anchor::Middle => ("middle", String::new()),
-            Anchor::Right => ("end", String::new()),
-            Anchor::Upwards => ("middle", format!(" transform=\"rotate(-90 {x} {y})\"")),
+    pub(super) fn label(&mut self, label: &Label, place: Place, size: f64, anchor: Anchor) {
+        let x = px(place.0);
+        let y = px(place.1);
+        let side = match anchor {
+            Anchor::Left => "start",
+            Anchor::Middle | Anchor::Upwards => "middle",
+            Anchor::Right => "end",
+        };
+        let turned = if anchor == Anchor::Upwards {
+            format!(" transform=\"rotate(-90 {x} {y})\"")
+        } else {
+            String::new()
         };
         // The base line is half the height of a capital letter below the middle.
-        let base = px(at.1 + 0.35 * size);
-        let (runs, size) = (runs(label, size), px(size));
+        let base = px(place.1 + 0.35 * size);
+        let fill = hex(TEXT);
+        let runs = runs(label, size);
+        let size = px(size);
         self.push(format_args!(
-            "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" text-anchor=\"{side}\" fill=\"{fill}\"{turned}>{runs}</text>"
+            "<text x=\"{x}\" y=\"{base}\" font-size=\"{size}\" text-anchor=\"{side}\" \
+             fill=\"{fill}\"{turned}>{runs}</text>"
         ));
     }
 }
 
+/// Rounds a length in px to a hundredth, so that adjacent rectangles meet.
+fn rounded(value: f64) -> f64 {
+    (100.0 * value).round() / 100.0
+}
+
 /// Replaces the hyphen before a number by a minus sign.
 fn with_minus(text: &str) -> String {
-    let characters: Vec<char> = text.chars().collect();
-    let is_minus = |at: usize| {
-        let next = characters.get(at + 1).is_some_and(char::is_ascii_digit);
-        characters[at] == '-'
-            && next
-            && (at == 0 || [' ', '\u{a0}', '('].contains(&characters[at - 1]))
-    };
-    (0..characters.len())
-        .map(|at| if is_minus(at) { '−' } else { characters[at] })
-        .collect()
+    let mut shown = String::with_capacity(text.len());
+    let mut before = ' ';
+    let mut characters = text.chars().peekable();
+    while let Some(character) = characters.next() {
+        let is_before_digit = characters.peek().is_some_and(char::is_ascii_digit);
+        let is_minus =
+            character == '-' && is_before_digit && matches!(before, ' ' | '\u{a0}' | '(');
+        shown.push(if is_minus { '−' } else { character });
+        before = character;
+    }
+    shown
 }
 
 /// Returns the parts of a label as elements within a text of this font size in px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
-    // Some viewers drop blanks at the ends of an element: they are between elements, as no-break
-    // spaces.
-    let blanks = |count: usize| "\u{a0}".repeat(count);
     for (face, text) in label.runs() {
         let text = with_minus(text);
-        let is_blank = |character: char| [' ', '\u{a0}'].contains(&character);
-        let inner = text.trim_matches(is_blank);
-        let before = text
-            .chars()
-            .take_while(|character| is_blank(*character))
-            .count();
-        elements += &blanks(before);
+        let after = text.trim_start_matches(is_blank);
+        let inner = after.trim_end_matches(is_blank);
+        // Some viewers drop blanks at the ends of an element. Therefore they are between elements,
+        // as no-break spaces.
+        push_blanks(&mut elements, &text[..text.len() - after.len()]);
         if inner.is_empty() {
             continue;
         }
-        let small = || format!(" font-size=\"{}\"", px(SMALL * size));
-        let (below, looks) = match face {
-            Face::Upright => (0.0, String::new()),
-            Face::Italic => (0.0, " font-style=\"italic\"".to_owned()),
-            Face::Index => (0.25 * size, small()),
-            Face::Exponent => (-0.42 * size, small()),
+        let below = match face {
+            Face::Upright | Face::Italic => 0.0,
+            Face::Index => 0.25 * size,
+            Face::Exponent => -0.42 * size,
+        };
+        let looks = match face {
+            Face::Upright => String::new(),
+            Face::Italic => " font-style=\"italic\"".to_owned(),
+            Face::Index | Face::Exponent => format!(" font-size=\"{}\"", px(SMALL * size)),
         };
         let step = match px(below - shift).as_str() {
             "0" => String::new(),
@@ -259,9 +277,18 @@ fn runs(label: &Label, size: f64) -> String {
         } else {
             elements.push_str(&format!("<tspan{step}{looks}>{shown}</tspan>"));
         }
-        elements += &blanks(text.chars().count() - inner.chars().count() - before);
+        push_blanks(&mut elements, &after[inner.len()..]);
     }
     elements
+}
+
+fn is_blank(character: char) -> bool {
+    matches!(character, ' ' | '\u{a0}')
+}
+
+/// Appends a no-break space for each blank.
+fn push_blanks(elements: &mut String, blanks: &str) {
+    elements.extend(blanks.chars().map(|_| '\u{a0}'));
 }
 
 fn points(places: &[Place]) -> String {

@@ -1,7 +1,7 @@
 //! Frame of a chart, which converts numbers to positions, and its axes.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
-use crate::axis::{Axes, ChartAxis, Share};
+use crate::axis::{Axes, Share};
 use crate::label::Label;
 use crate::ticks::Tick;
 
@@ -40,16 +40,28 @@ impl Frame<'_> {
     }
 
     /// Returns the position in the picture of a position in shares of the axes.
-    pub(super) fn at(&self, (x, y): Share) -> Place {
+    pub(super) fn at(&self, share: Share) -> Place {
+        let (x, y) = share;
         (
             self.from.0 + x * self.width(),
             self.to.1 - y * self.height(),
         )
     }
 
-    pub(super) fn place_of_coordinates(&self, (x, y): (f64, f64)) -> Place {
-        let share = |axis: &ChartAxis, at: f64| (at - axis.span.low) / axis.span.width();
-        self.at((share(self.axes.x, x), share(self.axes.y, y)))
+    pub(super) fn places(&self, shares: Vec<Share>) -> Vec<Place> {
+        shares.into_iter().map(|share| self.at(share)).collect()
+    }
+
+    /// Returns the position in the picture of coordinates on the axes.
+    pub(super) fn place_of_coordinates(&self, x: f64, y: f64) -> Place {
+        let Axes {
+            x: x_axis,
+            y: y_axis,
+        } = self.axes;
+        self.at((
+            (x - x_axis.span.low) / x_axis.span.width(),
+            (y - y_axis.span.low) / y_axis.span.width(),
+        ))
     }
 
     pub(super) fn axis(&self, svg: &mut Svg, side: Side) {
@@ -59,36 +71,8 @@ impl Frame<'_> {
             self.axes.y
         };
         let ticks = axis.ticks(self.ticks(side));
-        // Direction outwards from the frame, and the edge of the frame.
-        let (outwards, edge) = match side {
-            Side::Below => (1.0, self.to.1),
-            Side::Left => (-1.0, self.from.0),
-            Side::Right => (1.0, self.to.0),
-        };
-        for Tick { at, label } in &ticks {
-            let length = outwards * NUMBER * if label.is_some() { 0.43 } else { 0.23 };
-            let (x, y) = self.place_of_coordinates((*at, *at));
-            let (ends, place, anchor) = match side {
-                Side::Below => (
-                    [(x, edge), (x, edge + length)],
-                    (x, edge + 1.2 * NUMBER),
-                    Anchor::Middle,
-                ),
-                Side::Left => (
-                    [(edge + length, y), (edge, y)],
-                    (edge - 0.7 * NUMBER, y),
-                    Anchor::Right,
-                ),
-                Side::Right => (
-                    [(edge, y), (edge + length, y)],
-                    (edge + 0.7 * NUMBER, y),
-                    Anchor::Left,
-                ),
-            };
-            svg.line(&ends, Pen::solid(TEXT, 1.0));
-            if let Some(label) = label {
-                svg.label(label, place, NUMBER, anchor);
-            }
+        for tick in &ticks {
+            self.tick(svg, side, tick);
         }
         let length = if side == Side::Below {
             self.width()
@@ -96,19 +80,54 @@ impl Frame<'_> {
             self.height()
         };
         let label = axis.label_within((length + LABEL) / LABEL);
-        if !label.is_empty() {
-            let middle = self.at((0.5, 0.5));
-            let (place, anchor) = match side {
-                Side::Below => ((middle.0, edge + 2.9 * NUMBER), Anchor::Middle),
-                _ => (
-                    (edge + outwards * beside(&ticks), middle.1),
-                    Anchor::Upwards,
-                ),
-            };
-            svg.label(&label, place, LABEL, anchor);
+        if label.is_empty() {
+            return;
+        }
+        let middle = self.at((0.5, 0.5));
+        let edge = self.edge(side);
+        match side {
+            Side::Below => {
+                let place = (middle.0, edge + 2.9 * NUMBER);
+                svg.label(&label, place, LABEL, Anchor::Middle);
+            }
+            Side::Left | Side::Right => {
+                let place = (edge + outwards(side) * beside(&ticks), middle.1);
+                svg.label(&label, place, LABEL, Anchor::Upwards);
+            }
         }
     }
 
+    fn tick(&self, svg: &mut Svg, side: Side, tick: &Tick) {
+        let edge = self.edge(side);
+        let share = if tick.label.is_some() { 0.43 } else { 0.23 };
+        let end = edge + outwards(side) * NUMBER * share;
+        let (x, y) = self.place_of_coordinates(tick.at, tick.at);
+        let ends = match side {
+            Side::Below => [(x, edge), (x, end)],
+            Side::Left => [(end, y), (edge, y)],
+            Side::Right => [(edge, y), (end, y)],
+        };
+        svg.line(&ends, Pen::solid(TEXT, 1.0));
+        let Some(label) = &tick.label else {
+            return;
+        };
+        match side {
+            Side::Below => svg.label(label, (x, edge + 1.2 * NUMBER), NUMBER, Anchor::Middle),
+            Side::Left => svg.label(label, (edge - 0.7 * NUMBER, y), NUMBER, Anchor::Right),
+            Side::Right => svg.label(label, (edge + 0.7 * NUMBER, y), NUMBER, Anchor::Left),
+        }
+    }
+
+    /// Returns the place in px of the edge of the frame on a side.
+    fn edge(&self, side: Side) -> f64 {
+        match side {
+            Side::Below => self.to.1,
+            Side::Left => self.from.0,
+            Side::Right => self.to.0,
+        }
+    }
+
+    /// Returns the approximate number of labelled ticks on a side.
     fn ticks(&self, side: Side) -> usize {
         // Wide charts have more ticks, low ones fewer.
         let room = if side == Side::Below {
@@ -123,6 +142,14 @@ impl Frame<'_> {
     pub(super) fn room(&self, side: Side) -> f64 {
         let ticks = self.axes.y.ticks(self.ticks(side));
         beside(&ticks) + 0.7 * LABEL
+    }
+}
+
+/// Returns the sign of the direction from a side of the frame outwards.
+fn outwards(side: Side) -> f64 {
+    match side {
+        Side::Below | Side::Right => 1.0,
+        Side::Left => -1.0,
     }
 }
 

@@ -13,35 +13,63 @@ const BETWEEN: f64 = 20.0;
 const ROW: f64 = 20.0;
 
 /// Entry with its width in px and the lines of its name.
-type Named<'a> = (f64, &'a Entry, Vec<Label>);
+struct PlacedEntry<'a> {
+    entry: &'a Entry,
+    width: f64,
+    lines: Vec<Label>,
+}
+
+/// Entries side by side, and their width in px.
+struct Row<'a> {
+    entries: Vec<PlacedEntry<'a>>,
+    width: f64,
+}
 
 /// Draws the entries in rows centred on `middle` and no wider than `most` px. Returns the height of
 /// their lower end.
-pub(super) fn draw(svg: &mut Svg, entries: &[Entry], (middle, top): Place, most: f64) -> f64 {
-    let mut rows: Vec<(f64, Vec<Named<'_>>)> = Vec::new();
-    for entry in entries {
-        let lines = entry.name.wrapped((most - room(entry)) / SIZE);
-        let own = room(entry) + SIZE * lines.iter().map(Label::width).fold(0.0, f64::max);
-        match rows.last_mut() {
-            Some((width, row)) if *width + BETWEEN + own <= most => {
-                *width += BETWEEN + own;
-                row.push((own, entry, lines));
-            }
-            _ => rows.push((own, vec![(own, entry, lines)])),
-        }
-    }
+pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most: f64) -> f64 {
     let mut y = top;
-    for (width, row) in rows {
-        let mut x = middle - width / 2.0;
-        let height = row.iter().map(|(.., lines)| lines.len()).max().unwrap_or(1);
-        for (own, entry, lines) in row {
+    for row in rows(entries, most) {
+        let mut x = middle - row.width / 2.0;
+        let most_lines = row.entries.iter().map(|entry| entry.lines.len()).max();
+        for PlacedEntry {
+            entry,
+            width,
+            lines,
+        } in row.entries
+        {
             sample(svg, entry, (x, y + ROW / 2.0));
             svg.lines(&lines, (x + room(entry), y + ROW / 2.0), SIZE, Anchor::Left);
-            x += own + BETWEEN;
+            x += width + BETWEEN;
         }
-        y += ROW + (height - 1) as f64 * 1.4 * SIZE;
+        y += ROW + (most_lines.unwrap_or(1) - 1) as f64 * 1.4 * SIZE;
     }
     y
+}
+
+/// Divides the entries into rows of at most `most` px.
+fn rows(entries: &[Entry], most: f64) -> Vec<Row<'_>> {
+    let mut rows: Vec<Row<'_>> = Vec::new();
+    for entry in entries {
+        let lines = entry.name.wrapped((most - room(entry)) / SIZE);
+        let width = room(entry) + SIZE * lines.iter().map(Label::width).fold(0.0, f64::max);
+        let placed = PlacedEntry {
+            entry,
+            width,
+            lines,
+        };
+        match rows.last_mut() {
+            Some(row) if row.width + BETWEEN + width <= most => {
+                row.width += BETWEEN + width;
+                row.entries.push(placed);
+            }
+            _ => rows.push(Row {
+                entries: vec![placed],
+                width,
+            }),
+        }
+    }
+    rows
 }
 
 /// Returns the width of the samples of an entry in px.
@@ -54,37 +82,40 @@ fn room(entry: &Entry) -> f64 {
     }
 }
 
-fn sample(svg: &mut Svg, entry: &Entry, (x, y): Place) {
+fn sample(svg: &mut Svg, entry: &Entry, place: Place) {
+    let (x, y) = place;
     let part = 22.0 / entry.samples.len().max(1) as f64;
     for (index, (ink, sample)) in entry.samples.iter().enumerate() {
-        let (colour, left) = (ink.on_paper(), x + index as f64 * part);
+        let colour = ink.on_paper();
+        let left = x + index as f64 * part;
         match sample {
             Sample::Line(None, Some(sign)) if entry.samples.len() == 1 => {
                 draw_sign(svg, *sign, (x + SIGN, y), SIGN, colour);
             }
             Sample::Line(stroke, sign) => {
                 if let Some(stroke) = stroke {
-                    svg.line(
-                        &[(left, y), (left + part, y)],
-                        Pen {
-                            colour,
-                            width: 1.6,
-                            stroke: *stroke,
-                        },
-                    );
+                    let pen = Pen {
+                        colour,
+                        width: 1.6,
+                        stroke: *stroke,
+                    };
+                    svg.line(&[(left, y), (left + part, y)], pen);
                 }
                 if let Some(sign) = sign {
                     draw_sign(svg, *sign, (left + part / 2.0, y), SIGN, colour);
                 }
             }
             Sample::Area | Sample::Solid => {
-                let (from, to) = ((left, y - 5.0), (left + part, y + 5.0));
+                let right = left + part;
+                let top = y - 5.0;
+                let bottom = y + 5.0;
+                let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
                 let opacity = if *sample == Sample::Area {
                     AREA_OPACITY
                 } else {
                     1.0
                 };
-                svg.area(&[from, (to.0, from.1), to, (from.0, to.1)], colour, opacity);
+                svg.area(&corners, colour, opacity);
             }
             Sample::Guide => svg.line(&[(x + 5.0, y + 7.0), (x + 5.0, y - 7.0)], guide(*ink)),
             Sample::Contour => svg.line(&[(x, y), (x + 22.0, y)], Pen::solid(colour, 1.8)),

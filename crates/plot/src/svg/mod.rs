@@ -9,34 +9,38 @@ use super::axis::Axes;
 use super::chart::{Chart, Figure, HeatMap};
 use super::colour::Shades;
 use super::label::Label;
-use elements::{Anchor, PAPER, Pen, Place, TEXT};
-use elements::{Svg, escaped};
+use elements::{Anchor, PAPER, Pen, Place, Svg, TEXT, escaped};
 use frame::{Frame, LABEL, Side};
 
 /// Fonts of figures, whose letters are nearly the same on all systems.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
-/// Room below a chart for its axis, and smallest room on its right, px.
+/// Room below a chart for its axis, px.
 const BELOW: f64 = 50.0;
+/// Smallest room on the right of a chart, px.
 const BESIDE: f64 = 22.0;
-/// Distance of the colour scale from its map, and width of the scale, px.
+/// Distance of the colour scale from its map, px.
 const FROM_MAP: f64 = 14.0;
+/// Width of the colour scale, px.
 const BAR: f64 = 13.0;
 /// Smallest distance of text from the border, px.
 const MARGIN: f64 = 6.0;
-/// Font sizes of the title and of the text below title and legend, px.
+/// Font size of the title, px.
 const TITLE: f64 = 14.5;
+/// Font size of the text below title and legend, px.
 const TEXT_SIZE: f64 = LABEL - 1.0;
-/// Smallest width in px of frames side by side in a figure with a given width, and largest width of
-/// any other figure with several charts.
+/// Height of a line of the headings of charts, px.
+const HEADING: f64 = 18.0;
+/// Smallest width in px of frames side by side in a figure with a given width.
 const LEAST: f64 = 110.0;
+/// Largest width in px of a figure with several charts and without a given width.
 const WIDEST: f64 = 1400.0;
 /// Width in px up to which a frame is at least as high as it is wide.
 const SQUARE: f64 = 150.0;
 /// Largest ratio of height to width for frames below each other.
 const LOW: f64 = 0.62;
-/// Largest height in px of a figure with a given width, which is 240 mm, and smallest height of a
-/// frame.
+/// Largest height in px of a figure with a given width, which is 240 mm.
 const PAGE: f64 = 907.0;
+/// Smallest height of a frame, px.
 const LOWEST: f64 = 60.0;
 /// Height of a name on an axis, px.
 const NAME: f64 = 14.0;
@@ -45,22 +49,28 @@ const NAME: f64 = 14.0;
 struct Layout {
     /// Width of the picture, px.
     width: f64,
-    /// Size of the frames, px.
+    /// Width and height of the frames, px.
     size: (f64, f64),
-    /// Room on the left and on the right of each column of charts, px.
-    rooms: Vec<(f64, f64)>,
+    /// Rooms of each column of charts.
+    rooms: Vec<Rooms>,
+}
+
+/// Room beside the frame of a chart, px.
+#[derive(Clone, Copy, Default)]
+struct Rooms {
+    left: f64,
+    right: f64,
 }
 
 impl Figure {
     /// Draws the figure and returns an SVG document. Equal figures give documents of equal bytes.
     pub fn svg(&self) -> String {
-        let mut layout = self.columns();
+        let mut layout = self.layout();
         let (mut svg, mut height) = self.drawn(&layout);
-        let most = self.height.or(self.width.map(|_| PAGE));
-        // Besides the frames all has the same height.
-        if let Some(most) = most.filter(|most| self.height.is_some() || height > *most) {
+        if let Some(wanted) = self.wanted_height(height) {
+            // Except for the frames, everything has the same height.
             let rows = self.charts.len().div_ceil(layout.rooms.len()).max(1) as f64;
-            layout.size.1 = (layout.size.1 - (height - most) / rows).max(LOWEST);
+            layout.size.1 = (layout.size.1 - (height - wanted) / rows).max(LOWEST);
             (svg, height) = self.drawn(&layout);
         }
         let width = layout.width;
@@ -74,11 +84,22 @@ impl Figure {
         document.finish()
     }
 
+    /// Returns the height in px that a picture of this height should have; `None` if it keeps its
+    /// height.
+    fn wanted_height(&self, height: f64) -> Option<f64> {
+        if self.height.is_some() {
+            return self.height;
+        }
+        (self.width.is_some() && height > PAGE).then_some(PAGE)
+    }
+
     /// Draws all elements. Returns them with the height of the picture.
-    fn drawn(&self, Layout { width, size, rooms }: &Layout) -> (Svg, f64) {
+    fn drawn(&self, layout: &Layout) -> (Svg, f64) {
         let mut svg = Svg::default();
+        let width = layout.width;
         let middle = width / 2.0;
-        let wrapped = |label: &Label, size: f64| label.wrapped((width - 4.0 * MARGIN) / size);
+        let text_width = width - 4.0 * MARGIN;
+        let wrapped = |label: &Label, size: f64| label.wrapped(text_width / size);
         let title = if self.untitled {
             Vec::new()
         } else {
@@ -91,35 +112,22 @@ impl Figure {
         };
         let mut y = svg.lines(&title, (middle, first), TITLE, Anchor::Middle);
         for note in &self.notes {
-            y = svg.lines(
-                &wrapped(note, TEXT_SIZE),
-                (middle, y),
-                TEXT_SIZE,
-                Anchor::Middle,
-            );
+            let lines = wrapped(note, TEXT_SIZE);
+            y = svg.lines(&lines, (middle, y), TEXT_SIZE, Anchor::Middle);
         }
-        for (row, charts) in self.charts.chunks(rooms.len()).enumerate() {
-            y = self.draw_row(&mut svg, row * rooms.len(), charts, (*size, rooms, y));
+        let columns = layout.rooms.len();
+        for (row, charts) in self.charts.chunks(columns).enumerate() {
+            y = self.draw_row(&mut svg, row * columns, charts, layout, y);
         }
-        y = legend::draw(
-            &mut svg,
-            &self.legend(),
-            (middle, y + 2.0),
-            width - 4.0 * MARGIN,
-        ) + MARGIN;
+        y = legend::draw(&mut svg, &self.legend(), middle, y + 2.0, text_width) + MARGIN;
         let parameters: Vec<Label> = self
             .parameters
             .iter()
             .flat_map(|line| wrapped(line, TEXT_SIZE))
             .collect();
         if !parameters.is_empty() {
-            let left = 2.0 * MARGIN;
-            let end = svg.lines(
-                &parameters,
-                (left, y + 2.0 * MARGIN),
-                TEXT_SIZE,
-                Anchor::Left,
-            ) - MARGIN;
+            let first = (2.0 * MARGIN, y + 2.0 * MARGIN);
+            let end = svg.lines(&parameters, first, TEXT_SIZE, Anchor::Left) - MARGIN;
             svg.frame((MARGIN, y), (width - MARGIN, end), Pen::solid(TEXT, 0.8));
             y = end + MARGIN;
         }
@@ -127,50 +135,60 @@ impl Figure {
     }
 
     /// Returns the layout of the charts in the fewest rows that fit the width.
-    fn columns(&self) -> Layout {
+    fn layout(&self) -> Layout {
         let count = self.charts.len().max(1);
-        let rooms = |columns: usize, size| -> Vec<(f64, f64)> {
-            let charts = |column| self.charts.iter().skip(column).step_by(columns);
-            let wider =
-                |one: (f64, f64), other: (f64, f64)| (one.0.max(other.0), one.1.max(other.1));
-            let room = |column| {
-                charts(column)
-                    .map(|chart| rooms(chart, size))
-                    .fold((0.0, 0.0), wider)
+        for rows in 1..count {
+            let layout = self.layout_in_columns(count.div_ceil(rows));
+            let fits = if self.width.is_some() {
+                layout.size.0 >= LEAST
+            } else {
+                layout.width <= WIDEST
             };
-            (0..columns).map(room).collect()
-        };
-        let within = |columns: usize| {
-            let mut size = self.size;
+            if fits {
+                return layout;
+            }
+        }
+        self.layout_in_columns(1)
+    }
+
+    fn layout_in_columns(&self, columns: usize) -> Layout {
+        let mut size = self.size;
+        if let Some(width) = self.width {
             // The numbers at the ticks, and so the rooms, depend on the size.
-            for width in self.width.into_iter().chain(self.width) {
-                let across = (width - width_of(&rooms(columns, size), (0.0, 0.0))) / columns as f64;
-                let across = across.max(MARGIN);
-                let share =
-                    (self.size.1 / self.size.0).min(if columns < count { LOW } else { 1.0 });
-                size = (across, (across * share).max(across.min(SQUARE)));
+            for _ in 0..2 {
+                size = self.size_in_columns(columns, width, &self.rooms(columns, size));
             }
-            // Each name on an axis has a line.
-            let names = self
-                .charts
-                .iter()
-                .map(|chart| chart.y.names.len())
-                .max()
-                .unwrap_or(0);
-            size.1 = size.1.max(NAME * names as f64);
-            let rooms = rooms(columns, size);
-            Layout {
-                width: self.width.unwrap_or_else(|| width_of(&rooms, size)),
-                size,
-                rooms,
-            }
-        };
-        let fits = |layout: &Layout| match self.width {
-            Some(_) => layout.size.0 >= LEAST,
-            None => layout.width <= WIDEST,
-        };
-        let mut layouts = (1..count).map(|rows| within(count.div_ceil(rows)));
-        layouts.find(fits).unwrap_or_else(|| within(1))
+        }
+        let names = self.charts.iter().map(|chart| chart.y.names.len()).max();
+        // Each name on an axis has a line.
+        size.1 = size.1.max(NAME * names.unwrap_or(0) as f64);
+        let rooms = self.rooms(columns, size);
+        Layout {
+            width: self.width.unwrap_or_else(|| width_of(&rooms, size.0)),
+            size,
+            rooms,
+        }
+    }
+
+    /// Returns the size in px of frames in columns that have a given width with these rooms.
+    fn size_in_columns(&self, columns: usize, width: f64, rooms: &[Rooms]) -> (f64, f64) {
+        let across = ((width - width_of(rooms, 0.0)) / columns as f64).max(MARGIN);
+        let are_below_each_other = columns < self.charts.len().max(1);
+        let largest_ratio = if are_below_each_other { LOW } else { 1.0 };
+        let ratio = (self.size.1 / self.size.0).min(largest_ratio);
+        (across, (across * ratio).max(across.min(SQUARE)))
+    }
+
+    /// Returns the rooms of each column, which are those of its widest charts.
+    fn rooms(&self, columns: usize, size: (f64, f64)) -> Vec<Rooms> {
+        let mut all = vec![Rooms::default(); columns];
+        for (index, chart) in self.charts.iter().enumerate() {
+            let own = rooms_of(chart, size);
+            let column = &mut all[index % columns];
+            column.left = column.left.max(own.left);
+            column.right = column.right.max(own.right);
+        }
+        all
     }
 
     /// Draws charts side by side from the height `y` down. The first chart has the index `first`.
@@ -180,46 +198,40 @@ impl Figure {
         svg: &mut Svg,
         first: usize,
         charts: &[Chart],
-        (size, rooms, y): ((f64, f64), &[(f64, f64)], f64),
+        layout: &Layout,
+        y: f64,
     ) -> f64 {
-        let heading = |(index, (_, beside)): (usize, &(f64, f64))| {
-            self.heading(index)
-                .unwrap_or_default()
-                .wrapped((size.0 + beside - MARGIN) / LABEL)
-        };
-        let headings: Vec<Vec<Label>> = (first..first + charts.len())
-            .zip(rooms)
-            .map(heading)
-            .collect();
-        let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
-        let top = y + 18.0 * lines as f64 - if lines > 0 { 0.0 } else { 2.0 };
-        let mut left = 0.0;
-        for ((chart, heading), (before, beside)) in charts.iter().zip(&headings).zip(rooms) {
-            left += before;
-            svg.lines(
-                heading,
-                (left, top - 18.0 * heading.len() as f64 + 6.0),
-                LABEL,
-                Anchor::Left,
-            );
-            draw_chart(svg, chart, (left, top), size);
-            left += size.0 + beside;
+        let size = layout.size;
+        let mut headings: Vec<Vec<Label>> = Vec::new();
+        for (index, rooms) in (first..first + charts.len()).zip(&layout.rooms) {
+            let heading = self.heading(index).unwrap_or_default();
+            headings.push(heading.wrapped((size.0 + rooms.right - MARGIN) / LABEL));
         }
-        top + size.1
-            + BELOW
-            + if self.charts.len() > first + charts.len() {
-                2.0 * MARGIN
-            } else {
-                0.0
-            }
+        let lines = headings.iter().map(Vec::len).max().unwrap_or(0);
+        let top = if lines > 0 {
+            y + HEADING * lines as f64
+        } else {
+            y - 2.0
+        };
+        let mut left = 0.0;
+        for ((chart, heading), rooms) in charts.iter().zip(&headings).zip(&layout.rooms) {
+            left += rooms.left;
+            let first_line = (left, top - HEADING * heading.len() as f64 + 6.0);
+            svg.lines(heading, first_line, LABEL, Anchor::Left);
+            draw_chart(svg, chart, (left, top), size);
+            left += size.0 + rooms.right;
+        }
+        let is_last = self.charts.len() <= first + charts.len();
+        let distance = if is_last { 0.0 } else { 2.0 * MARGIN };
+        top + size.1 + BELOW + distance
     }
 }
 
-/// Returns the width in px of charts of one size side by side.
-fn width_of(rooms: &[(f64, f64)], size: (f64, f64)) -> f64 {
+/// Returns the width in px of charts side by side whose frames have this width.
+fn width_of(rooms: &[Rooms], frame: f64) -> f64 {
     rooms
         .iter()
-        .map(|(before, beside)| before + size.0 + beside)
+        .map(|rooms| rooms.left + frame + rooms.right)
         .sum()
 }
 
@@ -237,23 +249,25 @@ fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
 /// Returns the frame of the colour scale on the right of its map.
 fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     let left = chart.to.0 + FROM_MAP;
-    let axes = Axes {
-        y: &map.key,
-        ..chart.axes
-    };
     Frame {
         from: (left, chart.from.1),
         to: (left + BAR, chart.to.1),
-        axes,
+        axes: Axes {
+            y: &map.key,
+            ..chart.axes
+        },
     }
 }
 
-fn rooms(chart: &Chart, size: (f64, f64)) -> (f64, f64) {
+fn rooms_of(chart: &Chart, size: (f64, f64)) -> Rooms {
     let frame = frame_of(chart, (0.0, 0.0), size);
     let scale = chart.map().map_or(0.0, |map| {
         FROM_MAP + BAR + frame_of_colours(map, frame).room(Side::Right) + MARGIN
     });
-    (frame.room(Side::Left) + MARGIN, BESIDE.max(scale))
+    Rooms {
+        left: frame.room(Side::Left) + MARGIN,
+        right: BESIDE.max(scale),
+    }
 }
 
 fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
@@ -265,7 +279,8 @@ fn draw_chart(svg: &mut Svg, chart: &Chart, from: Place, size: (f64, f64)) {
     if let Some(map) = chart.map() {
         let scale = frame_of_colours(map, frame);
         for band in 0..Shades::BANDS {
-            let [low, high] = [band, band + 1].map(|band| band as f64 / Shades::BANDS as f64);
+            let low = band as f64 / Shades::BANDS as f64;
+            let high = (band + 1) as f64 / Shades::BANDS as f64;
             let corners = (scale.at((0.0, high)), scale.at((1.0, low)));
             svg.boxes(std::iter::once(corners), map.shades.of_band(band));
         }
@@ -461,6 +476,7 @@ mod tests {
             }
         }
     }
+
     #[test]
     fn a_figure_has_the_height_that_is_asked_for_and_fits_on_a_page() {
         let chart = small(Vec::new()).charts.remove(0);
