@@ -57,7 +57,7 @@ impl Report for Boundaries {
             };
         }
         let table = table
-            .with("protocol", Kind::Text("zero force".len()), |boundary| {
+            .with("protocol", Kind::Text("first touch".len()), |boundary| {
                 boundary.protocol_name()
             })
             .real("level", |boundary| boundary.level)
@@ -126,4 +126,35 @@ fn boundary_object(boundaries: &Boundaries, boundary: &AdhesionBoundary) -> Valu
 /// on this side.
 fn beyond(boundary: &AdhesionBoundary, side: Ordering) -> Option<f64> {
     (boundary.crossing.side == side).then_some(boundary.crossing.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asperity_study::Quantity;
+
+    /// The names of both protocols have room in an array of NumPy.
+    #[test]
+    fn boundaries_of_both_protocols_can_be_an_array() {
+        let boundary = |protocol| AdhesionBoundary {
+            others: Vec::new(),
+            protocol,
+            level: 0.05,
+            crossing: Crossing {
+                value: 0.6,
+                side: Ordering::Equal,
+                interval: Some((0.5, 0.7)),
+            },
+        };
+        let boundaries = Boundaries {
+            over: RoughnessParameter::Kappa,
+            others: Vec::new(),
+            lines: 4,
+            found: Quantity::ADHESION_SHARES.map(boundary).to_vec(),
+        };
+        let mut array = Vec::new();
+        let table = boundaries.table().unwrap();
+        table.write_npy(&mut array).unwrap();
+        assert!(!array.is_empty());
+    }
 }
