@@ -166,6 +166,11 @@ impl Autosave {
         }
     }
 
+    /// Returns true if a file holds unsaved changes of this session.
+    pub fn has_file(&self) -> bool {
+        self.own.is_some()
+    }
+
     /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The
     /// file is complete at every moment.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {

@@ -10,15 +10,15 @@ use asperity_report::event;
 /// first result and while the body does not move.
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
-    match snapshot.drive {
-        Drive::Manual => Some("manual loading"),
-        Drive::Leg(index) => {
-            let branches = Branch::all(app.legs());
-            let branch = branches
-                .iter()
-                .find(|branch| branch.stages.contains(&index))?;
-            let rests = app.legs()[index].curve.len() == 1;
-            event(app.legs(), branch, snapshot.point).filter(|_| !rests)
-        }
+    let Drive::Leg(index) = snapshot.drive else {
+        return Some("manual loading");
+    };
+    let branches = Branch::all(app.legs());
+    let mut branches = branches.iter();
+    let branch = branches.find(|branch| branch.stages.contains(&index))?;
+    let has_motion = app.legs()[index].curve.len() != 1;
+    if !has_motion {
+        return None;
     }
+    event(app.legs(), branch, snapshot.point)
 }

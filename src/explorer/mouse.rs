@@ -33,22 +33,18 @@ pub fn act(app: &mut App, mouse: Mouse) {
 }
 
 fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
-    match (pane, under) {
-        (Pane::Parameters, _) => {
+    match pane {
+        Pane::Parameters => {
             app.begin();
             edit::move_selection(app, -turns)
         }
-        (Pane::Profile | Pane::CloseUp, under) => {
+        Pane::Profile | Pane::CloseUp => {
             app.view.pane = pane;
-            view::zoom_at(
-                app,
-                turns,
-                if let Under::Data(x, _) = under {
-                    Some(x)
-                } else {
-                    None
-                },
-            );
+            let position = match under {
+                Under::Data(x, _) => Some(x),
+                Under::Row(_) | Under::Frame => None,
+            };
+            view::zoom_at(app, turns, position);
         }
         _ => {}
     }

@@ -24,6 +24,7 @@ use ratatui::{Frame, Terminal};
 use std::io;
 use std::io::Stdout;
 use std::mem::{ManuallyDrop, take};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
@@ -34,6 +35,10 @@ const REMOTE_FRAMES: u32 = 12;
 
 /// Longest time for which a frame over SSH waits for the answer of the solver.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
+
+/// Time without input after which unsaved changes are kept. Writing them waits for the disk, which
+/// takes longer than a frame where home folders are on another machine.
+const KEEPING_PAUSE: Duration = Duration::from_secs(1);
 
 /// Number of input events that may wait for the loop; the terminal keeps further ones.
 const MOST_WAITING: usize = 64;
@@ -149,10 +154,15 @@ pub fn open(
         waiting,
         autosave,
         kept: (0, 0),
+        touched: now,
     };
-    let end = session.run();
+    let end = catch_unwind(AssertUnwindSafe(|| session.run()));
+    // After a panic too: another session can open them.
     session.keep_unsaved();
-    Ok(session.end(end?))
+    match end {
+        Ok(end) => Ok(session.end(end?)),
+        Err(panic) => resume_unwind(panic),
+    }
 }
 
 /// Takes over the unsaved changes of another session, or else returns the message that offers the
@@ -250,6 +260,8 @@ struct Session<'a> {
     autosave: Option<Autosave>,
     /// Generation of the scene and number of saves when changes were last kept.
     kept: (u64, u64),
+    /// Time of the last input.
+    touched: Instant,
 }
 
 /// Why a session ends without the user leaving it.
@@ -266,8 +278,10 @@ impl Session<'_> {
     fn run(&mut self) -> io::Result<Option<i32>> {
         self.runtime.perform(vec![Task::Ask]);
         while !self.runtime.app.finished {
-            // Unsaved changes are kept before they are drawn.
-            self.keep_unsaved();
+            let keeping = self.next_keeping();
+            if keeping.is_some_and(|deadline| Instant::now() >= deadline) {
+                self.keep_unsaved();
+            }
             if self.changed && Instant::now() >= self.next_frame() {
                 self.show()?;
                 self.changed = false;
@@ -330,7 +344,7 @@ impl Session<'_> {
 
     /// Waits until something comes in; `None` when the next step of the animation or the next frame
     /// is due before.
-    fn wait(&self, playing: bool) -> Option<Incoming> {
+    fn wait(&mut self, playing: bool) -> Option<Incoming> {
         let mut deadlines = Vec::new();
         if playing {
             deadlines.push(self.moved + self.frame_time);
@@ -338,6 +352,7 @@ impl Session<'_> {
         if self.changed {
             deadlines.push(self.next_frame());
         }
+        deadlines.extend(self.next_keeping());
         match deadlines.into_iter().min() {
             Some(deadline) => {
                 let time = deadline.saturating_duration_since(Instant::now());
@@ -367,6 +382,7 @@ impl Session<'_> {
     fn handle(&mut self, incoming: Incoming) -> io::Result<Option<Interruption>> {
         if let Incoming::Input(_) = incoming {
             let _ = self.waiting.try_recv();
+            self.touched = Instant::now();
         }
         let action = match incoming {
             Incoming::Input(None) => return Ok(Some(Interruption::NoInput)),
@@ -419,6 +435,7 @@ impl Session<'_> {
                 }
                 Task::Redraw => self.redraw = true,
                 Task::Suspend => {
+                    self.keep_unsaved();
                     // With the signal of continuation the size of the window is read again.
                     self.guard.suspend()?;
                     self.redraw = true;
@@ -434,19 +451,44 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// Keeps the unsaved changes for another session, if they differ from those kept before.
+    /// Time at which the unsaved changes are to be kept; `None` if they are kept already, or if
+    /// there are none and no file to remove.
+    fn next_keeping(&mut self) -> Option<Instant> {
+        let state = self.state_of_changes();
+        if state == self.kept {
+            return None;
+        }
+        let autosave = self.autosave.as_ref()?;
+        if !autosave.has_file() && self.runtime.app.edit.unsaved().is_empty() {
+            self.kept = state;
+            return None;
+        }
+        Some(self.touched + KEEPING_PAUSE)
+    }
+
+    /// Generation of the scene and number of saves, which change with every edit and every save.
+    fn state_of_changes(&self) -> (u64, u64) {
+        let edit = &self.runtime.app.edit;
+        (edit.generation, edit.saves)
+    }
+
+    /// Keeps the unsaved changes for another session, if they differ from those kept before. This
+    /// is done after a second without input, and at once before the explorer ends or stops. So a
+    /// process that is killed, or a signal while the terminal accepts no output, may lose the
+    /// changes of the last second.
     fn keep_unsaved(&mut self) {
-        let app = &mut self.runtime.app;
-        let present = (app.edit.generation, app.edit.saves);
-        if present == self.kept {
+        let state = self.state_of_changes();
+        if state == self.kept {
             return;
         }
         let Some(autosave) = &mut self.autosave else {
             return;
         };
-        self.kept = present;
+        self.kept = state;
+        let app = &mut self.runtime.app;
         if let Err(error) = autosave.keep(&app.edit.unsaved()) {
             self.autosave = None;
+            self.changed = true;
             app.set_error(format!(
                 "unsaved changes are not kept for another session: {error}"
             ));

@@ -3,17 +3,21 @@
 
 use crate::common::terminal::{Program, Terminal};
 use crate::driving::{ASPERITY, SCENE, explorer, paused, quit, select};
+use std::collections::BTreeSet;
 use std::fs;
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
 
-/// Files of unsaved changes in a home folder.
+/// Files of unsaved changes in a home folder, without one that is being written.
 fn kept(home: &Path) -> Vec<PathBuf> {
     let folder = home.join(".local/state/asperity/unsaved");
-    fs::read_dir(folder).map_or_else(
-        |_| Vec::new(),
-        |all| all.map(|entry| entry.unwrap().path()).collect(),
-    )
+    let files = fs::read_dir(folder).into_iter().flatten();
+    files
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "ron"))
+        .collect()
 }
 
 /// The program outside a terminal, with this home folder.
@@ -86,6 +90,50 @@ fn unsaved_changes_outlive_a_killed_explorer_and_a_lost_connection() {
         let message = String::from_utf8(output.stderr).unwrap();
         assert!(message.contains("--restore: ") && message.contains("1-1.ron: 1:"));
     }
+}
+
+/// Writing a file waits for the disk, so a held key must not write one for each of its edits.
+#[test]
+fn unsaved_changes_are_written_once_when_the_keys_rest() {
+    const KEYS: usize = 20;
+    let (program, folder) = explorer();
+    let home = folder.path();
+    let mut terminal = paused(program);
+    select(&mut terminal, "κ");
+    // Each writing makes a new file in the place of the one before.
+    let file = |home: &Path| Some(fs::metadata(kept(home).first()?).ok()?.ino());
+    let mut written = BTreeSet::new();
+    let begun = Instant::now();
+    for key in 1..=KEYS {
+        terminal.send("h");
+        terminal.take_until(begun + Duration::from_millis(100) * key as u32);
+        written.extend(file(home));
+    }
+    // A test that is held up may make a pause between two keys.
+    assert!(written.len() <= 2, "{written:?}");
+    terminal.wait_until("file of unsaved changes", || !kept(home).is_empty());
+    terminal.settle_for(Duration::from_millis(1500));
+    written.extend(file(home));
+    println!("{} files for {KEYS} keys", written.len());
+    assert!((1..=3).contains(&written.len()), "{written:?}");
+    terminal.send("q");
+    terminal.wait_for("unsaved changes");
+    quit(&mut terminal);
+}
+
+#[test]
+fn a_signal_keeps_the_changes_of_the_last_second() {
+    let (program, folder) = explorer();
+    let home = folder.path();
+    let mut terminal = paused(program);
+    select(&mut terminal, "κ");
+    terminal.send("h");
+    terminal.wait_for("[changed]");
+    let pid = terminal.pid().to_string();
+    let status = Command::new("kill").args(["-TERM", &pid]).status();
+    assert!(status.unwrap().success());
+    terminal.wait_end();
+    assert_eq!(kept(home).len(), 1);
 }
 
 #[test]
