@@ -448,7 +448,6 @@ fn the_stiffness_without_adhesion_has_the_exponent_of_theory() {
     );
 }
 
-/// The third step of the tour raises the pull-off force from 17 to 66 µN.
 /// The first step of the tour: the keys are those of the explorer, the numbers those of the answer.
 #[test]
 fn the_tour_begins_with_the_question() {
@@ -462,7 +461,8 @@ fn the_tour_begins_with_the_question() {
         Ensemble::PROFILES,
         &mut simulation,
     );
-    let found = Found::of(question.unwrap(), (simulation, 2), &|| false, &mut |_| ()).unwrap();
+    let control = asperity_data::Control::default().on_threads(2);
+    let found = Found::of(question.unwrap(), &mut simulation, control).unwrap();
     let [low, median, high] = [0.25, 0.5, 0.75].map(|share| found.quantile(share).unwrap());
     let (median, range) = (
         format_quantity(median, "N"),

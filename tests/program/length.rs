@@ -32,16 +32,9 @@ fn shares(pad: &Document, waves: u64, height: f64) -> Statistics {
             *rms_height = Some(height);
         }
     });
-    let simulation = (Simulation::default(), 2);
-    let found = Ensemble::of(
-        &longer.unwrap(),
-        &[],
-        PROFILES,
-        simulation,
-        &|| false,
-        &mut |_, _| (),
-    )
-    .unwrap();
+    let control = asperity_data::Control::default().on_threads(2);
+    let simulation = &mut Simulation::default();
+    let found = Ensemble::of(&longer.unwrap(), &[], PROFILES, simulation, control).unwrap();
     found.statistics(Quantity::AdhesionShare).unwrap()
 }
 

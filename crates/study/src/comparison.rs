@@ -1,8 +1,8 @@
 //! The computation of a comparison: profiles first, then squares, both pressed alike.
 
-use super::premises::warnings_on_profiles;
 use super::compared::{Compared, Values};
 use super::error::StudyError;
+use super::premises::warnings_on_profiles;
 use super::profiles::{Stop, on_threads_received};
 use super::reference::{
     LeftOut, Loaded, Reference, ReferenceEvent, ReferenceOptions, RoughnessOfBoth,

@@ -24,7 +24,6 @@
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
 //! [`checks`], [`half_space`] and [`trust`].
 
-mod premises;
 mod axis;
 mod boundary;
 mod bracket;
@@ -55,6 +54,7 @@ mod plan;
 mod plan_text;
 mod preload_curve;
 mod preloads;
+mod premises;
 mod profiles;
 mod quantity;
 mod question;
@@ -139,10 +139,10 @@ pub mod half_space {
 /// Errors of an adhesion force, one for each source, and criteria by which other theories decide
 /// whether bodies adhere.
 pub mod trust {
-    pub use crate::premises::{warnings_of_reversals, warnings_on_profiles};
     pub use crate::budget::Budget;
     pub use crate::criteria::criteria;
     pub use crate::criterion::Criterion;
     pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
+    pub use crate::premises::{warnings_of_reversals, warnings_on_profiles};
     pub use crate::results::CountedWarning;
 }

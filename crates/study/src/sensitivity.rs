@@ -1,7 +1,6 @@
 //! The sensitivity of the results of a scene: how the medians over random profiles change when each
 //! number of the scene changes by a tenth.
 
-use super::premises::warnings_on_profiles;
 use super::axis::{Axis, Shapes, Spacing};
 use super::cells::Streak;
 use super::coordinates::Allowed;
@@ -9,6 +8,7 @@ use super::ensemble::Ensemble;
 use super::error::StudyError;
 use super::place::{numbers, scene_with};
 use super::plan::Plan;
+use super::premises::warnings_on_profiles;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::recorder::with_recorder;
