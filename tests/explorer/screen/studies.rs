@@ -11,15 +11,15 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// A study that reports its key, waits until it is stopped, and reports too late.
 fn endless(key: u32, events: &Sender<String>) -> Study {
     let events = events.clone();
-    Study::new(key, false, move |_, stop, report| {
-        report(key);
+    Study::new(key, false, move |_, mut control| {
+        control.report(key);
         events.send(format!("{key} begun")).unwrap();
-        while !stop() {
+        while !control.is_stopped() {
             std::thread::yield_now();
         }
-        report(0);
+        control.report(0);
         events.send(format!("{key} stopped")).unwrap();
-        Ok(0)
+        Ok::<u32, String>(0)
     })
 }
 
@@ -83,7 +83,7 @@ fn a_value_belongs_to_its_key_and_a_panic_is_a_reason() {
             found.into_iter().for_each(|finding| known.take_in(finding));
         }
     };
-    let sum = |key: &str, value: u32| Study::new(key, false, move |_, _, _| Ok(value));
+    let sum = |key: &str, value: u32| Study::new(key, false, move |_, _| Ok::<u32, String>(value));
     let mut known = Findings::default();
     perform(&mut known, sum("a", 1));
     perform(&mut known, sum("a", 2));
@@ -107,7 +107,7 @@ fn a_value_belongs_to_its_key_and_a_panic_is_a_reason() {
     assert_eq!(known.value::<u32>(), None);
     perform(
         &mut known,
-        Study::new("c", false, |_, _, _| -> Result<u32, String> {
+        Study::new("c", false, |_, _| -> Result<u32, String> {
             panic!("no such spring")
         }),
     );
