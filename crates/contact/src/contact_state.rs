@@ -76,7 +76,7 @@ impl ContactState {
             force: foundation.spring_stiffness() * self.compression,
             contact_length: foundation.contact_length(self.length),
             springs: counted(self.totals.springs),
-            fragments: counted(self.totals.fragments),
+            fragments: counted(self.totals.patches),
             stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
         }
     }

@@ -200,7 +200,7 @@ impl<'a> Stepwise<'a> {
         let runs = self.holds.chunk_by(PartialEq::eq);
         let patches = runs.filter(|run| run[0]).count();
         let totals = ContactTotals {
-            fragments: patches as i64,
+            patches: patches as i64,
             ..self.totals
         };
         let scale = self.contact.profile.springs.scale();

@@ -137,7 +137,7 @@ impl<'a> Thresholds<'a> {
         };
         ContactTotals {
             springs: (end - start) as i64,
-            fragments: 1 - i64::from(left) - i64::from(right),
+            patches: 1 - i64::from(left) - i64::from(right),
             ..ContactTotals::of_patch(gaps, self.slides, self.scale)
         }
     }

@@ -115,7 +115,7 @@ pub struct ContactTotals {
     /// Number of springs in contact.
     pub springs: i64,
     /// Number of patches.
-    pub fragments: i64,
+    pub patches: i64,
     /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a
     /// [`GapScale`].
     pub quanta: i128,
@@ -129,7 +129,7 @@ impl ContactTotals {
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
-            fragments: 1,
+            patches: 1,
             ..Self::default()
         };
         // A cell lies between two springs.
@@ -147,7 +147,7 @@ impl ContactTotals {
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         if slides {
-            self.springs - self.fragments
+            self.springs - self.patches
         } else {
             self.springs
         }
@@ -196,7 +196,7 @@ impl std::ops::Neg for ContactTotals {
     fn neg(self) -> ContactTotals {
         ContactTotals {
             springs: -self.springs,
-            fragments: -self.fragments,
+            patches: -self.patches,
             quanta: -self.quanta,
             squares: -self.squares,
         }
@@ -207,7 +207,7 @@ impl std::ops::AddAssign for ContactTotals {
     #[inline]
     fn add_assign(&mut self, other: ContactTotals) {
         self.springs += other.springs;
-        self.fragments += other.fragments;
+        self.patches += other.patches;
         self.quanta += other.quanta;
         self.squares += other.squares;
     }

@@ -169,7 +169,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
         ContactTotals {
             springs: span.springs() as i64,
-            fragments: 1,
+            patches: 1,
             quanta: high - low,
             squares: high_squares - low_squares,
         }
