@@ -6,10 +6,9 @@ use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Extreme, Grid};
 use super::error::ContactError;
-use super::history::{CurvePoint, Direction, LegRecord, Work};
-use super::history::{Goal, plan};
+use super::history::{CurvePoint, Direction, Extremes, Goal, LegRecord, Passage, Work, plan};
 use super::leg::Leg;
-use super::leg::forces::SEARCH_INTERVALS;
+use super::leg::forces::{SEARCH_INTERVALS, SeparatedEnds};
 use super::moving_body::MovingBody;
 use super::target::Move;
 use asperity_data::in_parallel;
@@ -73,15 +72,49 @@ pub struct Motion {
     goal: Goal,
 }
 
+impl Motion {
+    fn loads(&self) -> bool {
+        self.leg.direction() == Direction::Loading
+    }
+
+    /// Returns true if the motion ends with the detachment of the last patch.
+    fn separates(&self) -> bool {
+        !self.loads() && matches!(self.goal, Goal::Separation(_))
+    }
+
+    /// Returns true if the largest force is that at the end. A loading to a force has a smaller
+    /// force until then.
+    fn ends_at_largest(&self) -> bool {
+        self.loads() && matches!(self.goal, Goal::Force(_))
+    }
+}
+
+/// A motion computed on a grid of indentations.
+struct SampledMotion {
+    /// Contact at the points of the grid, in ascending order of the indentation.
+    states: Vec<ContactState>,
+    /// Distance, in points of the grid, between two points of the force curve.
+    stride: usize,
+    /// ∫ (c − θ)² dx in cells times m² over all attachments and detachments.
+    squared_stretch: f64,
+}
+
+impl SampledMotion {
+    fn lowest(&self) -> ContactState {
+        self.states[0]
+    }
+
+    fn highest(&self) -> ContactState {
+        self.states[self.states.len() - 1]
+    }
+}
+
 impl Body {
     /// Creates a separated body at the indentation d = 0, just before first touch. The force curve
     /// of each motion is computed at `samples` points, at least 2.
     pub fn new(contact: &Contact, samples: usize) -> Self {
-        Self::on(
-            Leg::apart(contact, Direction::Unloading),
-            ContactState::free(0.0),
-            samples,
-        )
+        let leg = Leg::apart(contact, Direction::Unloading);
+        Self::on(leg, ContactState::free(0.0), samples)
     }
 
     /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or
@@ -126,8 +159,8 @@ impl Body {
             return Ok(None);
         };
         let state = match (motion.leg.direction(), motion.goal) {
-            (Direction::Unloading, Goal::Separation(at)) => {
-                ContactState::free(at.unwrap_or(motion.low))
+            (Direction::Unloading, Goal::Separation(indentation)) => {
+                ContactState::free(indentation.unwrap_or(motion.low))
             }
             (Direction::Unloading, _) => motion.leg.state(motion.low)?,
             (Direction::Loading, _) => motion.leg.state(motion.high)?,
@@ -152,10 +185,12 @@ impl Body {
     /// Returns the present leg if it has this direction, else the leg that begins at the present
     /// indentation.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
-        let leg = if self.is_separated() && direction == Direction::Loading {
-            Leg::approach(self.leg.contact())?
-        } else if self.leg.direction() == direction {
+        let approaches = self.is_separated() && direction == Direction::Loading;
+        if self.leg.direction() == direction && !approaches {
             return Ok(self.leg.clone());
+        }
+        let leg = if approaches {
+            Leg::approach(self.leg.contact())?
         } else {
             self.leg.turn(self.state.indentation)?
         };
@@ -163,36 +198,40 @@ impl Body {
         Ok(leg)
     }
 
+    /// Finds the leg and the ends of the motion to a target; `None` if the body is there already.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.leg.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
             return Ok(None);
         };
-        let (at, separated) = (self.state.indentation, self.is_separated());
-        if let (Goal::Indentation(to), true) = (goal, separated)
-            && to < 0.0
+        let start = self.state.indentation;
+        if let Goal::Indentation(end) = goal
+            && self.is_separated()
+            && end < 0.0
         {
-            let direction = if to > at {
+            let direction = if end > start {
                 Direction::Loading
             } else {
                 Direction::Unloading
             };
-            let leg = Leg::apart(self.leg.contact(), direction);
             return Ok(Some(Motion {
-                leg,
-                low: at.min(to),
-                high: at.max(to),
+                leg: Leg::apart(self.leg.contact(), direction),
+                low: start.min(end),
+                high: start.max(end),
                 goal,
             }));
         }
         let leg = self.leg_in(direction)?;
         // Nothing touches below d = 0.
-        let from = if separated { at.max(0.0) } else { at };
-        let (to, goal) = leg.reach(goal, from, &mut self.work)?;
-        let (low, high) = if direction == Direction::Loading {
-            (from, to)
+        let from = if self.is_separated() {
+            start.max(0.0)
         } else {
-            (to, from)
+            start
+        };
+        let (end, goal) = leg.reach(goal, from, &mut self.work)?;
+        let (low, high) = match direction {
+            Direction::Loading => (from, end),
+            Direction::Unloading => (end, from),
         };
         Ok(Some(Motion {
             leg,
@@ -210,118 +249,173 @@ impl Body {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
+    /// Moves the body along a planned motion, and records it.
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
-        let Motion {
-            leg,
-            low,
-            high,
-            goal,
-        } = motion;
-        let (before, touches) = (self.point(), self.is_separated());
-        let loads = leg.direction() == Direction::Loading;
-        let separates = !loads && matches!(goal, Goal::Separation(_));
-        // A loading to a force needs no search: the force is below its target until then.
-        let ends_at_largest = loads && matches!(goal, Goal::Force(_));
-        let (grid, stride) = if ends_at_largest {
-            (Grid::new(low, high, self.samples - 1), 1)
-        } else {
-            self.grid(low, high)
-        };
-        // The springs that touch first attach at the first point itself; those held to it detach
-        // just below.
-        let from = if touches || separates {
-            f64::NEG_INFINITY
-        } else {
-            low
-        };
-        let is_long = leg.contact().gaps().len() >= TWO_THREADS;
-        let (sampled, squared_stretch) = in_parallel(
-            is_long,
-            || leg.sample(grid),
-            || leg.squared_stretch(from, high),
-        );
-        let sampled = sampled?;
-        let last = sampled.len() - 1;
-        let work = &mut self.work;
-        // Where an instrument that is not rigid loses the contact.
-        let loosest = match loads || leg.contact().loading_stiffness.is_infinite() {
-            true => None,
-            false => Some(
-                leg.least_displaced(&sampled, work)?
-                    .point(leg.contact().foundation),
-            ),
-        };
+        let before = self.point();
+        let touches = self.is_separated();
+        let leg = &motion.leg;
+        let sampled = self.sample(&motion)?;
+        let loosest = self.loosest_point(&motion, &sampled)?;
         if touches || self.leg.direction() != leg.direction() {
             self.extreme = None;
         }
-        let ends_free = separates || sampled[0].totals.springs == 0;
-        let jump_energy = leg.jump_energy(&sampled, [touches, ends_free], &mut self.extreme);
-        self.state = match (loads, goal) {
-            (true, _) => sampled[last],
-            (false, Goal::Separation(at)) => {
-                let lost =
-                    || loosest.map(|point| point.displacement(leg.contact().loading_stiffness));
-                ContactState::free(at.or_else(lost).unwrap_or(low))
-            }
-            (false, _) => sampled[0],
+        let separated = SeparatedEnds {
+            at_begin: touches,
+            at_end: motion.separates() || sampled.lowest().totals.springs == 0,
         };
-        let chosen = sampled.iter().enumerate();
-        let chosen = chosen.filter(|(index, _)| index % stride == 0 || *index == last);
-        let mut curve: Vec<CurvePoint> = chosen.map(|(_, &state)| self.point_of(state)).collect();
-        loosest
-            .into_iter()
-            .for_each(|point| LegRecord::insert(&mut curve, point));
-        let work = &mut self.work;
-        let extremes = if loads {
-            let largest = if ends_at_largest {
-                sampled[last]
-            } else {
-                leg.extreme(Extreme::Largest, &sampled, work)
-            };
-            let points = curve
-                .iter()
-                .copied()
-                .chain(touches.then(|| CurvePoint::free(low)));
-            let largest = self.point_of(largest);
-            [
-                points
-                    .min_by(|a, b| a.force.total_cmp(&b.force))
-                    .unwrap_or(largest),
-                largest,
-            ]
+        let jump_energy = leg.jump_energy(&sampled.states, separated, &mut self.extreme);
+        self.state = self.end_state(&motion, &sampled, loosest);
+        let curve = self.curve_of(&sampled, loosest);
+        let extremes = if motion.loads() {
+            self.extremes_of_loading(&motion, &sampled, &curve, touches)
         } else {
-            let mut smallest = leg.extreme(Extreme::Smallest, &sampled, work);
-            if smallest.totals.springs == 0 {
-                // A body that nowhere pulls has the smallest force where it is in contact last, not
-                // where it moves on to.
-                smallest = leg.state(leg.end().min(high))?;
-            }
-            [self.point_of(smallest), self.point_of(sampled[last])]
+            self.extremes_of_unloading(&motion, &sampled)?
         };
-        let record = LegRecord::moved(
-            (target, leg.direction()),
-            curve,
-            extremes,
-            [before, self.point()],
-            leg.energy(squared_stretch),
-        );
-        let smallest_of_rest = if loads || self.is_separated() {
-            None
-        } else {
-            Some(self.rest_of(&leg, low)?)
+        let passage = Passage {
+            target,
+            direction: leg.direction(),
+            before,
+            after: self.point(),
         };
-        let reaches_ends = leg.reaches_ends(high);
-        let record = LegRecord {
-            jump_energy,
-            reaches_ends,
-            smallest_of_rest,
-            ..record
-        };
+        let released_energy = leg.energy(sampled.squared_stretch);
+        let mut record = LegRecord::moved(passage, curve, extremes, released_energy);
+        record.jump_energy = jump_energy;
+        record.reaches_ends = leg.reaches_ends(motion.high);
+        if !motion.loads() && !self.is_separated() {
+            record.smallest_of_rest = Some(self.rest_of(leg, motion.low)?);
+        }
         self.work.count(&record);
-        self.leg = leg;
+        self.leg = motion.leg;
         self.curve_time += clock.elapsed();
         Ok(record)
+    }
+
+    /// Computes the contact and the released energy along a motion that the body is about to make.
+    fn sample(&self, motion: &Motion) -> Result<SampledMotion, ContactError> {
+        let Motion { leg, low, high, .. } = motion;
+        let (grid, stride) = if motion.ends_at_largest() {
+            (Grid::new(*low, *high, self.samples - 1), 1)
+        } else {
+            self.grid(*low, *high)
+        };
+        // The springs that touch first attach at the first point itself; those held to it detach
+        // just below.
+        let from = if self.is_separated() || motion.separates() {
+            f64::NEG_INFINITY
+        } else {
+            *low
+        };
+        let is_long = leg.contact().gaps().len() >= TWO_THREADS;
+        let (states, squared_stretch) = in_parallel(
+            is_long,
+            || leg.sample(grid),
+            || leg.squared_stretch(from, *high),
+        );
+        Ok(SampledMotion {
+            states: states?,
+            stride,
+            squared_stretch,
+        })
+    }
+
+    /// Returns the point at which an instrument that is not rigid loses the contact of an
+    /// unloading.
+    fn loosest_point(
+        &mut self,
+        motion: &Motion,
+        sampled: &SampledMotion,
+    ) -> Result<Option<CurvePoint>, ContactError> {
+        let contact = motion.leg.contact();
+        if motion.loads() || contact.loading_stiffness.is_infinite() {
+            return Ok(None);
+        }
+        let loosest = motion
+            .leg
+            .least_displaced(&sampled.states, &mut self.work)?;
+        Ok(Some(loosest.point(contact.foundation)))
+    }
+
+    /// Returns the contact at the end of a motion. A separated body is where its target places it,
+    /// or else where the instrument lost the contact.
+    fn end_state(
+        &self,
+        motion: &Motion,
+        sampled: &SampledMotion,
+        loosest: Option<CurvePoint>,
+    ) -> ContactState {
+        if motion.loads() {
+            return sampled.highest();
+        }
+        let Goal::Separation(target) = motion.goal else {
+            return sampled.lowest();
+        };
+        let stiffness = motion.leg.contact().loading_stiffness;
+        let indentation = match (target, loosest) {
+            (Some(indentation), _) => indentation,
+            (None, Some(loosest)) => loosest.displacement(stiffness),
+            (None, None) => motion.low,
+        };
+        ContactState::free(indentation)
+    }
+
+    /// Returns the ascending points of the force curve of a sampled motion.
+    fn curve_of(&self, sampled: &SampledMotion, loosest: Option<CurvePoint>) -> Vec<CurvePoint> {
+        let last = sampled.states.len() - 1;
+        let mut curve = Vec::with_capacity(self.samples + 2);
+        for (index, &state) in sampled.states.iter().enumerate() {
+            if index % sampled.stride == 0 || index == last {
+                curve.push(self.point_of(state));
+            }
+        }
+        if let Some(point) = loosest {
+            LegRecord::insert(&mut curve, point);
+        }
+        curve
+    }
+
+    fn extremes_of_loading(
+        &mut self,
+        motion: &Motion,
+        sampled: &SampledMotion,
+        curve: &[CurvePoint],
+        touches: bool,
+    ) -> Extremes {
+        let largest = if motion.ends_at_largest() {
+            sampled.highest()
+        } else {
+            motion
+                .leg
+                .extreme(Extreme::Largest, &sampled.states, &mut self.work)
+        };
+        let largest = self.point_of(largest);
+        let points = curve.iter().copied();
+        let before_touch = touches.then(|| CurvePoint::free(motion.low));
+        let smallest = points
+            .chain(before_touch)
+            .min_by(|point, other| point.force.total_cmp(&other.force));
+        Extremes {
+            smallest: smallest.unwrap_or(largest),
+            largest,
+        }
+    }
+
+    fn extremes_of_unloading(
+        &mut self,
+        motion: &Motion,
+        sampled: &SampledMotion,
+    ) -> Result<Extremes, ContactError> {
+        let leg = &motion.leg;
+        let mut smallest = leg.extreme(Extreme::Smallest, &sampled.states, &mut self.work);
+        if smallest.totals.springs == 0 {
+            // A body that nowhere pulls has the smallest force where it is in contact last, not
+            // where it moves on to.
+            smallest = leg.state(leg.end().min(motion.high))?;
+        }
+        Ok(Extremes {
+            smallest: self.point_of(smallest),
+            largest: self.point_of(sampled.highest()),
+        })
     }
 
     /// Finds the point of the smallest force on the rest of an unloading, from the indentation
@@ -353,29 +447,32 @@ impl Body {
         let loading = self.leg_in(Direction::Loading)?;
         let mut turns = Vec::with_capacity(targets.len());
         for (index, &target) in targets.iter().enumerate() {
-            let approach = match Goal::from(target) {
-                // A pulling force as well: while the bodies are drawn together.
-                goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => {
-                    Ok(Some((Direction::Loading, goal)))
-                }
-                _ => plan(
-                    target,
-                    CurvePoint::default(),
-                    loading.contact().loading_stiffness,
-                ),
-            };
-            let reached = approach.and_then(|approach| match approach {
-                Some((Direction::Loading, goal)) => loading.reach(goal, 0.0, &mut self.work),
-                _ => Err(ContactError::NoContact),
-            });
-            let (at, _) = reached.map_err(|reason| reason.in_stage(index, target))?;
-            turns.push((index, at));
+            let indentation = self
+                .turning_point(&loading, target)
+                .map_err(|reason| reason.in_stage(index, target))?;
+            turns.push((index, indentation));
         }
-        turns.sort_by(|one, other| one.1.total_cmp(&other.1));
-        for (index, at) in turns {
-            see(index, self.reverse(&loading, loading.state(at)?, points)?)?;
+        turns.sort_by(|(_, indentation), (_, other)| indentation.total_cmp(other));
+        for (index, indentation) in turns {
+            let turn = loading.state(indentation)?;
+            see(index, self.reverse(&loading, turn, points)?)?;
         }
         Ok(())
+    }
+
+    /// Finds the indentation in m at which a loading from separation reaches a target.
+    fn turning_point(&mut self, loading: &Leg, target: Move) -> Result<f64, ContactError> {
+        let stiffness = loading.contact().loading_stiffness;
+        let goal = match Goal::from(target) {
+            // A pulling force as well: while the bodies are drawn together.
+            goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => goal,
+            _ => match plan(target, CurvePoint::default(), stiffness)? {
+                Some((Direction::Loading, goal)) => goal,
+                _ => return Err(ContactError::NoContact),
+            },
+        };
+        let (indentation, _) = loading.reach(goal, 0.0, &mut self.work)?;
+        Ok(indentation)
     }
 
     /// Returns two adhesion forces in N: F_a(d=0) after a loading that ends at first touch, and
@@ -387,21 +484,20 @@ impl Body {
         let loading = Leg::approach(self.leg.contact())?;
         loading.count(&mut self.work);
         let balanced = loading.reach(Goal::Force(0.0), 0.0, &mut self.work);
-        let mut adhesion = |at| {
-            let reversal = self.reverse(&loading, loading.state(at)?, &[]);
-            reversal.map(|reversal| reversal.adhesion_force())
-        };
-        let at_touch = adhesion(0.0)?;
+        let at_touch = self.reverse(&loading, loading.state(0.0)?, &[])?;
         let at_zero_force = match balanced {
             Err(ContactError::OutOfReach) => None,
-            at => adhesion(at?.0)?,
+            Err(error) => return Err(error),
+            Ok((indentation, _)) => {
+                let turn = loading.state(indentation)?;
+                self.reverse(&loading, turn, &[])?.adhesion_force()
+            }
         };
         // The passes for F_a(d=0) count separately.
-        let work = &mut self.work;
-        (work.loading_passes, work.unloading_passes) =
-            (before.loading_passes, before.unloading_passes);
-        work.passes_without_preload += 2;
-        Ok([at_touch, at_zero_force])
+        self.work.loading_passes = before.loading_passes;
+        self.work.unloading_passes = before.unloading_passes;
+        self.work.passes_without_preload += 2;
+        Ok([at_touch.adhesion_force(), at_zero_force])
     }
 
     /// Unloads from a turning point of a loading to separation.
@@ -418,21 +514,19 @@ impl Body {
         let (grid, _) = self.grid(separation, high);
         let smallest = unloading.smallest(&grid, &mut self.work)?;
         let below = &points[..points.partition_point(|&point| point <= high)];
-        let apart = below.partition_point(|&point| point < separation);
-        let mut forces = vec![0.0; apart];
-        forces.extend(
-            unloading
-                .curve(&below[apart..])?
-                .iter()
-                .map(|point| point.force),
-        );
-        let released =
-            [loading, &unloading].map(|leg| leg.released_energy(f64::NEG_INFINITY, high));
+        let count_apart = below.partition_point(|&point| point < separation);
+        let mut forces = vec![0.0; count_apart];
+        for point in unloading.curve(&below[count_apart..])? {
+            forces.push(point.force);
+        }
+        let released_on_loading = loading.released_energy(f64::NEG_INFINITY, high);
+        let released_on_unloading = unloading.released_energy(f64::NEG_INFINITY, high);
         Ok(Reversal {
             turn: self.point_of(turn),
             smallest: self.point_of(smallest),
             separation,
-            dissipated_energy: released[0] + released[1] + 0.0,
+            // Changes −0 to 0.
+            dissipated_energy: released_on_loading + released_on_unloading + 0.0,
             reaches_ends: loading.reaches_ends(high),
             forces,
         })
@@ -451,11 +545,12 @@ impl MovingBody for Body {
             }
             Some(Motion {
                 leg,
-                goal: Goal::Indentation(to),
+                goal: Goal::Indentation(end),
                 ..
-            }) if here.springs == 0 && to < 0.0 => {
-                (self.leg, self.state) = (leg, ContactState::free(to));
-                Ok(LegRecord::free(target, here.indentation, to))
+            }) if here.springs == 0 && end < 0.0 => {
+                self.leg = leg;
+                self.state = ContactState::free(end);
+                Ok(LegRecord::free(target, here.indentation, end))
             }
             Some(motion) => self.record(target, motion),
         }
@@ -514,6 +609,7 @@ impl Reversal {
     /// `None` if the smallest force is above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
         // Not −F: that would make a force of zero negative.
-        Some(0.0 - self.smallest.force).filter(|_| self.smallest.force <= 0.0)
+        let adhesion_force = 0.0 - self.smallest.force;
+        (self.smallest.force <= 0.0).then_some(adhesion_force)
     }
 }

@@ -64,10 +64,10 @@ impl Branch {
 
     /// Returns the last branch that unloads a body in contact; `None` if no branch does.
     pub fn last_unloading(legs: &[LegRecord]) -> Option<Branch> {
-        let unloads = |branch: &Branch| {
+        let mut branches = Branch::all(legs).into_iter();
+        branches.rfind(|branch| {
             branch.direction == Direction::Unloading && branch.touching(legs).next().is_some()
-        };
-        Branch::all(legs).into_iter().rfind(unloads)
+        })
     }
 
     /// Returns the stages of the branch that move in its direction and have contact, with their
@@ -76,7 +76,7 @@ impl Branch {
         &self,
         legs: &'l [LegRecord],
     ) -> impl DoubleEndedIterator<Item = (usize, &'l LegRecord)> {
-        touching(legs, self.stages.clone(), self.direction)
+        stages_in_contact(legs, self.stages.clone(), self.direction)
     }
 
     /// Finds the preload, the point of the largest force on loading before the last unloading, and
@@ -110,19 +110,18 @@ impl Branch {
     /// # Ok::<(), asperity_contact::ContactError>(())
     /// ```
     pub fn preload(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let end =
-            Branch::last_unloading(legs).map_or(legs.len(), |unloading| unloading.stages.start);
-        let separates = |leg: &LegRecord| {
-            leg.direction == Direction::Unloading && leg.end_in_contact().is_none()
+        let end = match Branch::last_unloading(legs) {
+            Some(unloading) => unloading.stages.start,
+            None => legs.len(),
         };
-        let start = legs[..end]
-            .iter()
-            .rposition(separates)
-            .map_or(0, |stage| stage + 1);
-        let largest =
-            touching(legs, start..end, Direction::Loading).map(|(stage, leg)| (stage, leg.largest));
+        let last_separation = legs[..end].iter().rposition(|leg| {
+            leg.direction == Direction::Unloading && leg.end_in_contact().is_none()
+        });
+        let start = last_separation.map_or(0, |stage| stage + 1);
+        let loadings = stages_in_contact(legs, start..end, Direction::Loading);
+        let largest = loadings.map(|(stage, leg)| (stage, leg.largest));
         // Of equal forces the last one, as on one stage.
-        largest.max_by(|a, b| a.1.force.total_cmp(&b.1.force))
+        largest.max_by(|(_, point), (_, other)| point.force.total_cmp(&other.force))
     }
 
     /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of
@@ -140,7 +139,7 @@ impl Branch {
                 least.force < end.force - rounding && least.force <= of_rest.force + rounding
             }
         };
-        Some((stage, least)).filter(|_| least.force <= 0.0 && is_passed)
+        (least.force <= 0.0 && is_passed).then_some((stage, least))
     }
 
     /// Returns the warning that the last unloading ends in contact although its rest would pull
@@ -183,14 +182,12 @@ impl Branch {
     /// Returns the point of the smallest force while the branch is in contact, and the index of its
     /// stage. Returns `None` if the branch has no contact.
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
-        let smallest = self
-            .touching(legs)
-            .map(|(stage, leg)| (stage, leg.smallest));
+        let stages = self.touching(legs);
+        let smallest = stages.map(|(stage, leg)| (stage, leg.smallest));
         // Of equal forces the one at the smallest indentation, as on one stage.
-        smallest.min_by(|(_, a), (_, b)| {
-            a.force
-                .total_cmp(&b.force)
-                .then(a.indentation.total_cmp(&b.indentation))
+        smallest.min_by(|(_, point), (_, other)| {
+            let by_force = point.force.total_cmp(&other.force);
+            by_force.then(point.indentation.total_cmp(&other.indentation))
         })
     }
 }
@@ -205,21 +202,25 @@ enum Rest {
     Smallest(CurvePoint),
 }
 
+/// Returns true if a stage leaves the body in place, in contact or separated throughout.
 fn is_still(leg: &LegRecord) -> bool {
-    let [start, end] = [leg.start(), leg.end()];
-    (start - end).abs() <= NO_MOTION * start.abs().max(end.abs())
-        && leg
-            .curve
-            .iter()
-            .all(|point| (point.springs == 0) == (leg.curve[0].springs == 0))
+    let start = leg.start();
+    let end = leg.end();
+    let motion = (start - end).abs();
+    let starts_in_contact = leg.curve.first().is_some_and(|point| point.springs > 0);
+    let mut points = leg.curve.iter();
+    motion <= NO_MOTION * start.abs().max(end.abs())
+        && points.all(|point| (point.springs > 0) == starts_in_contact)
 }
 
-fn touching(
+/// Returns the stages of a range that move in a direction and have contact, with their indices.
+fn stages_in_contact(
     legs: &[LegRecord],
     stages: Range<usize>,
     direction: Direction,
 ) -> impl DoubleEndedIterator<Item = (usize, &LegRecord)> {
-    let touches = |leg: &LegRecord| leg.curve.iter().any(|point| point.springs > 0);
     let numbered = stages.clone().zip(&legs[stages]);
-    numbered.filter(move |(_, leg)| leg.direction == direction && touches(leg))
+    numbered.filter(move |(_, leg)| {
+        leg.direction == direction && leg.curve.iter().any(|point| point.springs > 0)
+    })
 }

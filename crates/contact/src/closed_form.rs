@@ -105,9 +105,8 @@ impl ClosedForm {
     /// in m. The fields are c, n, E* and γ.
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
-        let pressed =
-            2.0 * self.effective_modulus * n * self.line_coefficient * radius.powf(n + 1.0)
-                / (n + 1.0);
+        let scale = 2.0 * self.effective_modulus * n * self.line_coefficient;
+        let pressed = scale * radius.powf(n + 1.0) / (n + 1.0);
         pressed - self.detaching(radius)
     }
 
@@ -116,10 +115,8 @@ impl ClosedForm {
     pub fn force_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(9.0);
-        (
-            radius,
-            -(2.0 * n - 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius),
-        )
+        let factor = -(2.0 * n - 1.0) / (2.0 * (n + 1.0));
+        (radius, factor * self.detaching(radius))
     }
 
     /// Returns the contact radius in m and the force in N at pull-off under displacement control,
@@ -127,10 +124,8 @@ impl ClosedForm {
     pub fn displacement_controlled_pull_off(&self) -> (f64, f64) {
         let n = self.exponent;
         let radius = self.critical_radius(1.0);
-        (
-            radius,
-            -(2.0 * n + 1.0) / (2.0 * (n + 1.0)) * self.detaching(radius),
-        )
+        let factor = -(2.0 * n + 1.0) / (2.0 * (n + 1.0));
+        (radius, factor * self.detaching(radius))
     }
 
     /// Returns the contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)) in m, for m = `multiple`.
@@ -140,6 +135,7 @@ impl ClosedForm {
         (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
     }
 
+    /// Returns the force √(8π a³ E* γ) in N by which adhesion pulls at a contact radius in m.
     fn detaching(&self, radius: f64) -> f64 {
         ClosedForm::flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
     }

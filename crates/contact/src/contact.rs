@@ -116,29 +116,19 @@ impl ContactBuilder {
             loading_stiffness,
             edges,
         } = self;
-        check(
-            "work of adhesion",
-            work,
-            (0.0..=LARGEST).contains(&work),
-            "from 0 to 1e50 J/m²",
-        )?;
+        let is_allowed = (0.0..=LARGEST).contains(&work);
+        let allowed = "from 0 to 1e50 J/m²";
+        check("work of adhesion", work, is_allowed, allowed)?;
         let is_allowed = (0.0..=work).contains(&closing);
-        check(
-            "closing work",
-            closing,
-            is_allowed,
-            "from 0 J/m² to the work of adhesion",
-        )?;
+        let allowed = "from 0 J/m² to the work of adhesion";
+        check("closing work", closing, is_allowed, allowed)?;
         let is_allowed = loading_stiffness == f64::INFINITY || is_positive(loading_stiffness);
         let allowed = "from 1e-50 to 1e50 N/m, or infinite: rigid";
         check("loading stiffness", loading_stiffness, is_allowed, allowed)?;
-        let Profile {
-            spacing, length, ..
-        } = profile;
         let foundation = Foundation {
-            spacing,
+            spacing: profile.spacing,
             effective_modulus: modulus.pascals(),
-            length,
+            length: profile.length,
         };
         let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
         Ok(Contact {
@@ -156,23 +146,21 @@ impl Contact {
     /// Begins to build the contact of a profile with a half-space of this modulus.
     #[must_use]
     pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
-        let (edges, loading_stiffness, profile) = (Edges::SubCell, f64::INFINITY, profile.clone());
         ContactBuilder {
-            profile,
+            profile: profile.clone(),
             modulus,
             works: [0.0; 2],
-            loading_stiffness,
-            edges,
+            loading_stiffness: f64::INFINITY,
+            edges: Edges::SubCell,
         }
     }
 
     /// Copies the contact for the stepwise solver, with whole springs and a rigid instrument.
     pub(super) fn of_whole_springs(&self) -> Self {
-        let closing = Arc::default();
         Contact {
             edges: Edges::Grid,
             loading_stiffness: f64::INFINITY,
-            closing,
+            closing: Arc::default(),
             ..self.clone()
         }
     }
@@ -220,7 +208,8 @@ impl Contact {
     /// ```
     pub fn full_contact_force(&self) -> f64 {
         let deepest = self.profile.deepest();
-        self.spring_stiffness() * self.gaps().iter().map(|gap| deepest - gap).sum::<f64>()
+        let compression: f64 = self.gaps().iter().map(|gap| deepest - gap).sum();
+        self.spring_stiffness() * compression
     }
 
     /// Returns the displacement D = d + F/k in m of the drive of the instrument, at the indentation
@@ -276,9 +265,10 @@ impl Contact {
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,
     ) -> Result<&Closing, ContactError> {
-        match self.closing.get() {
-            Some(closing) => Ok(closing),
-            None => close().map(|closing| self.closing.get_or_init(|| closing)),
+        if let Some(closing) = self.closing.get() {
+            return Ok(closing);
         }
+        let closing = close()?;
+        Ok(self.closing.get_or_init(|| closing))
     }
 }

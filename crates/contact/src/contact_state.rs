@@ -9,6 +9,7 @@ use super::totals::{ContactTotals, GapScale};
 use asperity_data::resized;
 use std::ops::Range;
 
+/// The contact at one indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactState {
     pub indentation: f64,
@@ -75,7 +76,7 @@ impl ContactState {
             force: foundation.spring_stiffness() * self.compression,
             contact_length: foundation.contact_length(self.length),
             springs: counted(self.totals.springs),
-            fragments: counted(self.totals.fragments),
+            fragments: counted(self.totals.patches),
             stored_energy: 0.5 * foundation.spring_stiffness() * self.squares,
         }
     }
@@ -108,11 +109,8 @@ impl Tally {
     pub fn new(grid: Grid, slides: bool) -> Result<Self, ContactError> {
         let count = grid.points.len();
         let changes = resized(Vec::new(), count + 1, ContactTotals::default())?;
-        let edges = resized(
-            Vec::new(),
-            if slides { count } else { 0 },
-            EdgeSum::default(),
-        )?;
+        let count_of_sums = if slides { count } else { 0 };
+        let edges = resized(Vec::new(), count_of_sums, EdgeSum::default())?;
         Ok(Tally {
             grid,
             changes,
@@ -135,10 +133,12 @@ impl Tally {
     /// the first number and up to the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
-        let below = place
-            .checked_sub(1)
-            .map_or(f64::NEG_INFINITY, |before| points[before]);
-        (below, points.get(place).copied().unwrap_or(f64::INFINITY))
+        let below = match place {
+            0 => f64::NEG_INFINITY,
+            _ => points[place - 1],
+        };
+        let at_most = points.get(place).copied().unwrap_or(f64::INFINITY);
+        (below, at_most)
     }
 
     /// Adds whole springs or cells that are in contact from this point on.
@@ -157,26 +157,22 @@ impl Tally {
     /// Adds edge cells that are in contact at these points.
     #[inline]
     pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
-        for (sums, &point) in self.edges[carries.clone()]
-            .iter_mut()
-            .zip(&self.grid.points[carries])
-        {
+        let points = &self.grid.points[carries.clone()];
+        for (sums, &point) in self.edges[carries].iter_mut().zip(points) {
             sums.add(slider.edge_cells(point));
         }
     }
 
+    /// Returns the contact at each point of the grid.
     pub fn finish(self, scale: &GapScale) -> Result<Vec<ContactState>, ContactError> {
-        let Tally {
-            grid,
-            changes,
-            edges,
-        } = self;
-        let mut states = resized(Vec::new(), grid.points.len(), ContactState::default())?;
+        let points = &self.grid.points;
+        let slides = !self.edges.is_empty();
+        let mut states = resized(Vec::new(), points.len(), ContactState::default())?;
         let mut totals = ContactTotals::default();
-        for (index, (state, &point)) in states.iter_mut().zip(&grid.points).enumerate() {
-            totals += changes[index];
-            let cells = edges.get(index).copied().unwrap_or_default().total();
-            *state = ContactState::new(!edges.is_empty(), point, totals, cells, scale);
+        for (index, (state, &point)) in states.iter_mut().zip(points).enumerate() {
+            totals += self.changes[index];
+            let cells = self.edges.get(index).copied().unwrap_or_default().total();
+            *state = ContactState::new(slides, point, totals, cells, scale);
         }
         Ok(states)
     }
@@ -192,6 +188,7 @@ pub fn intervals(
     pairs.filter(|[low, high]| may_lie(low, high)).collect()
 }
 
+/// Extreme of the force that a search looks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
     Smallest,
@@ -203,23 +200,24 @@ impl Extreme {
     /// the one at the least indentation counts, of equal largest forces the one at the greatest, in
     /// whichever order they are found.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
-        let (one, other) = match self {
-            Extreme::Smallest => (state, best),
-            Extreme::Largest => (best, state),
-        };
-        (one.compression, one.indentation) < (other.compression, other.indentation)
+        let order = (state.compression, state.indentation);
+        let order_of_best = (best.compression, best.indentation);
+        match self {
+            Extreme::Smallest => order < order_of_best,
+            Extreme::Largest => order_of_best < order,
+        }
     }
 
     /// Returns the contact of the extreme force at the points of a sampled motion, of which there
     /// is at least one.
-    pub fn of(self, leg: &[ContactState]) -> ContactState {
-        leg.iter().fold(leg[0], |best, next| {
-            if self.is_beyond(next, &best) {
-                *next
-            } else {
-                best
+    pub fn among(self, leg: &[ContactState]) -> ContactState {
+        let mut best = leg[0];
+        for state in leg {
+            if self.is_beyond(state, &best) {
+                best = *state;
             }
-        })
+        }
+        best
     }
 
     /// Returns true if the bounds of the force between two indentations allow a force beyond
@@ -232,16 +230,19 @@ impl Extreme {
     }
 }
 
+/// Returns a lower bound, in m, of the compression between two indentations.
 pub fn lower_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     high.compression - rise - slack(low, high, rise)
 }
 
+/// Returns an upper bound, in m, of the compression between two indentations.
 pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
     let rise = (high.indentation - low.indentation) * high.length;
     low.compression + rise + slack(low, high, rise)
 }
 
+/// Returns a bound of the rounding errors of both compressions and of their bounds, in m.
 fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
@@ -261,13 +262,15 @@ impl Grid {
         let width = (high - low) / intervals as f64;
         // A range too narrow for two different points is also one point at each end.
         let even = low + width > low && high - width < high && width.recip().is_finite();
-        let mut points: Vec<f64> = if even {
-            (0..intervals)
-                .map(|k| (low + width * k as f64).min(high))
-                .collect()
+        let mut points = Vec::new();
+        if even {
+            points.reserve(intervals + 1);
+            for k in 0..intervals {
+                points.push((low + width * k as f64).min(high));
+            }
         } else {
-            vec![low]
-        };
+            points.push(low);
+        }
         if high > low {
             points.push(high);
         }

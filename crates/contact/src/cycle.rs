@@ -110,7 +110,8 @@ impl<'a> LoadOptions<'a> {
 pub struct Cycle {
     history: History,
     figures: Figures,
-    at: Vec<Vec<CurvePoint>>,
+    /// Points of each stage at the further indentations of [`LoadOptions`].
+    points: Vec<Vec<CurvePoint>>,
     /// Leg of the last stage, or of the separated body without stages.
     leg: Leg,
 }
@@ -203,36 +204,28 @@ impl Contact {
         check_targets(stages)?;
         check_ascending(indentations)?;
         let samples = samples.unwrap_or(SAMPLES as u64);
-        check(
-            "samples",
-            samples as f64,
-            (2..=1_000_000).contains(&samples),
-            "from 2 to 1000000",
-        )?;
-        let (mut body, mut at) = (
-            Body::new(self, samples as usize),
-            Vec::with_capacity(stages.len()),
-        );
-        let mut may_proceed =
-            |stage| match before_stage.as_mut().is_none_or(|proceed| proceed(stage)) {
-                true => Ok(()),
-                false => Err(ContactError::Interrupted),
-            };
-        if !stages.is_empty() {
-            may_proceed(0)?;
+        let is_allowed = (2..=1_000_000).contains(&samples);
+        check("samples", samples as f64, is_allowed, "from 2 to 1000000")?;
+        let mut may_begin = |stage| match &mut before_stage {
+            Some(proceed) => proceed(stage),
+            None => true,
+        };
+        if !stages.is_empty() && !may_begin(0) {
+            return Err(ContactError::Interrupted);
         }
+        let mut body = Body::new(self, samples as usize);
+        let mut points = Vec::with_capacity(stages.len());
         let history = load_body(&mut body, stages, |record, leg| {
-            at.push(points_between(record, leg, indentations)?);
-            if at.len() < stages.len() {
-                may_proceed(at.len())
-            } else {
-                Ok(())
+            points.push(points_between(record, leg, indentations)?);
+            if points.len() < stages.len() && !may_begin(points.len()) {
+                return Err(ContactError::Interrupted);
             }
+            Ok(())
         })?;
         Ok(Cycle {
             figures: Figures::of(&history),
             history,
-            at,
+            points,
             leg: body.leg(),
         })
     }
@@ -272,14 +265,14 @@ impl Contact {
     ) -> Result<Vec<Reversal>, ContactError> {
         check_targets(ends)?;
         check_ascending(indentations)?;
-        let mut found: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
-        let mut see = |index, reversal| {
-            found.push((index, reversal));
+        let mut reversals: Vec<(usize, Reversal)> = Vec::with_capacity(ends.len());
+        Body::new(self, SAMPLES).reversals(ends, indentations, &mut |index, reversal| {
+            reversals.push((index, reversal));
             Ok(())
-        };
-        Body::new(self, SAMPLES).reversals(ends, indentations, &mut see)?;
-        found.sort_by_key(|&(index, _)| index);
-        Ok(found.into_iter().map(|(_, reversal)| reversal).collect())
+        })?;
+        reversals.sort_by_key(|&(index, _)| index);
+        let in_order = reversals.into_iter();
+        Ok(in_order.map(|(_, reversal)| reversal).collect())
     }
 }
 
@@ -289,12 +282,10 @@ fn points_between(
     leg: &Leg,
     indentations: &[f64],
 ) -> Result<Vec<CurvePoint>, ContactError> {
-    let (low, high) = (
-        record.start().min(record.end()),
-        record.start().max(record.end()),
-    );
-    let first = indentations.partition_point(|&at| at < low);
-    let end = indentations.partition_point(|&at| at <= high);
+    let low = record.start().min(record.end());
+    let high = record.start().max(record.end());
+    let first = indentations.partition_point(|&indentation| indentation < low);
+    let end = indentations.partition_point(|&indentation| indentation <= high);
     leg.curve(&indentations[first..end.max(first)])
 }
 
@@ -314,15 +305,12 @@ fn check_targets(targets: &[Move]) -> Result<(), ContactError> {
 /// Returns an error for indentations that are not ascending finite numbers.
 fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
     let mut before = -LARGEST;
-    for (index, &at) in indentations.iter().enumerate() {
+    for (index, &indentation) in indentations.iter().enumerate() {
         let name = format!("indentation with index {index}");
-        check(
-            &name,
-            at,
-            (before..=LARGEST).contains(&at),
-            "from -1e50 to 1e50 m, ascending",
-        )?;
-        before = at;
+        let is_allowed = (before..=LARGEST).contains(&indentation);
+        let allowed = "from -1e50 to 1e50 m, ascending";
+        check(&name, indentation, is_allowed, allowed)?;
+        before = indentation;
     }
     Ok(())
 }
@@ -333,12 +321,8 @@ impl History {
     /// springs in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
-        let most_springs = self
-            .legs
-            .iter()
-            .map(LegRecord::most_springs)
-            .max()
-            .unwrap_or(0);
+        let springs = self.legs.iter().map(LegRecord::most_springs);
+        let most_springs = springs.max().unwrap_or(0);
         let mut warnings = warnings_of_contact(profile, reaches_ends, most_springs);
         warnings.extend(Branch::ends_in_contact(&self.legs));
         warnings
@@ -436,7 +420,7 @@ impl Cycle {
     /// passes, in ascending order of the indentation. `stage` is the index of the stage, from 0.
     #[must_use]
     pub fn at(&self, stage: usize) -> &[CurvePoint] {
-        self.at.get(stage).map_or(&[], Vec::as_slice)
+        self.points.get(stage).map_or(&[], Vec::as_slice)
     }
 
     /// Returns a [`LegRecord`] for each loading stage, with the force curve and the energies of the
@@ -486,7 +470,10 @@ impl Cycle {
     /// from left to right.
     #[must_use]
     pub fn patches(&self) -> Vec<PatchState> {
-        let end = self.history.legs.last().and_then(LegRecord::end_in_contact);
-        end.map_or_else(Vec::new, |end| self.leg.patch_states(end.indentation))
+        let last_stage = self.history.legs.last();
+        match last_stage.and_then(LegRecord::end_in_contact) {
+            Some(end) => self.leg.patch_states(end.indentation),
+            None => Vec::new(),
+        }
     }
 }

@@ -135,14 +135,15 @@ impl ContactError {
 
     /// Describes in words why a body does not move to a target.
     pub fn in_words(&self, target: Move) -> String {
-        match (self, target) {
-            (&ContactError::DetachesBefore { smallest }, Move::ToForce(force)) => {
-                let [force, least] =
-                    [force, rounded_up(smallest)].map(|force| format_quantity(force, "N"));
-                format!("the contact detaches before {force}; smallest force within reach: {least}")
-            }
-            (error, _) => error.to_string(),
-        }
+        let ContactError::DetachesBefore { smallest } = self else {
+            return self.to_string();
+        };
+        let Move::ToForce(force) = target else {
+            return self.to_string();
+        };
+        let force = format_quantity(force, "N");
+        let least = format_quantity(rounded_up(*smallest), "N");
+        format!("the contact detaches before {force}; smallest force within reach: {least}")
     }
 
     /// Returns the reason without its stage.
@@ -184,14 +185,13 @@ pub fn check(
     allowed: &'static str,
 ) -> Result<(), ContactError> {
     if is_allowed {
-        Ok(())
-    } else {
-        Err(ContactError::Value {
-            name: name.to_owned(),
-            value,
-            allowed,
-        })
+        return Ok(());
     }
+    Err(ContactError::Value {
+        name: name.to_owned(),
+        value,
+        allowed,
+    })
 }
 
 /// Writes a value as a user would write it: numbers of ordinary size without an exponent.

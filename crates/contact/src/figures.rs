@@ -50,49 +50,80 @@ impl Figures {
     /// Computes preload, pull-off and dissipated energy from the records of a history.
     pub fn of(history: &History) -> Self {
         let legs = &history.legs;
-        let ends_separated = legs
-            .last()
-            .and_then(|leg| leg.curve.last())
-            .is_some_and(|point| point.springs == 0);
-        Figures::at(
-            Branch::preload(legs).map(|(stage, point)| (legs[stage].target, point)),
-            Branch::pull_off(legs).map(|(_, point)| point),
-            ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum::<f64>()),
-        )
+        let preload = Branch::preload(legs).map(|(stage, point)| Preload {
+            target: legs[stage].target,
+            point,
+        });
+        let pull_off = Branch::pull_off(legs).map(|(_, point)| point);
+        let end = legs.last().and_then(|leg| leg.curve.last());
+        let ends_separated = end.is_some_and(|point| point.springs == 0);
+        let energy = ends_separated.then(|| legs.iter().map(|leg| leg.released_energy).sum());
+        Figures::of_points(preload, pull_off, energy)
     }
 
     /// Computes the figures of a loading from separation to the target `leg`, followed by the
     /// unloading `reversal` back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
-        Figures::at(
-            touches.then_some((leg, reversal.turn)),
-            Some(reversal.smallest).filter(|point| touches && point.force <= 0.0),
+        let preload = Preload {
+            target: leg,
+            point: reversal.turn,
+        };
+        let pulls = touches && reversal.smallest.force <= 0.0;
+        Figures::of_points(
+            touches.then_some(preload),
+            pulls.then_some(reversal.smallest),
             Some(reversal.dissipated_energy),
         )
     }
 
-    /// Computes the figures from the point of the largest force with the target of its stage, the
-    /// pull-off point, and the released energy of all stages in J.
-    fn at(
-        pressed: Option<(Move, CurvePoint)>,
+    /// Computes the figures from the preload, the pull-off point, and the released energy of all
+    /// stages in J.
+    fn of_points(
+        preload: Option<Preload>,
         pull_off: Option<CurvePoint>,
         energy: Option<f64>,
     ) -> Self {
-        let preload = pressed.map(|(target, point)| without_rounding(target, point).force);
+        let preload_force = preload.map(|preload| preload.without_rounding().force);
         // Not −F, which would make a force of zero negative.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
         Figures {
-            preload,
-            preload_indentation: pressed.map(|(_, point)| point.indentation),
+            preload: preload_force,
+            preload_indentation: preload.map(|preload| preload.point.indentation),
             adhesion_force,
-            adhesion_coefficient: adhesion_force
-                .zip(preload.filter(|&force| force > 0.0))
-                .map(|(adhesion, preload)| adhesion / preload)
-                .filter(|coefficient| coefficient.is_finite()),
+            adhesion_coefficient: adhesion_coefficient(adhesion_force, preload_force),
             pull_off_indentation: pull_off.map(|point| point.indentation),
             // Changes −0 to 0 without dissipation.
             dissipated_energy: energy.map(|energy| energy + 0.0),
+        }
+    }
+}
+
+/// Returns F_a/F_n for forces in N; `None` if no force pulls, or if the preload does not press.
+fn adhesion_coefficient(adhesion_force: Option<f64>, preload: Option<f64>) -> Option<f64> {
+    let adhesion_force = adhesion_force?;
+    let preload = preload?;
+    let coefficient = adhesion_force / preload;
+    (preload > 0.0 && coefficient.is_finite()).then_some(coefficient)
+}
+
+/// Point of the largest force on loading, with the target of its stage.
+#[derive(Clone, Copy)]
+struct Preload {
+    target: Move,
+    point: CurvePoint,
+}
+
+impl Preload {
+    /// Returns the point of the preload. The force that remains at a target force of zero is
+    /// rounding and becomes zero.
+    fn without_rounding(&self) -> CurvePoint {
+        match self.target {
+            Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint {
+                force: 0.0,
+                ..self.point
+            },
+            _ => self.point,
         }
     }
 }
@@ -132,46 +163,33 @@ impl Mark {
     /// Finds the points of a force curve that have a mark, in the order of the variants of
     /// [`Mark`]. `legs` has the record of each loading stage.
     pub fn all(legs: &[LegRecord]) -> Vec<(Mark, CurvePoint)> {
-        let into_contact = |leg: &LegRecord| {
-            let pair = leg
-                .curve
-                .windows(2)
-                .find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
-            Some(pair[1]).filter(|_| leg.direction == Direction::Loading)
-        };
-        let out_of_contact = |leg: &LegRecord| {
-            let pair = leg
-                .curve
-                .windows(2)
-                .rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
-            Some(pair[0])
-        };
-        let jump_in = legs.iter().find_map(into_contact);
-        let pull_off = Branch::pull_off(legs);
-        let jump_out = pull_off.and_then(|(_, least)| {
-            let unloading = Branch::last_unloading(legs)?;
-            let last = legs[unloading.stages]
-                .iter()
-                .rev()
-                .find_map(out_of_contact)?;
-            Some(last).filter(|last| last.force > least.force * (1.0 - ROUNDING))
+        let preload = Branch::preload(legs).map(|(stage, point)| Preload {
+            target: legs[stage].target,
+            point,
         });
-        let found = [
-            (Mark::JumpIn, jump_in),
-            (
-                Mark::Preload,
-                Branch::preload(legs)
-                    .map(|(stage, point)| without_rounding(legs[stage].target, point)),
-            ),
-            (Mark::PullOff, pull_off.map(|(_, point)| point)),
-            (Mark::JumpOut, jump_out),
-        ];
-        let found = found
-            .into_iter()
-            .filter_map(|(mark, point)| Some((mark, point?)));
-        found
-            .filter(|(mark, point)| *mark == Mark::Preload || point.force < 0.0)
-            .collect()
+        let pull_off = Branch::pull_off(legs).map(|(_, point)| point);
+        let mut marks = Vec::new();
+        if let Some(point) = legs.iter().find_map(jump_into_contact)
+            && point.force < 0.0
+        {
+            marks.push((Mark::JumpIn, point));
+        }
+        if let Some(preload) = preload {
+            marks.push((Mark::Preload, preload.without_rounding()));
+        }
+        let Some(pull_off) = pull_off else {
+            return marks;
+        };
+        if pull_off.force < 0.0 {
+            marks.push((Mark::PullOff, pull_off));
+        }
+        if let Some(point) = last_jump_out_of_contact(legs)
+            && point.force > pull_off.force * (1.0 - ROUNDING)
+            && point.force < 0.0
+        {
+            marks.push((Mark::JumpOut, point));
+        }
+        marks
     }
 
     /// Returns the name of the mark as charts print it beside the point, such as `pull-off`.
@@ -185,13 +203,28 @@ impl Mark {
     }
 }
 
-/// Returns the end of a stage. The force that remains at a target force of zero is rounding and
-/// becomes zero.
-fn without_rounding(target: Move, end: CurvePoint) -> CurvePoint {
-    match target {
-        Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint { force: 0.0, ..end },
-        _ => end,
+/// Returns the first point in contact after the first jump of a loading into contact.
+fn jump_into_contact(leg: &LegRecord) -> Option<CurvePoint> {
+    if leg.direction != Direction::Loading {
+        return None;
     }
+    let mut pairs = leg.curve.windows(2);
+    let jump = pairs.find(|pair| pair[0].springs == 0 && pair[1].springs > 0)?;
+    Some(jump[1])
+}
+
+/// Returns the last point before the last jump of a motion out of contact.
+fn jump_out_of_contact(leg: &LegRecord) -> Option<CurvePoint> {
+    let mut pairs = leg.curve.windows(2);
+    let jump = pairs.rfind(|pair| pair[0].springs > 0 && pair[1].springs == 0)?;
+    Some(jump[0])
+}
+
+/// Returns the last point in contact of the last unloading, if the body jumps out of contact there.
+fn last_jump_out_of_contact(legs: &[LegRecord]) -> Option<CurvePoint> {
+    let unloading = Branch::last_unloading(legs)?;
+    let mut stages = legs[unloading.stages].iter().rev();
+    stages.find_map(jump_out_of_contact)
 }
 
 #[cfg(test)]

@@ -31,12 +31,23 @@ impl Foundation {
     /// separation. `patches` and `point` describe one state. Separated regions between patches are
     /// whole cells; the outermost edges may lie inside a cell.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
-        let outermost = patches
-            .first()
-            .zip(patches.last())
-            .map(|(one, other)| other.last - one.first + 1);
-        let between = outermost.map_or(0, |springs| springs as u64 - point.springs);
-        0.5 * (point.contact_length + between as f64 * self.spacing)
+        let separated_springs = match patches {
+            [] => 0,
+            [leftmost, ..] => {
+                let rightmost = patches[patches.len() - 1];
+                let springs = rightmost.last - leftmost.first + 1;
+                springs as u64 - point.springs
+            }
+        };
+        0.5 * (point.contact_length + separated_springs as f64 * self.spacing)
+    }
+
+    /// Returns the largest stretch √(π Δx γ/E*) in m of a single spring, eq. (10), for a work of
+    /// adhesion γ in J/m².
+    fn stretch_of_one_spring(&self, work: f64) -> f64 {
+        // The quotient γ/E* first: scaling both by one power of two then changes no bit.
+        let range = work / self.effective_modulus;
+        (std::f64::consts::PI * self.spacing * range).sqrt()
     }
 
     /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).
@@ -71,14 +82,10 @@ impl HessRule {
     /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just
     /// attached.
     pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
-        let stretch = |work: f64| {
-            // The quotient γ/E* first: scaling both by one power of two then changes no bit.
-            let range = work / foundation.effective_modulus;
-            (std::f64::consts::PI * foundation.spacing * range).sqrt()
-        };
-        let closing = stretch(closing);
+        let closing = foundation.stretch_of_one_spring(closing);
+        let opening = foundation.stretch_of_one_spring(opening);
         HessRule {
-            opening: stretch(opening).max(closing),
+            opening: opening.max(closing),
             closing,
         }
     }

@@ -61,6 +61,20 @@ pub struct LegRecord {
     pub smallest_of_rest: Option<CurvePoint>,
 }
 
+/// Target and direction of a motion, and the points before and after it.
+pub(super) struct Passage {
+    pub target: Move,
+    pub direction: Direction,
+    pub before: CurvePoint,
+    pub after: CurvePoint,
+}
+
+/// Points of the smallest and of the largest force of a motion.
+pub(super) struct Extremes {
+    pub smallest: CurvePoint,
+    pub largest: CurvePoint,
+}
+
 impl LegRecord {
     /// Creates the record of a motion that ends where it begins.
     pub fn still(target: Move, here: CurvePoint) -> Self {
@@ -82,7 +96,7 @@ impl LegRecord {
     /// Creates the record of a motion of a separated body that touches nothing, from one
     /// indentation to another in m.
     pub fn free(target: Move, from: f64, to: f64) -> Self {
-        let [start, end] = [from, to].map(CurvePoint::free);
+        let end = CurvePoint::free(to);
         let direction = if to > from {
             Direction::Loading
         } else {
@@ -90,7 +104,7 @@ impl LegRecord {
         };
         LegRecord {
             direction,
-            curve: vec![start, end],
+            curve: vec![CurvePoint::free(from), end],
             ..LegRecord::still(target, end)
         }
     }
@@ -98,59 +112,61 @@ impl LegRecord {
     /// Inserts a point into a curve of ascending indentations, unless the curve has a point there.
     pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
         let place = curve.partition_point(|other| other.indentation < point.indentation);
-        if curve
-            .get(place)
-            .is_none_or(|other| other.indentation > point.indentation)
-        {
+        let next = curve.get(place);
+        if next.is_none_or(|next| next.indentation > point.indentation) {
             curve.insert(place, point);
         }
     }
 
-    /// Creates the record of a motion from the ascending points of its curve, the points of its
-    /// smallest and largest force, the points before and after the motion, and the released elastic
-    /// energy in J.
+    /// Creates the record of a motion from the ascending points of its curve, and the released
+    /// elastic energy in J.
     pub(super) fn moved(
-        (target, direction): (Move, Direction),
+        passage: Passage,
         mut curve: Vec<CurvePoint>,
-        [smallest, largest]: [CurvePoint; 2],
-        [before, after]: [CurvePoint; 2],
+        extremes: Extremes,
         released_energy: f64,
     ) -> Self {
+        let Passage {
+            target,
+            direction,
+            before,
+            after,
+        } = passage;
         let changed = after.springs.abs_diff(before.springs);
-        let (attached, detached) = if direction == Direction::Loading {
-            (changed, 0)
-        } else {
-            (0, changed)
-        };
-        if direction == Direction::Unloading {
-            LegRecord::insert(&mut curve, smallest);
-            curve.reverse();
+        let mut attached = 0;
+        let mut detached = 0;
+        match direction {
+            Direction::Loading => attached = changed,
+            Direction::Unloading => {
+                detached = changed;
+                LegRecord::insert(&mut curve, extremes.smallest);
+                curve.reverse();
+            }
         }
-        let [start, end] = [curve[0], curve[curve.len() - 1]];
+        let start = curve[0];
+        let end = curve[curve.len() - 1];
         if before.springs == 0 && start.springs > 0 {
-            let points = [before, CurvePoint::free(start.indentation)];
-            curve.splice(
-                0..0,
-                points
-                    .into_iter()
-                    .skip(usize::from(before.indentation >= start.indentation)),
-            );
+            curve.insert(0, CurvePoint::free(start.indentation));
+            if before.indentation < start.indentation {
+                curve.insert(0, before);
+            }
         }
         if after.springs == 0 && end.springs > 0 {
             curve.push(CurvePoint::free(end.indentation));
             // The instrument, no longer deflected, moves the free body on.
-            curve.extend(Some(after).filter(|after| after.indentation < end.indentation));
+            if after.indentation < end.indentation {
+                curve.push(after);
+            }
         }
-        let still = LegRecord::still(target, end);
         LegRecord {
             direction,
             curve,
-            largest,
-            smallest,
+            largest: extremes.largest,
+            smallest: extremes.smallest,
             attached,
             detached,
             released_energy,
-            ..still
+            ..LegRecord::still(target, end)
         }
     }
 
@@ -162,11 +178,8 @@ impl LegRecord {
     /// Returns the largest number of springs in contact at any moment of the motion.
     pub fn most_springs(&self) -> u64 {
         // A motion in one direction only attaches or only detaches springs.
-        self.curve
-            .iter()
-            .map(|point| point.springs)
-            .max()
-            .unwrap_or(0)
+        let springs = self.curve.iter().map(|point| point.springs);
+        springs.max().unwrap_or(0)
     }
 
     /// Returns the indentation in m at the beginning of the motion.
@@ -386,10 +399,10 @@ impl Patch {
     /// for a spring in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
-        for spring in contact
-            .enumerate()
-            .filter_map(|(spring, contact)| contact.then_some(spring))
-        {
+        for (spring, is_in_contact) in contact.enumerate() {
+            if !is_in_contact {
+                continue;
+            }
             match patches.last_mut() {
                 Some(patch) if patch.last + 1 == spring => patch.last = spring,
                 _ => patches.push(Patch {
@@ -408,9 +421,12 @@ impl From<Patch> for (usize, usize) {
     }
 }
 
+/// Where a motion ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
+    /// An indentation in m.
     Indentation(f64),
+    /// A force in N.
     Force(f64),
     /// A displacement in m of an instrument that is not rigid.
     Displacement(f64),
@@ -442,8 +458,8 @@ pub(super) fn plan(
     let separated = here.springs == 0;
     let goal = match Goal::from(target) {
         // Nothing deflects a rigid instrument, nor any other before the touch.
-        Goal::Displacement(at) if stiffness.is_infinite() || separated && at < 0.0 => {
-            Goal::Indentation(at)
+        Goal::Displacement(end) if stiffness.is_infinite() || separated && end < 0.0 => {
+            Goal::Indentation(end)
         }
         goal => goal,
     };
@@ -471,6 +487,6 @@ pub(super) fn plan(
     })
 }
 
-fn order(a: f64, b: f64) -> Ordering {
-    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+fn order(end: f64, here: f64) -> Ordering {
+    end.partial_cmp(&here).unwrap_or(Ordering::Equal)
 }

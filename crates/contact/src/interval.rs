@@ -46,40 +46,38 @@ impl Intervals {
     /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs
     /// parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
-        let of = |&[low, high]: &[ContactState; 2]| {
-            let steps = Rc::new(vec![Step {
+        let mut intervals = Vec::with_capacity(ends.len());
+        for &[low, high] in ends {
+            let first_step = Step {
                 threshold: low.indentation,
                 totals: low.totals,
-            }]);
-            Interval {
+            };
+            intervals.push(Interval {
                 slides,
                 instrument,
                 scale,
-                steps,
+                steps: Rc::new(vec![first_step]),
                 pieces: Vec::new(),
                 low,
                 high,
-            }
-        };
-        Intervals(ends.iter().map(of).collect())
+            });
+        }
+        Intervals(intervals)
     }
 
+    /// Returns the smallest and the largest indentation of all intervals in m.
     pub fn ends(&self) -> (f64, f64) {
-        (
-            self.0[0].low.indentation,
-            self.0[self.0.len() - 1].high.indentation,
-        )
+        let low = self.0[0].low.indentation;
+        let high = self.0[self.0.len() - 1].high.indentation;
+        (low, high)
     }
 
     /// Returns the index range of the intervals that overlap the indentations from `from` to `to`
     /// in m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
-        let first = self
-            .0
-            .partition_point(|interval| interval.high.indentation < from);
-        let end = self
-            .0
-            .partition_point(|interval| interval.low.indentation < to);
+        let intervals = &self.0;
+        let first = intervals.partition_point(|interval| interval.high.indentation < from);
+        let end = intervals.partition_point(|interval| interval.low.indentation < to);
         // A part without extent may end a rounding before it begins.
         first..end.max(first)
     }
@@ -95,11 +93,12 @@ impl Intervals {
         }
     }
 
+    /// Adds edge cells to all intervals that they overlap.
     pub fn add_piece(&mut self, piece: Piece) {
         let range = self.between(piece.from, piece.to);
-        self.0[range]
-            .iter_mut()
-            .for_each(|interval| interval.pieces.push(piece));
+        for interval in &mut self.0[range] {
+            interval.pieces.push(piece);
+        }
     }
 
     /// Returns the intervals with sorted events, and adds the number of events to `sorted`.
@@ -116,13 +115,13 @@ impl Interval {
     /// Sorts the events; each step then has the totals of all steps up to it.
     fn sort(&mut self) {
         let steps = Rc::make_mut(&mut self.steps);
-        steps[1..].sort_unstable_by(|a, b| a.threshold.total_cmp(&b.threshold));
+        steps[1..].sort_unstable_by(|step, other| step.threshold.total_cmp(&other.threshold));
         steps.dedup_by(|next, step| {
-            let together = next.threshold == step.threshold;
-            if together {
+            let is_together = next.threshold == step.threshold;
+            if is_together {
                 step.totals += next.totals;
             }
-            together
+            is_together
         });
         let mut total = ContactTotals::default();
         for step in steps {
@@ -150,27 +149,34 @@ impl Interval {
             .map(|piece| piece.slider)
     }
 
-    /// Returns the contact at the indentation `at` (m), if no event lies between `from` and `at`:
-    /// no edge jumps, and no patch merges or splits. The force is convex in `at`.
-    fn steady(&self, from: f64, at: f64) -> ContactState {
+    /// Returns the contact at an indentation in m, if no event lies between `from` and there: no
+    /// edge jumps, and no patch merges or splits. The force is convex in the indentation.
+    fn steady(&self, from: f64, indentation: f64) -> ContactState {
         let mut edges = EdgeSum::default();
-        self.sliders(from)
-            .for_each(|slider| edges.add(slider.edge_cells(at)));
-        ContactState::new(
-            self.slides,
-            at,
-            self.totals(from),
-            edges.total(),
-            &self.scale,
-        )
-        .beside(self.instrument)
+        for slider in self.sliders(from) {
+            edges.add(slider.edge_cells(indentation));
+        }
+        let totals = self.totals(from);
+        let contact =
+            ContactState::new(self.slides, indentation, totals, edges.total(), &self.scale);
+        contact.beside(self.instrument)
     }
 
-    /// Returns the derivative of the compression with respect to the indentation, in cells, at `at`
-    /// in m, if no event lies between the lower end and `at`.
-    fn stiffness(&self, at: f64) -> f64 {
+    /// Returns the compression in m at an indentation in m, if no event lies between the lower end
+    /// and there.
+    fn compression(&self, indentation: f64) -> f64 {
         let from = self.low.indentation;
-        let edges: f64 = self.sliders(from).map(|slider| slider.stiffness(at)).sum();
+        self.steady(from, indentation).compression
+    }
+
+    /// Returns the derivative of the compression with respect to the indentation, in cells, at an
+    /// indentation in m, if no event lies between the lower end and there.
+    fn stiffness(&self, indentation: f64) -> f64 {
+        let from = self.low.indentation;
+        let mut edges = 0.0;
+        for slider in self.sliders(from) {
+            edges += slider.stiffness(indentation);
+        }
         self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
@@ -182,29 +188,40 @@ impl Interval {
             return low;
         }
         if self.stiffness(last) <= 0.0 {
-            last
-        } else {
-            bisect(low, last, |at| self.stiffness(at) >= 0.0)
+            return last;
         }
+        bisect(low, last, |indentation| self.stiffness(indentation) >= 0.0)
     }
 
     /// Returns the contact at the middle event inside; `None` without an event.
     fn middle(&self) -> Option<ContactState> {
-        let ((low, high), steps) = (self.ends(), &self.steps);
+        let (low, high) = self.ends();
+        let steps = &self.steps;
         let first = steps.partition_point(|step| step.threshold <= low);
         let end = steps.partition_point(|step| step.threshold < high);
-        (first < end)
-            .then(|| steps[first + (end - first) / 2].threshold)
-            .map(|event| self.steady(event, event))
+        if first >= end {
+            return None;
+        }
+        let event = steps[first + (end - first) / 2].threshold;
+        Some(self.steady(event, event))
+    }
+
+    /// Returns the part below the contact `middle`.
+    fn below(&self, middle: ContactState) -> Self {
+        self.between(self.low, middle)
+    }
+
+    /// Returns the part above the contact `middle`.
+    fn above(&self, middle: ContactState) -> Self {
+        self.between(middle, self.high)
     }
 
     fn between(&self, low: ContactState, high: ContactState) -> Self {
         let overlaps =
             |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
-        let pieces = self.pieces.iter().filter(overlaps).copied().collect();
         Interval {
             steps: Rc::clone(&self.steps),
-            pieces,
+            pieces: self.pieces.iter().filter(overlaps).copied().collect(),
             low,
             high,
             ..*self
@@ -218,67 +235,82 @@ impl Interval {
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
             return;
         }
-        let mut take = |state| {
-            if extreme.is_beyond(&state, best) {
-                *best = state;
+        if let Some(middle) = self.middle() {
+            if extreme.is_beyond(&middle, best) {
+                *best = middle;
             }
+            self.above(middle).extreme(extreme, best);
+            self.below(middle).extreme(extreme, best);
+            return;
+        }
+        let before = to.next_down();
+        let indentation = match extreme {
+            Extreme::Smallest => self.flattest(to).min(before),
+            // Where the force falls at once, the largest number before counts.
+            Extreme::Largest => before,
         };
-        let Some(middle) = self.middle() else {
-            let before = to.next_down();
-            let at = match extreme {
-                Extreme::Smallest => self.flattest(to).min(before),
-                // Where the force falls at once, the largest number before counts.
-                Extreme::Largest => before,
-            };
-            return take(self.steady(from, at));
-        };
-        take(middle);
-        self.between(middle, self.high).extreme(extreme, best);
-        self.between(self.low, middle).extreme(extreme, best);
+        let state = self.steady(from, indentation);
+        if extreme.is_beyond(&state, best) {
+            *best = state;
+        }
     }
 
-    /// Computes ∫ |C − E| dd over the interval in cells times m², on loading (`loads`) or
-    /// unloading. C is the compression of contact and instrument. E is its extreme so far, the
-    /// largest on loading and the smallest on unloading. Where C turns back from E the body jumps.
-    pub fn jumped(&self, loads: bool, extreme: &mut f64) -> f64 {
+    /// Computes ∫ (E − C) dd in cells times m² over the parts of the interval that a loading jumps
+    /// over. C is the compression of contact and instrument, and E is the largest one so far. Where
+    /// C turns back from E the body jumps.
+    pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
-            let [low, high] = [
-                self.between(self.low, middle),
-                self.between(middle, self.high),
-            ];
-            let [first, second] = if loads { [low, high] } else { [high, low] };
-            return first.jumped(loads, extreme) + second.jumped(loads, extreme);
+            let first = self.below(middle).jumped_on_loading(largest);
+            let second = self.above(middle).jumped_on_loading(largest);
+            return first + second;
         }
         let (from, to) = self.ends();
-        let compression = |at: f64| self.steady(from, at).compression;
         // The compression is convex: it falls up to here, and rises beyond.
         let flattest = self.flattest(to);
-        if loads {
-            let [start, end] = [from, to].map(compression);
-            *extreme = extreme.max(start);
-            // It is behind up to where it is back at the extreme.
-            let level = *extreme;
-            *extreme = level.max(end);
-            return match () {
-                () if flattest <= from && start >= level => 0.0,
-                () if end <= level => level * (to - from) - self.work(from, to),
-                () => {
-                    let back = crossing(from, to, |at| compression(at) - level);
-                    level * (back - from) - self.work(from, back)
-                }
-            };
+        let start = self.compression(from);
+        let end = self.compression(to);
+        let level = largest.max(start);
+        *largest = level.max(end);
+        if flattest <= from && start >= level {
+            return 0.0;
         }
-        let (level, least) = (*extreme, compression(flattest));
+        if end <= level {
+            return level * (to - from) - self.work(from, to);
+        }
+        // The compression is less than the largest one up to where it is back at it.
+        let back = crossing(from, to, |indentation| {
+            self.compression(indentation) - level
+        });
+        level * (back - from) - self.work(from, back)
+    }
+
+    /// Computes ∫ (C − E) dd in cells times m² over the parts of the interval that an unloading
+    /// jumps over. C is the compression of contact and instrument, and E is the smallest one so
+    /// far. Where C turns back from E the body jumps.
+    pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
+        if let Some(middle) = self.middle() {
+            let first = self.above(middle).jumped_on_unloading(smallest);
+            let second = self.below(middle).jumped_on_unloading(smallest);
+            return first + second;
+        }
+        let (from, to) = self.ends();
+        // The compression is convex: it falls up to here, and rises beyond.
+        let flattest = self.flattest(to);
+        let level = *smallest;
+        let least = self.compression(flattest);
         if least >= level {
             return self.work(from, to) - level * (to - from);
         }
-        let back = match compression(to) > level {
-            true => last_before(flattest, to, |at| compression(at) - level),
-            false => to,
-        };
-        *extreme = least;
-        (self.work(back, to) - level * (to - back))
-            + (self.work(from, flattest) - least * (flattest - from))
+        let mut back = to;
+        if self.compression(to) > level {
+            back = last_before(flattest, to, |indentation| {
+                self.compression(indentation) - level
+            });
+        }
+        *smallest = least;
+        let work_before = self.work(back, to) - level * (to - back);
+        let work_after = self.work(from, flattest) - least * (flattest - from);
+        work_before + work_after
     }
 
     /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the
@@ -286,14 +318,17 @@ impl Interval {
     /// with which springs attach at the sliding edges.
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
-        let surface = |at: f64| {
-            self.sliders(from)
-                .map(|slider| slider.surface(at))
-                .sum::<f64>()
-        };
         let squares = self.steady(from, high).squares - self.steady(from, low).squares;
-        0.5 * (squares - (surface(high) - surface(low))
-            + self.instrument * (high - low) * (high + low))
+        let surface = self.surface(high) - self.surface(low);
+        let instrument = self.instrument * (high - low) * (high + low);
+        0.5 * (squares - surface + instrument)
+    }
+
+    /// Returns the sum of [`Slider::surface`] over all patches at an indentation in m, if no event
+    /// lies between the lower end and there.
+    fn surface(&self, indentation: f64) -> f64 {
+        let sliders = self.sliders(self.low.indentation);
+        sliders.map(|slider| slider.surface(indentation)).sum()
     }
 
     /// Returns the smallest indentation in the interval with at least this compression. The
@@ -303,16 +338,19 @@ impl Interval {
             return None;
         }
         if let Some(middle) = self.middle() {
-            let lower = self.between(self.low, middle).first_at_least(wanted);
-            return lower.or_else(|| self.between(middle, self.high).first_at_least(wanted));
+            let lower = self.below(middle).first_at_least(wanted);
+            return lower.or_else(|| self.above(middle).first_at_least(wanted));
         }
         // Convex and below `wanted` at first: one crossing.
         let (from, to) = self.ends();
-        let passes = |at: f64| self.steady(from, at).compression - wanted;
-        let found = (passes(to) >= 0.0)
-            .then(|| crossing(from, to, passes))
-            .filter(|&found| found < to);
-        found.or_else(|| (self.high.compression >= wanted).then_some(to))
+        let passes = |indentation: f64| self.compression(indentation) - wanted;
+        if passes(to) >= 0.0 {
+            let first = crossing(from, to, passes);
+            if first < to {
+                return Some(first);
+            }
+        }
+        (self.high.compression >= wanted).then_some(to)
     }
 
     /// Returns the largest indentation in the interval with at most this compression. The
@@ -323,24 +361,25 @@ impl Interval {
             return None;
         }
         if let Some(middle) = self.middle() {
-            let upper = self.between(middle, self.high).last_at_most(wanted);
-            return upper.or_else(|| {
-                let at_middle = (middle.compression <= wanted).then_some(middle.indentation);
-                at_middle.or_else(|| self.between(self.low, middle).last_at_most(wanted))
-            });
+            if let Some(upper) = self.above(middle).last_at_most(wanted) {
+                return Some(upper);
+            }
+            if middle.compression <= wanted {
+                return Some(middle.indentation);
+            }
+            return self.below(middle).last_at_most(wanted);
         }
         let last = to.next_down().max(from);
-        let passes = |at: f64| self.steady(from, at).compression - wanted;
+        let passes = |indentation: f64| self.compression(indentation) - wanted;
         let flattest = self.flattest(last);
         if passes(flattest) > 0.0 {
             return (self.low.compression <= wanted).then_some(from);
         }
-        // The compression rises from there on: the last number at which it has not passed `wanted`.
-        Some(if passes(last) > 0.0 {
-            last_before(flattest, last, passes)
-        } else {
-            last
-        })
+        if passes(last) > 0.0 {
+            // The compression rises from the flattest place on.
+            return Some(last_before(flattest, last, passes));
+        }
+        Some(last)
     }
 }
 
@@ -376,14 +415,15 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
 /// through zero once; at `low` it is negative.
 pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
-    bisect(low, high, |at| value(at) >= 0.0)
+    bisect(low, high, |place| value(place) >= 0.0)
 }
 
 /// Finds the largest number in \[low, high) at which `value` is at most zero. `value` rises through
 /// zero once; at `high` it is positive.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let (from, to) = enclose(low, high, &value, |value| value > 0.0);
-    bisect(from, to, |at| value(at) > 0.0).next_down().max(low)
+    let (before, past) = enclose(low, high, &value, |value| value > 0.0);
+    let first_past = bisect(before, past, |place| value(place) > 0.0);
+    first_past.next_down().max(low)
 }
 
 /// Narrows an interval around a crossing by interpolation. Its lower end stays before the crossing,
@@ -397,32 +437,36 @@ fn enclose(
     value: &impl Fn(f64) -> f64,
     is_past: impl Fn(f64) -> bool,
 ) -> (f64, f64) {
-    let (mut below, mut above) = (value(low), value(high));
-    let mut stayed = 0_i32;
+    let mut value_at_low = value(low);
+    let mut value_at_high = value(high);
+    // 1 if the last guess has moved the upper end, −1 the lower end.
+    let mut moved_end = 0_i32;
     for guess in 0..GUESSES {
         let middle = low + 0.5 * (high - low);
-        let between = high - above * ((high - low) / (above - below));
-        let at = if guess % 4 != 3 && between > low && between < high {
+        let between = high - value_at_high * ((high - low) / (value_at_high - value_at_low));
+        let place = if guess % 4 != 3 && between > low && between < high {
             between
         } else {
             middle
         };
-        if at <= low || at >= high {
+        if place <= low || place >= high {
             break;
         }
-        let found = value(at);
-        if is_past(found) {
-            (high, above) = (at, found);
-            if stayed > 0 {
-                below *= 0.5;
+        let value_at_place = value(place);
+        if is_past(value_at_place) {
+            high = place;
+            value_at_high = value_at_place;
+            if moved_end > 0 {
+                value_at_low *= 0.5;
             }
-            stayed = 1;
+            moved_end = 1;
         } else {
-            (low, below) = (at, found);
-            if stayed < 0 {
-                above *= 0.5;
+            low = place;
+            value_at_low = value_at_place;
+            if moved_end < 0 {
+                value_at_high *= 0.5;
             }
-            stayed = -1;
+            moved_end = -1;
         }
     }
     (low, high)

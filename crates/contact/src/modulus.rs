@@ -36,19 +36,11 @@ impl Modulus {
     /// Returns [`ContactError::Value`] if Young's modulus is not from 1e-50 to 1e50 Pa. Returns the
     /// same error if Poisson's ratio is −1 or less, or more than 0.5.
     pub fn isotropic(youngs_modulus: f64, poisson_ratio: f64) -> Result<Self, ContactError> {
-        check(
-            "Young's modulus",
-            youngs_modulus,
-            is_positive(youngs_modulus),
-            PASCALS,
-        )?;
+        let is_allowed = is_positive(youngs_modulus);
+        check("Young's modulus", youngs_modulus, is_allowed, PASCALS)?;
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
-        check(
-            "Poisson's ratio",
-            poisson_ratio,
-            is_allowed,
-            "above -1 and at most 0.5",
-        )?;
+        let allowed = "above -1 and at most 0.5";
+        check("Poisson's ratio", poisson_ratio, is_allowed, allowed)?;
         // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
         Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
     }
@@ -67,8 +59,9 @@ impl Modulus {
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a result below 1e-50 Pa.
-    pub fn pair(one: Modulus, other: Modulus) -> Result<Self, ContactError> {
-        let (softer, stiffer) = (one.0.min(other.0), one.0.max(other.0));
+    pub fn pair(first: Modulus, second: Modulus) -> Result<Self, ContactError> {
+        let softer = first.0.min(second.0);
+        let stiffer = first.0.max(second.0);
         Modulus::effective(softer / (1.0 + softer / stiffer))
     }
 

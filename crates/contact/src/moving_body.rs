@@ -83,8 +83,10 @@ pub fn load_body(
         after(&record, &solver.leg())?;
         history.legs.push(record);
     }
-    let end = history.legs.last().and_then(LegRecord::end_in_contact);
-    history.contacts = end.map_or_else(Vec::new, |point| solver.leg().patches(point.indentation));
+    let last_stage = history.legs.last();
+    if let Some(end) = last_stage.and_then(LegRecord::end_in_contact) {
+        history.contacts = solver.leg().patches(end.indentation);
+    }
     history.work = solver.work();
     Ok(history)
 }

@@ -105,8 +105,11 @@ fn parabola(values: &[f64]) -> Option<[f64; 3]> {
         return None;
     }
     let middle = 0.5 * (values.len() - 1) as f64;
-    let [mut sum, mut first, mut second] = [0.0; 3];
-    let [mut squares, mut fourths] = [0.0; 2];
+    let mut sum = 0.0;
+    let mut first = 0.0;
+    let mut second = 0.0;
+    let mut squares = 0.0;
+    let mut fourths = 0.0;
     for (index, value) in values.iter().enumerate() {
         // From −1 to 1, so that no power leaves the range of numbers.
         let x = (index as f64 - middle) / middle;

@@ -65,17 +65,14 @@ impl Profile {
     /// out of its range.
     pub fn from_heights(heights: impl Into<Vec<f64>>, spacing: f64) -> Result<Self, ContactError> {
         let mut heights = heights.into();
-        let [_, summit] = ends(&heights, LARGEST).map_err(|index| {
-            let allowed = "from -1e50 to 1e50 m";
-            value(
-                format!("height with index {index}"),
-                heights[index],
-                allowed,
-            )
+        let [_, summit] = range(&heights, LARGEST).map_err(|index| ContactError::Value {
+            name: format!("height with index {index}"),
+            value: heights[index],
+            allowed: "from -1e50 to 1e50 m",
         })?;
-        heights
-            .iter_mut()
-            .for_each(|height| *height = summit - *height);
+        for height in &mut heights {
+            *height = summit - *height;
+        }
         Ok(Profile {
             summit,
             ..Profile::from_gaps(heights, spacing)?
@@ -100,37 +97,23 @@ impl Profile {
     pub fn from_gaps(gaps: impl Into<Arc<Vec<f64>>>, spacing: f64) -> Result<Self, ContactError> {
         let gaps = gaps.into();
         let points = gaps.len();
-        let is_allowed = (1..=MOST_POINTS).contains(&points);
-        check(
-            "number of points",
-            points as f64,
-            is_allowed,
-            "from 1 to 268435456",
-        )?;
-        let metres = "from 1e-50 to 1e50 m";
         let length = spacing * points as f64;
+        let is_allowed = (1..=MOST_POINTS).contains(&points);
+        let allowed = "from 1 to 268435456";
+        check("number of points", points as f64, is_allowed, allowed)?;
+        let metres = "from 1e-50 to 1e50 m";
         check("spacing", spacing, is_positive(spacing), metres)?;
         check("spacing times points", length, is_positive(length), metres)?;
-        let not_finite = |index| {
-            value(
-                format!("gap with index {index}"),
-                gaps[index],
-                "from 0 to 1e50 m",
-            )
-        };
-        let [smallest, deepest] = ends(&gaps, f64::MAX).map_err(not_finite)?;
-        check(
-            "smallest gap of the profile",
-            smallest,
-            smallest == 0.0,
-            "0: the highest point has no gap",
-        )?;
-        check(
-            "largest gap of the profile",
-            deepest,
-            deepest <= LARGEST,
-            "at most 1e50 m",
-        )?;
+        let [smallest, deepest] = range(&gaps, f64::MAX).map_err(|index| ContactError::Value {
+            name: format!("gap with index {index}"),
+            value: gaps[index],
+            allowed: "from 0 to 1e50 m",
+        })?;
+        let allowed = "0: the highest point has no gap";
+        let name = "smallest gap of the profile";
+        check(name, smallest, smallest == 0.0, allowed)?;
+        let name = "largest gap of the profile";
+        check(name, deepest, deepest <= LARGEST, "at most 1e50 m")?;
         let springs = Arc::new(Springs {
             gaps,
             deepest,
@@ -179,12 +162,9 @@ impl Profile {
     /// # Errors
     /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
     pub fn with_summit(self, summit: f64) -> Result<Self, ContactError> {
-        check(
-            "height of the highest point",
-            summit,
-            summit.abs() <= LARGEST,
-            "from -1e50 to 1e50 m",
-        )?;
+        let is_allowed = summit.abs() <= LARGEST;
+        let allowed = "from -1e50 to 1e50 m";
+        check("height of the highest point", summit, is_allowed, allowed)?;
         Ok(Profile { summit, ..self })
     }
 
@@ -221,10 +201,11 @@ impl Profile {
         if self.nominal_form != NominalForm::Unstated || self.deepest() == 0.0 {
             return None;
         }
-        let radius = radius_of_cut(self.gaps(), self.spacing);
-        Some(radius.map_or(Warning::HeightsAsProfile, |radius| {
-            Warning::CutLikeHeights { radius }
-        }))
+        let doubt = match radius_of_cut(self.gaps(), self.spacing) {
+            Some(radius) => Warning::CutLikeHeights { radius },
+            None => Warning::HeightsAsProfile,
+        };
+        Some(doubt)
     }
 
     /// Returns the number of points N, one for each spring under the profile.
@@ -302,8 +283,10 @@ impl Profile {
     /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can
     /// reuse. The tree is empty if the profile has none, or if a clone or a contact still uses it.
     pub fn into_tree(self) -> ContactTree {
-        let trees = Arc::into_inner(self.springs).map(|springs| springs.trees);
-        let trees = trees.into_iter().flatten().filter_map(OnceLock::into_inner);
+        let Some(springs) = Arc::into_inner(self.springs) else {
+            return ContactTree::default();
+        };
+        let trees = springs.trees.into_iter().filter_map(OnceLock::into_inner);
         trees.filter_map(Arc::into_inner).next().unwrap_or_default()
     }
 }
@@ -311,8 +294,9 @@ impl Profile {
 /// Two profiles are equal if they have the same heights at the same places.
 impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
-        let of = |profile: &Self| [profile.spacing, profile.length, profile.summit];
-        of(self) == of(other)
+        self.spacing == other.spacing
+            && self.length == other.length
+            && self.summit == other.summit
             && self.first == other.first
             && self.springs.gaps == other.springs.gaps
     }
@@ -343,38 +327,54 @@ impl Springs {
     }
 }
 
-fn value(name: String, value: f64, allowed: &'static str) -> ContactError {
-    ContactError::Value {
-        name,
-        value,
-        allowed,
-    }
-}
+/// Number of values that are compared at the same time. A single sequence of comparisons would wait
+/// for each one.
+const LANES: usize = 8;
 
 /// Returns the smallest and the largest value. The error is the index of the first value whose
 /// magnitude is not at most `most`.
-fn ends(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
-    // In parallel: a sequence of comparisons would wait for each one.
-    let (mut smallest, mut largest, mut is_number) =
-        ([f64::INFINITY; 8], [f64::NEG_INFINITY; 8], true);
-    let mut take = |values: &[f64]| {
-        for ((smallest, largest), &value) in smallest.iter_mut().zip(&mut largest).zip(values) {
-            *smallest = if value < *smallest { value } else { *smallest };
-            *largest = if value > *largest { value } else { *largest };
-            is_number &= !value.is_nan();
-        }
+fn range(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
+    let mut extremes = Extremes {
+        smallest: [f64::INFINITY; LANES],
+        largest: [f64::NEG_INFINITY; LANES],
+        are_numbers: true,
     };
-    let (whole, rest) = values.as_chunks::<8>();
-    whole.iter().for_each(|eight| take(eight));
-    take(rest);
-    let smallest = smallest.into_iter().fold(f64::INFINITY, f64::min);
-    let largest = largest.into_iter().fold(f64::NEG_INFINITY, f64::max);
-    let is_allowed = |value: f64| value.abs() <= most;
-    if values.is_empty() || is_number && is_allowed(smallest) && is_allowed(largest) {
+    let (blocks, last) = values.as_chunks::<LANES>();
+    for block in blocks {
+        extremes.include(block);
+    }
+    extremes.include(last);
+    let smallest = extremes.smallest.into_iter().fold(f64::INFINITY, f64::min);
+    let largest = extremes
+        .largest
+        .into_iter()
+        .fold(f64::NEG_INFINITY, f64::max);
+    let are_allowed = extremes.are_numbers && smallest.abs() <= most && largest.abs() <= most;
+    if values.is_empty() || are_allowed {
         return Ok([smallest, largest]);
     }
-    Err(values
-        .iter()
-        .position(|&value| !is_allowed(value))
-        .unwrap_or(0))
+    let is_allowed = |value: &f64| value.abs() <= most;
+    let first = values.iter().position(|value| !is_allowed(value));
+    Err(first.unwrap_or(0))
+}
+
+/// Smallest and largest value of each lane.
+struct Extremes {
+    smallest: [f64; LANES],
+    largest: [f64; LANES],
+    /// False if any value is not a number.
+    are_numbers: bool,
+}
+
+impl Extremes {
+    /// Takes in at most one value for each lane.
+    #[inline]
+    fn include(&mut self, values: &[f64]) {
+        let lanes = self.smallest.iter_mut().zip(&mut self.largest);
+        for ((smallest, largest), &value) in lanes.zip(values) {
+            *smallest = if value < *smallest { value } else { *smallest };
+            *largest = if value > *largest { value } else { *largest };
+            self.are_numbers &= !value.is_nan();
+        }
+    }
 }

@@ -8,13 +8,13 @@ use super::adhesive::levels::EdgeCells;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
 use super::error::{ContactError, STEP_LIMIT};
-use super::history::{CurvePoint, Direction, LegRecord, Work};
-use super::history::{Goal, plan};
+use super::history::{CurvePoint, Direction, Extremes, Goal, LegRecord, Passage, Work, plan};
 use super::leg::Leg;
 use super::moving_body::MovingBody;
 use super::target::Move;
 use super::totals::ContactTotals;
 use asperity_data::resized;
+use std::ops::Range;
 
 /// The stepwise solver: a body that moves by small steps and relaxes to equilibrium after each
 /// step.
@@ -83,36 +83,38 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches or detaches a spring at the indentation `at` in m. A spring that detaches was held
-    /// to exactly `at`, because the overshoot of a step is no property of the contact.
-    fn change(&mut self, index: usize, attaches: bool, at: f64) {
+    /// Attaches or detaches a spring at an indentation in m. A spring that detaches was held up to
+    /// exactly this indentation, because the overshoot of a step is no property of the contact.
+    fn change(&mut self, index: usize, attaches: bool, indentation: f64) {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
-        self.thresholds[index] = at;
-        let spring = ContactTotals::of_patch(&[gap], false, self.contact.profile.springs.scale());
-        let squared_stretch = (gap - at).max(0.0).powi(2);
-        self.totals += if attaches { spring } else { -spring };
-        self.squared_stretch += if attaches {
-            -squared_stretch
+        self.thresholds[index] = indentation;
+        let scale = self.contact.profile.springs.scale();
+        let spring = ContactTotals::of_patch(&[gap], false, scale);
+        let squared_stretch = (gap - indentation).max(0.0).powi(2);
+        if attaches {
+            self.totals += spring;
+            self.squared_stretch -= squared_stretch;
         } else {
-            squared_stretch
-        };
+            self.totals += -spring;
+            self.squared_stretch += squared_stretch;
+        }
     }
 
     /// Sweeps until no spring touches and no patch grows.
     fn relax_loading(&mut self) {
-        let (gaps, at) = (self.contact.gaps(), self.indentation);
+        let gaps = self.contact.gaps();
         loop {
             let before = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             self.work.spring_updates += gaps.len() as u64;
             for (index, &gap) in gaps.iter().enumerate() {
-                if !self.holds[index] && gap <= at {
-                    self.change(index, true, at);
+                if !self.holds[index] && gap <= self.indentation {
+                    self.change(index, true, self.indentation);
                 }
             }
-            if self.contact.hess.is_some() {
-                self.grow_fragments();
+            if self.contact.has_adhesion() {
+                self.grow_patches();
             }
             if self.totals.springs == before {
                 return;
@@ -121,60 +123,72 @@ impl<'a> Stepwise<'a> {
     }
 
     /// Extends each patch over its neighbours as long as the rule of Hess allows.
-    fn grow_fragments(&mut self) {
-        let (gaps, at) = (self.contact.gaps(), self.indentation);
+    fn grow_patches(&mut self) {
+        let springs = self.holds.len();
         let mut first = 0;
-        while let Some(start) = (first..gaps.len()).find(|&index| self.holds[index]) {
-            let (mut start, mut end) = (start, start + 1);
+        while let Some(start) = (first..springs).find(|&index| self.holds[index]) {
+            let mut patch = start..start + 1;
             loop {
-                end += self.holds[end..].iter().take_while(|&&holds| holds).count();
-                start -= self.holds[..start]
-                    .iter()
-                    .rev()
-                    .take_while(|&&holds| holds)
-                    .count();
-                let stretch = self
-                    .contact
-                    .rule()
-                    .largest_stretch(Direction::Loading, end - start);
+                patch = self.whole_patch(patch);
+                let rule = self.contact.rule();
+                let stretch = rule.largest_stretch(Direction::Loading, patch.len());
                 self.work.spring_updates += 2;
-                let takes = |index: &usize| gaps.get(*index).is_some_and(|gap| gap - stretch <= at);
-                let next = Some(end)
-                    .filter(takes)
-                    .or_else(|| start.checked_sub(1).filter(takes));
-                let Some(next) = next else { break };
-                self.change(next, true, at);
+                let Some(next) = self.next_to_attach(&patch, stretch) else {
+                    break;
+                };
+                self.change(next, true, self.indentation);
             }
-            first = end;
+            first = patch.end;
         }
     }
 
+    /// Extends a range of springs in contact to the whole patch around it.
+    fn whole_patch(&self, part: Range<usize>) -> Range<usize> {
+        let Range { mut start, mut end } = part;
+        while end < self.holds.len() && self.holds[end] {
+            end += 1;
+        }
+        while start > 0 && self.holds[start - 1] {
+            start -= 1;
+        }
+        start..end
+    }
+
+    /// Returns the spring beside a patch that attaches under a stretch of at most `stretch` in m.
+    /// Of two such springs it is the right one.
+    fn next_to_attach(&self, patch: &Range<usize>, stretch: f64) -> Option<usize> {
+        let gaps = self.contact.gaps();
+        let attaches = |index: usize| gaps[index] - stretch <= self.indentation;
+        if patch.end < gaps.len() && attaches(patch.end) {
+            return Some(patch.end);
+        }
+        let left = patch.start.checked_sub(1)?;
+        attaches(left).then_some(left)
+    }
+
     /// Sweeps until every patch holds its most stretched spring.
+    /// Springs that detach were held up to the indentation `held_until` in m.
     fn relax_unloading(&mut self, held_until: f64) {
-        let (gaps, at) = (self.contact.gaps(), self.indentation);
+        let gaps = self.contact.gaps();
+        let indentation = self.indentation;
         loop {
             let held = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
             while first < gaps.len() {
-                let end = first
-                    + self.holds[first..]
-                        .iter()
-                        .take_while(|&&holds| holds)
-                        .count();
-                self.work.spring_updates += 2 * (end - first) as u64 + 1;
-                let stretch = self
-                    .contact
-                    .rule()
-                    .largest_stretch(Direction::Unloading, end - first);
-                for (place, &gap) in gaps[first..end].iter().enumerate() {
+                let in_contact = self.holds[first..].iter().take_while(|&&holds| holds);
+                let springs = in_contact.count();
+                self.work.spring_updates += 2 * springs as u64 + 1;
+                let rule = self.contact.rule();
+                let stretch = rule.largest_stretch(Direction::Unloading, springs);
+                for (place, &gap) in gaps[first..first + springs].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the
-                    // fragment as well.
-                    if at <= gap - stretch && at < gap {
+                    // patch as well.
+                    if indentation <= gap - stretch && indentation < gap {
                         self.change(first + place, false, held_until);
                     }
                 }
-                first = end + 1;
+                first += springs + 1;
             }
             if self.totals.springs == held {
                 return;
@@ -183,23 +197,15 @@ impl<'a> Stepwise<'a> {
     }
 
     fn point(&self) -> CurvePoint {
-        let fragments = self
-            .holds
-            .chunk_by(PartialEq::eq)
-            .filter(|run| run[0])
-            .count();
+        let runs = self.holds.chunk_by(PartialEq::eq);
+        let patches = runs.filter(|run| run[0]).count();
         let totals = ContactTotals {
-            fragments: fragments as i64,
+            patches: patches as i64,
             ..self.totals
         };
+        let scale = self.contact.profile.springs.scale();
         let edges = EdgeCells::default();
-        let state = ContactState::new(
-            false,
-            self.indentation,
-            totals,
-            edges,
-            &self.contact.profile.springs.scale(),
-        );
+        let state = ContactState::new(false, self.indentation, totals, edges, &scale);
         state.point(self.contact.foundation)
     }
 
@@ -226,41 +232,36 @@ impl<'a> Stepwise<'a> {
         } else {
             start
         };
-        let way = if direction == Direction::Loading {
-            end - start
-        } else {
-            start - end
+        let way = match direction {
+            Direction::Loading => end - start,
+            Direction::Unloading => start - end,
         };
         if way / self.step > STEP_LIMIT as f64 {
-            Err(ContactError::TooManySteps(self.step))
-        } else {
-            Ok(())
+            return Err(ContactError::TooManySteps(self.step));
         }
+        Ok(())
     }
 
+    /// Moves the body step by step to a goal.
     fn walk(
         &mut self,
         target: Move,
         direction: Direction,
         goal: Goal,
     ) -> Result<LegRecord, ContactError> {
-        for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
-            *threshold = if holds {
-                f64::NEG_INFINITY
-            } else {
-                f64::INFINITY
-            };
-        }
-        (self.direction, self.squared_stretch) = (direction, 0.0);
-        let here = self.point();
-        let [mut smallest, mut largest] = [here; 2];
+        self.begin(direction);
+        let before = self.point();
         let loads = direction == Direction::Loading;
         // From separation the first step is the touch.
-        let touches = here.springs == 0 && loads;
+        let touches = before.springs == 0 && loads;
         let origin = if touches {
-            here.indentation.max(0.0)
+            before.indentation.max(0.0)
         } else {
-            here.indentation
+            before.indentation
+        };
+        let mut extremes = Extremes {
+            smallest: before,
+            largest: before,
         };
         for steps in u64::from(!touches).. {
             if (self.stop)() {
@@ -269,72 +270,106 @@ impl<'a> Stepwise<'a> {
             if steps > STEP_LIMIT {
                 return Err(ContactError::TooManySteps(self.step));
             }
-            let held_until = self.indentation;
-            let moved = steps as f64 * self.step;
-            let wanted = if loads {
-                origin + moved
-            } else {
-                origin - moved
-            };
-            self.indentation = match goal {
-                Goal::Indentation(end) if loads => wanted.min(end),
-                Goal::Indentation(end) => wanted.max(end),
-                _ => wanted,
-            };
-            self.work.steps += 1;
-            if loads {
-                self.relax_loading()
-            } else {
-                self.relax_unloading(held_until)
-            }
+            self.step_to(self.place_of_step(origin, steps, goal));
             let point = self.point();
-            largest = if point.force > largest.force {
-                point
-            } else {
-                largest
-            };
-            smallest = if point.force < smallest.force {
-                point
-            } else {
-                smallest
-            };
-            let holds = point.springs > 0;
-            let reached = match goal {
-                Goal::Indentation(end) => point.indentation == end,
-                Goal::Force(force) if loads => point.force >= force,
-                Goal::Force(_) if !holds => {
-                    return Err(ContactError::DetachesBefore {
-                        smallest: smallest.force,
-                    });
-                }
-                Goal::Force(force) => point.force <= force,
-                Goal::Separation(_) | Goal::Displacement(_) => !holds,
-            };
-            if reached {
+            if point.force > extremes.largest.force {
+                extremes.largest = point;
+            }
+            if point.force < extremes.smallest.force {
+                extremes.smallest = point;
+            }
+            if self.has_reached(goal, point, extremes.smallest)? {
                 break;
             }
         }
-        // The sum counts detachments.
-        let squared = if loads {
-            -self.squared_stretch
-        } else {
-            self.squared_stretch
+        self.record(target, origin, before, extremes)
+    }
+
+    /// Begins a motion: the springs in contact are so from its beginning on.
+    fn begin(&mut self, direction: Direction) {
+        self.direction = direction;
+        self.squared_stretch = 0.0;
+        for (threshold, &holds) in self.thresholds.iter_mut().zip(&self.holds) {
+            *threshold = if holds {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            };
+        }
+    }
+
+    /// Returns the indentation in m after a number of steps from `origin` in m.
+    fn place_of_step(&self, origin: f64, steps: u64, goal: Goal) -> f64 {
+        let way = steps as f64 * self.step;
+        let place = match self.direction {
+            Direction::Loading => origin + way,
+            Direction::Unloading => origin - way,
         };
-        let (leg, end) = (self.leg(), self.point());
-        let (low, high) = (origin.min(end.indentation), origin.max(end.indentation));
+        match (goal, self.direction) {
+            (Goal::Indentation(end), Direction::Loading) => place.min(end),
+            (Goal::Indentation(end), Direction::Unloading) => place.max(end),
+            _ => place,
+        }
+    }
+
+    /// Moves the body to an indentation in m and relaxes to equilibrium.
+    fn step_to(&mut self, indentation: f64) {
+        let held_until = self.indentation;
+        self.indentation = indentation;
+        self.work.steps += 1;
+        match self.direction {
+            Direction::Loading => self.relax_loading(),
+            Direction::Unloading => self.relax_unloading(held_until),
+        }
+    }
+
+    /// Returns true if the body has reached a goal at the point `point`. The point `smallest` has
+    /// the smallest force of the motion so far.
+    fn has_reached(
+        &self,
+        goal: Goal,
+        point: CurvePoint,
+        smallest: CurvePoint,
+    ) -> Result<bool, ContactError> {
+        let is_separated = point.springs == 0;
+        match goal {
+            Goal::Indentation(end) => Ok(point.indentation == end),
+            Goal::Force(force) if self.direction == Direction::Loading => Ok(point.force >= force),
+            Goal::Force(_) if is_separated => Err(ContactError::DetachesBefore {
+                smallest: smallest.force,
+            }),
+            Goal::Force(force) => Ok(point.force <= force),
+            Goal::Separation(_) | Goal::Displacement(_) => Ok(is_separated),
+        }
+    }
+
+    /// Records the motion from `origin` in m to the present place.
+    fn record(
+        &mut self,
+        target: Move,
+        origin: f64,
+        before: CurvePoint,
+        extremes: Extremes,
+    ) -> Result<LegRecord, ContactError> {
+        let leg = self.leg();
+        let after = self.point();
+        let low = origin.min(after.indentation);
+        let high = origin.max(after.indentation);
         let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
-        let record = LegRecord::moved(
-            (target, leg.direction()),
-            curve,
-            [smallest, largest],
-            [here, end],
-            leg.energy(squared),
-        );
-        let reaches_ends = leg.reaches_ends(high);
-        let record = LegRecord {
-            reaches_ends,
-            ..record
+        // The sum counts detachments.
+        let squared_stretch = match self.direction {
+            Direction::Loading => -self.squared_stretch,
+            Direction::Unloading => self.squared_stretch,
         };
+        let passage = Passage {
+            target,
+            direction: self.direction,
+            before,
+            after,
+        };
+        let released_energy = leg.energy(squared_stretch);
+        let mut record = LegRecord::moved(passage, curve, extremes, released_energy);
+        record.reaches_ends = leg.reaches_ends(high);
         self.work.count(&record);
         Ok(record)
     }
@@ -371,15 +406,15 @@ impl MovingBody for Stepwise<'_> {
                 self.check_steps(direction, goal)?;
                 let before = self.clone();
                 match self.walk(target, direction, goal) {
-                    Ok(record) => Ok(LegRecord {
-                        smallest_of_rest: self.rest(direction)?,
-                        ..record
-                    }),
+                    Ok(mut record) => {
+                        record.smallest_of_rest = self.rest(direction)?;
+                        Ok(record)
+                    }
                     Err(error) => {
-                        *self = Stepwise {
-                            work: self.work,
-                            ..before
-                        };
+                        // The body stays in place, but the work has been done.
+                        let work = self.work;
+                        *self = before;
+                        self.work = work;
                         Err(error)
                     }
                 }

@@ -7,8 +7,7 @@
 //! partly filled cell adds its part at each point inside it, which is accurate for any slope and
 //! indentation.
 
-use super::adhesive::levels::Edges;
-use super::adhesive::levels::Slider;
+use super::adhesive::levels::{Edges, Slider, larger, smaller};
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid, Tally};
 use super::error::ContactError;
@@ -38,32 +37,37 @@ impl<'a> Thresholds<'a> {
         }
     }
 
+    /// Computes the contact at the points of a grid.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points.len();
-        let (mut first, mut place_before) = (0, never);
+        let mut first = 0;
+        let mut place_before = never;
         // Neighbouring springs that touch between the same two points are summed together.
         while let Some(&threshold) = self.thresholds.get(first) {
             let place = tally.place(threshold);
             let (below, at_most) = tally.ends_before(place);
-            let together = |other: &&f64| below < **other && **other <= at_most;
-            let end = first
-                + 1
-                + self.thresholds[first + 1..]
-                    .iter()
-                    .take_while(together)
-                    .count();
+            let mut end = first + 1;
+            while end < self.thresholds.len()
+                && below < self.thresholds[end]
+                && self.thresholds[end] <= at_most
+            {
+                end += 1;
+            }
             if place < never {
                 tally.begin(place, self.totals(first..end));
             }
             if self.slides && first > 0 {
                 let cell = Slider::of_cell(self.thresholds[first - 1], threshold);
-                tally.slide(place.min(place_before)..place.max(place_before), &cell);
+                let filling = place.min(place_before)..place.max(place_before);
+                tally.slide(filling, &cell);
             }
-            (first, place_before) = (end, place);
+            first = end;
+            place_before = place;
         }
-        for (end, half_cell) in self.ends() {
-            tally.slide(tally.place(end)..never, &half_cell);
+        for end in self.half_cells() {
+            let place = tally.place(end.from);
+            tally.slide(place..never, &end.slider);
         }
         tally.finish(&self.scale)
     }
@@ -77,12 +81,12 @@ impl<'a> Thresholds<'a> {
                 intervals.add_events(threshold, f64::INFINITY, self.totals(spring..spring + 1));
             }
         }
-        for cell in self.thresholds.windows(2).filter(|_| self.slides) {
-            let (from, to) = if cell[0] < cell[1] {
-                (cell[0], cell[1])
-            } else {
-                (cell[1], cell[0])
-            };
+        if !self.slides {
+            return;
+        }
+        for cell in self.thresholds.windows(2) {
+            let from = smaller(cell[1], cell[0]);
+            let to = larger(cell[0], cell[1]);
             if from < to && from <= high && to > low {
                 intervals.add_piece(Piece {
                     slider: Slider::of_cell(from, to),
@@ -91,23 +95,25 @@ impl<'a> Thresholds<'a> {
                 });
             }
         }
-        for (from, slider) in self.ends() {
-            intervals.add_piece(Piece {
-                slider,
-                from,
-                to: f64::INFINITY,
-            });
+        for half_cell in self.half_cells() {
+            intervals.add_piece(half_cell);
         }
     }
 
-    /// Returns the half cells at both ends of the foundation, each with the gap of its spring in m;
-    /// none for whole springs.
-    fn ends(&self) -> impl Iterator<Item = (f64, Slider)> {
-        let ends = [self.thresholds.first(), self.thresholds.last()]
-            .into_iter()
-            .flatten();
-        ends.filter(|_| self.slides)
-            .map(|&gap| (gap, Slider::half_cell(gap)))
+    /// Returns the half cells at both ends of the foundation; none for whole springs.
+    fn half_cells(&self) -> Vec<Piece> {
+        let mut half_cells = Vec::new();
+        if self.slides {
+            let ends = [self.thresholds.first(), self.thresholds.last()];
+            for &gap in ends.into_iter().flatten() {
+                half_cells.push(Piece {
+                    slider: Slider::half_cell(gap),
+                    from: gap,
+                    to: f64::INFINITY,
+                });
+            }
+        }
+        half_cells
     }
 
     /// Returns what a range of neighbouring springs adds to the totals once all of them are in
@@ -129,11 +135,9 @@ impl<'a> Thresholds<'a> {
         } else {
             &self.gaps[start..end]
         };
-        let fragments = 1 - i64::from(left) - i64::from(right);
-        let springs = (end - start) as i64;
         ContactTotals {
-            springs,
-            fragments,
+            springs: (end - start) as i64,
+            patches: 1 - i64::from(left) - i64::from(right),
             ..ContactTotals::of_patch(gaps, self.slides, self.scale)
         }
     }

@@ -26,19 +26,23 @@ const GAP_BITS: i32 = 62;
 /// Largest exponent of the scale, for which scale and quantum are both normal numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
-/// Number of bits of a double behind its exponent, and the exponent of 1 in its bits.
+/// Number of bits of a double after its exponent.
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+/// Exponent of 1 in the bits of a double.
 const EXPONENT_BIAS: i32 = f64::MAX_EXP - 1;
+
+/// Returns 2 to a power for which the result is a normal number.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((EXPONENT_BIAS + exponent) as u64) << MANTISSA_BITS)
+}
 
 impl GapScale {
     /// Creates the scale for gaps up to `largest` (m, finite, at least zero).
     pub fn for_gaps_up_to(largest: f64) -> Self {
         // The smallest power of two above the largest gap, which may be zero.
-        let above =
-            (largest.max(f64::MIN_POSITIVE).to_bits() >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
+        let bits = largest.max(f64::MIN_POSITIVE).to_bits();
+        let above = (bits >> MANTISSA_BITS) as i32 - EXPONENT_BIAS + 1;
         let exponent = (GAP_BITS - above).min(LARGEST_SCALE_EXPONENT);
-        let power_of_two =
-            |exponent: i32| f64::from_bits(((EXPONENT_BIAS + exponent) as u64) << MANTISSA_BITS);
         GapScale {
             quanta_per_metre: power_of_two(exponent),
             quantum: power_of_two(-exponent),
@@ -70,7 +74,9 @@ const SQUARE_BITS: u32 = 28;
 /// (difference)²/12.
 #[inline]
 pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
-    let (mut sum, mut squares, mut squared_differences) = (0_u64, 0_u128, 0_u128);
+    let mut sum = 0_u64;
+    let mut squares = 0_u128;
+    let mut squared_differences = 0_u128;
     let mut add = |gap: f64| {
         let quanta = scale.quanta(gap).cast_unsigned();
         sum += quanta;
@@ -83,19 +89,20 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
             squared_differences += difference * difference;
         }
     } else {
-        gaps.iter().for_each(|&gap| add(gap));
+        for &gap in gaps {
+            add(gap);
+        }
     }
-    [
-        i128::from(sum),
-        ((squares + twelfth(squared_differences)) >> SQUARE_BITS).cast_signed(),
-    ]
+    let squares = (squares + twelfth(squared_differences)) >> SQUARE_BITS;
+    [i128::from(sum), squares.cast_signed()]
 }
 
 /// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer
 /// than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
-    let [high, low] = [(number >> 64) as u64, number as u64];
+    let high = (number >> 64) as u64;
+    let low = number as u64;
     (u128::from(high / 12) << 64)
         + u128::from(high % 12) * u128::from(u64::MAX / 12)
         + u128::from(low / 12)
@@ -108,7 +115,7 @@ pub struct ContactTotals {
     /// Number of springs in contact.
     pub springs: i64,
     /// Number of patches.
-    pub fragments: i64,
+    pub patches: i64,
     /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a
     /// [`GapScale`].
     pub quanta: i128,
@@ -122,18 +129,15 @@ impl ContactTotals {
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
-            fragments: 1,
+            patches: 1,
             ..Self::default()
         };
-        let mut add = |[quanta, squares]: [i128; 2]| {
-            (totals.quanta, totals.squares) = (totals.quanta + quanta, totals.squares + squares);
-        };
-        if slides {
-            gaps.windows(2)
-                .for_each(|cell| add(sums_of_few(cell, true, scale)));
-        } else {
-            gaps.windows(1)
-                .for_each(|spring| add(sums_of_few(spring, false, scale)));
+        // A cell lies between two springs.
+        let springs_of_part = if slides { 2 } else { 1 };
+        for part in gaps.windows(springs_of_part) {
+            let [quanta, squares] = sums_of_few(part, slides, scale);
+            totals.quanta += quanta;
+            totals.squares += squares;
         }
         totals
     }
@@ -142,24 +146,29 @@ impl ContactTotals {
     /// patch than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
-        self.springs - if slides { self.fragments } else { 0 }
+        if slides {
+            self.springs - self.patches
+        } else {
+            self.springs
+        }
     }
 
     /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times
     /// metres of `count` cells. It is the force over the stiffness of one spring.
     ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most 2u |result| +
-    /// n 2^(e−62). The gaps are summed exactly, n d is an exact product of two numbers, and only
-    /// their difference is rounded. For a largest gap below about 2^−938 m a quantum is 2^−1000 m
+    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
+    /// 2u |result| plus n 2^(e−62). The gaps are summed exactly, n d is an exact product of two
+    /// numbers, and only their difference is rounded. For a largest gap below about 2^−938 m a quantum is 2^−1000 m
     /// and no smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
         let product = springs * indentation;
         let product_error = springs.mul_add(indentation, -product);
-        let high = self.quanta as f64;
-        let low = (self.quanta - high as i128) as f64;
-        let (high, low) = (high * scale.quantum, low * scale.quantum);
+        let high_quanta = self.quanta as f64;
+        let low_quanta = (self.quanta - high_quanta as i128) as f64;
+        let high = high_quanta * scale.quantum;
+        let low = low_quanta * scale.quantum;
         // Error of product − high by Knuth's two-sum, which is independent of their order.
         let difference = product - high;
         let subtracted = difference - product;
@@ -185,17 +194,11 @@ impl std::ops::Neg for ContactTotals {
 
     #[inline]
     fn neg(self) -> ContactTotals {
-        let ContactTotals {
-            springs,
-            fragments,
-            quanta,
-            squares,
-        } = self;
         ContactTotals {
-            springs: -springs,
-            fragments: -fragments,
-            quanta: -quanta,
-            squares: -squares,
+            springs: -self.springs,
+            patches: -self.patches,
+            quanta: -self.quanta,
+            squares: -self.squares,
         }
     }
 }
@@ -204,7 +207,7 @@ impl std::ops::AddAssign for ContactTotals {
     #[inline]
     fn add_assign(&mut self, other: ContactTotals) {
         self.springs += other.springs;
-        self.fragments += other.fragments;
+        self.patches += other.patches;
         self.quanta += other.quanta;
         self.squares += other.squares;
     }
@@ -216,6 +219,7 @@ impl std::ops::AddAssign for ContactTotals {
 pub struct SquareScale {
     quanta_per_metre: f64,
     quantum: f64,
+    /// Number of bits by which the unit is coarser than the quantum of the gaps.
     coarser: u32,
 }
 
@@ -223,41 +227,38 @@ impl SquareScale {
     /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in
     /// m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
-        let GapScale {
-            mut quanta_per_metre,
-            mut quantum,
-        } = scale;
-        let mut coarser = 0;
-        while largest * quanta_per_metre >= (1_u64 << (GAP_BITS + 1)) as f64 {
-            (quanta_per_metre, quantum, coarser) =
-                (0.5 * quanta_per_metre, 2.0 * quantum, coarser + 1);
+        let mut squares = SquareScale {
+            quanta_per_metre: scale.quanta_per_metre,
+            quantum: scale.quantum,
+            coarser: 0,
+        };
+        while largest * squares.quanta_per_metre >= (1_u64 << (GAP_BITS + 1)) as f64 {
+            squares.quanta_per_metre *= 0.5;
+            squares.quantum *= 2.0;
+            squares.coarser += 1;
         }
-        SquareScale {
-            quanta_per_metre,
-            quantum,
-            coarser,
-        }
+        squares
     }
 
     /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer
     /// in this unit and a remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
-        let shifted = |sum: i128, bits: u32| sum.checked_shr(bits).unwrap_or(0);
-        let (first, second) = (
-            shifted(totals.quanta, self.coarser),
-            shifted(totals.squares, 2 * self.coarser),
-        );
+        let gaps = totals.quanta.checked_shr(self.coarser).unwrap_or(0);
+        let squared_gaps = totals.squares.checked_shr(2 * self.coarser).unwrap_or(0);
         let exact = indentation * self.quanta_per_metre;
         let whole = i128::from(exact as i64);
-        let number = i128::from(count);
-        let factor = number * whole - 2 * first;
-        let rest = factor & ((1 << SQUARE_BITS) - 1);
-        let product = (factor >> SQUARE_BITS).wrapping_mul(whole);
-        let sum = second
-            .wrapping_add(product)
-            .wrapping_add((rest * whole) >> SQUARE_BITS);
         let part = exact - whole as f64;
-        let remainder = part * (2.0 * (number * whole - first) as f64 + count as f64 * part);
+        let number = i128::from(count);
+        // Σ c² + θ (n θ − 2 Σ c) with the whole part of θ; the low bits of the factor apart, since
+        // the product of all bits might pass the range of integers.
+        let factor = number * whole - 2 * gaps;
+        let high_product = (factor >> SQUARE_BITS).wrapping_mul(whole);
+        let low_bits = factor & ((1 << SQUARE_BITS) - 1);
+        let low_product = (low_bits * whole) >> SQUARE_BITS;
+        let sum = squared_gaps
+            .wrapping_add(high_product)
+            .wrapping_add(low_product);
+        let remainder = part * (2.0 * (number * whole - gaps) as f64 + count as f64 * part);
         (sum, remainder * self.quantum * self.quantum)
     }
 

@@ -16,6 +16,7 @@
 
 use super::levels::{EdgeCell, Levels, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
+use crate::history::Patch;
 use crate::totals::ContactTotals;
 
 /// Relative margin for rounding in bounds.
@@ -78,6 +79,15 @@ pub struct Ground<'a, const SLIDES: bool> {
     /// Largest stretch in m of a patch of unit length.
     pub stretch: f64,
     pub unloading: bool,
+}
+
+impl HeldPatch {
+    pub fn springs(&self) -> Patch {
+        Patch {
+            first: self.first as usize,
+            last: self.last as usize,
+        }
+    }
 }
 
 impl Run {
@@ -159,7 +169,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         let [low, low_squares] = self.tree.sums_before(self.gaps, span.first);
         ContactTotals {
             springs: span.springs() as i64,
-            fragments: 1,
+            patches: 1,
             quanta: high - low,
             squares: high_squares - low_squares,
         }
@@ -319,8 +329,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 
     /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass from one state of a
-    /// run to a larger one. Here θ is the indentation at which an edge passes the point. The unit is
-    /// cells times ½ s².
+    /// run to a larger one. Here θ is the indentation at which an edge passes the point. The unit
+    /// is cells times ½ s².
     pub fn passed_squares(&self, lower: &SpanAtLevel, upper: &SpanAtLevel) -> f64 {
         if !SLIDES {
             let fewer = lower.span.springs() as f64;

@@ -1,8 +1,7 @@
 //! The contact tree: how the patches of a profile merge, over the local maxima of the gap alone.
 
-use super::levels::Edges;
-use crate::totals::GapScale;
-use crate::totals::sums_of_few;
+use super::levels::{Edges, smaller};
+use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
 /// Number of springs above which a second thread saves more time than it costs.
@@ -83,8 +82,26 @@ struct Pending {
     gap: f64,
     lowest: f64,
     rank: u32,
+    /// Index of the first node of the subtree.
     start: u32,
+    /// Index of the first node of the right part.
     right_start: u32,
+}
+
+impl Pending {
+    /// Returns the node with the index `index`, once its right part, which has the smallest gap
+    /// `lowest_on_right` in m, is complete.
+    #[inline]
+    fn finished(&self, lowest_on_right: f64, index: usize) -> Node {
+        let index = index as u32;
+        Node {
+            gap: self.gap,
+            lowest: smaller(lowest_on_right, self.lowest),
+            rank: self.rank,
+            size: index + 1 - self.start,
+            right: index - self.right_start,
+        }
+    }
 }
 
 impl ContactTree {
@@ -97,7 +114,8 @@ impl ContactTree {
         edges: Edges,
     ) -> Result<Self, OutOfMemory> {
         let scale = GapScale::for_gaps_up_to(deepest);
-        (self.scale, self.of_cells) = (scale, edges == Edges::SubCell);
+        self.scale = scale;
+        self.of_cells = edges == Edges::SubCell;
         let sums = std::mem::take(&mut self.sums);
         let is_long = gaps.len() >= TWO_THREADS;
         let (merged, sums) = in_parallel(
@@ -117,10 +135,10 @@ impl ContactTree {
 
     /// Returns the branch that grows until it fills the profile.
     pub(crate) fn root(&self) -> Branch {
-        self.nodes
-            .len()
-            .checked_sub(1)
-            .map_or(Branch::leaf(0), Branch::node)
+        match self.nodes.len() {
+            0 => Branch::leaf(0),
+            count => Branch::node(count - 1),
+        }
     }
 
     /// Returns the index of the spring at the local minimum with this number.
@@ -139,20 +157,20 @@ impl ContactTree {
     #[inline]
     pub(crate) fn parts(&self, index: usize) -> [Branch; 2] {
         let node = &self.nodes[index];
-        let (rank, right) = (node.rank as usize, node.right as usize);
-        let left = node.size as usize - 1 - right;
-        [
-            if left == 0 {
-                Branch::leaf(rank)
-            } else {
-                Branch::node(index - 1 - right)
-            },
-            if right == 0 {
-                Branch::leaf(rank + 1)
-            } else {
-                Branch::node(index - 1)
-            },
-        ]
+        let rank = node.rank as usize;
+        let right_size = node.right as usize;
+        let left_size = node.size as usize - 1 - right_size;
+        let left = if left_size == 0 {
+            Branch::leaf(rank)
+        } else {
+            Branch::node(index - 1 - right_size)
+        };
+        let right = if right_size == 0 {
+            Branch::leaf(rank + 1)
+        } else {
+            Branch::node(index - 1)
+        };
+        [left, right]
     }
 
     /// Returns the sums of the gaps and of their squares over all springs (or cells) before this
@@ -176,17 +194,14 @@ impl ContactTree {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
         self.turns = emptied(std::mem::take(&mut self.turns), count / 4)?;
-        // One bit for each spring: 1 if the gap rises behind it. The gap falls before the line and
-        // rises behind it.
+        // One bit for each spring: 1 if the gap rises after it. The gap falls before the profile,
+        // and rises after it.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
             let springs = LANES.min(count - base);
             let rises = match gaps[base..].first_chunk::<{ LANES + 1 }>() {
                 Some(gaps) => rises_of(gaps),
-                None => (0..springs).fold(0, |rises, lane| {
-                    let at = base + lane;
-                    rises | u64::from(at + 1 == count || gaps[at + 1] > gaps[at]) << lane
-                }),
+                None => rises_at_end(&gaps[base..]),
             };
             let mut turns = rises ^ ((rises << 1) | rose);
             if springs < LANES {
@@ -216,50 +231,34 @@ impl ContactTree {
         let mut nodes = emptied(std::mem::take(&mut self.nodes), count)?;
         let mut pending: Vec<Pending> = Vec::new();
         let gap_at = |turn: usize| gaps[self.turns[turn] as usize];
-        let mut lowest = if self.turns.is_empty() {
-            0.0
-        } else {
-            gap_at(0)
-        };
-        let finish = |top: Pending, lowest: f64, nodes: &mut Vec<Node>| {
-            let lowest = if top.lowest < lowest {
-                top.lowest
-            } else {
-                lowest
-            };
-            let end = nodes.len() as u32;
-            let (size, right) = (end + 1 - top.start, end - top.right_start);
-            nodes.push(Node {
-                gap: top.gap,
-                lowest,
-                rank: top.rank,
-                size,
-                right,
-            });
-            lowest
+        // Smallest gap since the last local maximum that waits.
+        let mut lowest = match self.turns.first() {
+            Some(&spring) => gaps[spring as usize],
+            None => 0.0,
         };
         for rank in 0..count {
             let gap = gap_at(2 * rank + 1);
             let mut start = nodes.len() as u32;
             while let Some(top) = pending.pop_if(|top| top.gap < gap) {
+                let node = top.finished(lowest, nodes.len());
                 start = top.start;
-                lowest = finish(top, lowest, &mut nodes);
+                lowest = node.lowest;
+                nodes.push(node);
             }
-            let right_start = nodes.len() as u32;
-            push(
-                &mut pending,
-                Pending {
-                    gap,
-                    lowest,
-                    rank: rank as u32,
-                    start,
-                    right_start,
-                },
-            )?;
+            let waiting = Pending {
+                gap,
+                lowest,
+                rank: rank as u32,
+                start,
+                right_start: nodes.len() as u32,
+            };
+            push(&mut pending, waiting)?;
             lowest = gap_at(2 * rank + 2);
         }
         while let Some(top) = pending.pop() {
-            lowest = finish(top, lowest, &mut nodes);
+            let node = top.finished(lowest, nodes.len());
+            lowest = node.lowest;
+            nodes.push(node);
         }
         self.nodes = nodes;
         Ok(())
@@ -277,23 +276,35 @@ fn sums_along(
     sums = emptied(sums, count)?;
     let mut sum = [0_i128; 2];
     sums.push(sum);
-    let mut add = |few: [i128; 2]| {
-        sum = [sum[0] + few[0], sum[1] + few[1]];
-        sums.push(sum);
-    };
     match edges {
         Edges::Grid => {
-            gaps.as_chunks::<BLOCK>()
-                .0
-                .iter()
-                .for_each(|springs| add(sums_of_few(springs, false, scale)));
+            let (blocks, _) = gaps.as_chunks::<BLOCK>();
+            for springs in blocks {
+                let few = sums_of_few(springs, false, scale);
+                sum = [sum[0] + few[0], sum[1] + few[1]];
+                sums.push(sum);
+            }
         }
         Edges::SubCell => {
-            let cells = gaps.windows(BLOCK + 1).step_by(BLOCK);
-            cells.for_each(|springs| add(sums_of_few(springs, true, scale)));
+            for springs in gaps.windows(BLOCK + 1).step_by(BLOCK) {
+                let few = sums_of_few(springs, true, scale);
+                sum = [sum[0] + few[0], sum[1] + few[1]];
+                sums.push(sum);
+            }
         }
     }
     Ok(sums)
+}
+
+/// Returns one bit for each of the last springs of a profile, at most `LANES`: 1 if the gap rises
+/// after the spring, as it does after the last one.
+fn rises_at_end(gaps: &[f64]) -> u64 {
+    let mut rises = 0;
+    for lane in 0..gaps.len() {
+        let rises_here = lane + 1 == gaps.len() || gaps[lane + 1] > gaps[lane];
+        rises |= u64::from(rises_here) << lane;
+    }
+    rises
 }
 
 /// Returns one bit for each spring: 1 if the gap rises from it to the next spring.

@@ -10,8 +10,7 @@ use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
 use crate::error::ContactError;
-use crate::history::Goal;
-use crate::history::{CurvePoint, Direction, Work};
+use crate::history::{CurvePoint, Direction, Goal, Work};
 use crate::interval::{Interval, Intervals};
 use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
@@ -23,6 +22,13 @@ pub(crate) const SEARCH_INTERVALS: usize = 256;
 const AT_ONCE: usize = 16;
 /// Distance, in grid points, between the points that are evaluated first.
 const STRIDE: usize = 16;
+
+/// Whether a body is separated at the ends of a motion.
+#[derive(Clone, Copy)]
+pub(crate) struct SeparatedEnds {
+    pub at_begin: bool,
+    pub at_end: bool,
+}
 
 impl Leg {
     /// Returns the point of the force curve of this motion at an indentation in m.
@@ -36,9 +42,10 @@ impl Leg {
             return Ok(Vec::new());
         }
         let sampled = self.sample(Grid::at(indentations.to_vec()))?;
+        let foundation = self.contact.foundation;
         Ok(sampled
             .iter()
-            .map(|state| state.point(self.contact.foundation))
+            .map(|state| state.point(foundation))
             .collect())
     }
 
@@ -84,16 +91,16 @@ impl Leg {
         from: f64,
         work: &mut Work,
     ) -> Result<(f64, Goal), ContactError> {
-        let lost = self.end.min(from);
+        let separation = self.end.min(from);
         let end = match goal {
-            Goal::Indentation(at) => at,
-            Goal::Separation(_) => lost,
+            Goal::Indentation(indentation) => indentation,
+            Goal::Separation(_) => separation,
             Goal::Force(force) => self.reach_force(force, from, work)?,
-            Goal::Displacement(at) => {
-                let force = self.contact.loading_stiffness * at;
+            Goal::Displacement(displacement) => {
+                let force = self.contact.loading_stiffness * displacement;
                 match self.with_instrument().reach_force(force, from, work) {
                     Err(ContactError::DetachesBefore { .. }) => {
-                        return Ok((lost, Goal::Separation(Some(at))));
+                        return Ok((separation, Goal::Separation(Some(displacement))));
                     }
                     end => end?,
                 }
@@ -110,54 +117,58 @@ impl Leg {
         work: &mut Work,
     ) -> Result<ContactState, ContactError> {
         let leg = self.with_instrument();
-        let sampled: Vec<_> = sampled
-            .iter()
-            .map(|state| state.beside(leg.instrument))
-            .collect();
+        let sampled = leg.beside_instrument(sampled);
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
+    }
+
+    /// Adds the instrument of this leg to the states of the contact.
+    fn beside_instrument(&self, sampled: &[ContactState]) -> Vec<ContactState> {
+        let states = sampled.iter();
+        states.map(|state| state.beside(self.instrument)).collect()
     }
 
     /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of
     /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps. `extreme` is the extreme compression
-    /// of contact and instrument so far, `None` at the beginning of a motion. `from_separation` and
-    /// `to_separation` are true if the motion begins or ends separated.
+    /// of contact and instrument so far, `None` at the beginning of a motion.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
-        [from_separation, to_separation]: [bool; 2],
+        separated: SeparatedEnds,
         extreme: &mut Option<f64>,
     ) -> f64 {
         let leg = self.with_instrument();
-        if leg.instrument == 0.0 || self.contact.hess.is_none() {
+        if leg.instrument == 0.0 || !self.contact.has_adhesion() {
             return 0.0;
         }
-        let loads = self.direction == Direction::Loading;
-        let beside = |state: &ContactState| state.beside(leg.instrument);
-        let sampled: Vec<_> = sampled.iter().map(beside).collect();
-        let [low, high] = [sampled[0], sampled[sampled.len() - 1]];
-        let begin = match (loads, from_separation) {
-            (true, true) => leg.instrument * low.indentation,
-            (true, false) => low.compression,
-            (false, _) => high.compression,
+        let sampled = leg.beside_instrument(sampled);
+        let low = sampled[0];
+        let high = sampled[sampled.len() - 1];
+        let begin = match self.direction {
+            Direction::Loading if separated.at_begin => leg.instrument * low.indentation,
+            Direction::Loading => low.compression,
+            Direction::Unloading => high.compression,
         };
         let mut reached = extreme.unwrap_or(begin);
         let mut area = CompensatedSum::default();
         let pairs = intervals(&sampled, |_, _| true);
-        let mut pass = |pairs: &[[ContactState; 2]]| {
-            let mut events = leg.events(pairs, &mut Work::default());
-            if !loads {
-                events.reverse();
+        match self.direction {
+            Direction::Loading => {
+                for pairs in pairs.chunks(AT_ONCE) {
+                    for interval in &leg.events(pairs, &mut Work::default()) {
+                        area.add(interval.jumped_on_loading(&mut reached));
+                    }
+                }
             }
-            events
-                .iter()
-                .for_each(|interval| area.add(interval.jumped(loads, &mut reached)));
-        };
-        match loads {
-            true => pairs.chunks(AT_ONCE).for_each(&mut pass),
-            false => pairs.rchunks(AT_ONCE).for_each(&mut pass),
+            Direction::Unloading => {
+                for pairs in pairs.rchunks(AT_ONCE) {
+                    for interval in leg.events(pairs, &mut Work::default()).iter().rev() {
+                        area.add(interval.jumped_on_unloading(&mut reached));
+                    }
+                }
+            }
         }
         // The last loss of contact ends where nothing deflects the instrument.
-        if to_separation {
+        if separated.at_end {
             let free = low.indentation - reached / leg.instrument;
             area.add(0.5 * leg.instrument * free.max(0.0) * free);
         }
@@ -170,44 +181,57 @@ impl Leg {
     fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
-        if self.direction == Direction::Unloading {
-            let sampled = self.sample(Grid::new(self.end.min(from), from, SEARCH_INTERVALS))?;
-            return self.last_at_most(&sampled, wanted, work).ok_or_else(|| {
-                let smallest = self.extreme(Extreme::Smallest, &sampled, work).compression;
-                ContactError::DetachesBefore {
-                    smallest: stiffness * smallest,
-                }
-            });
+        if self.direction == Direction::Loading {
+            return self.reach_on_loading(wanted, from, work);
         }
+        let sampled = self.sample(Grid::new(self.end.min(from), from, SEARCH_INTERVALS))?;
+        if let Some(indentation) = self.last_at_most(&sampled, wanted, work) {
+            return Ok(indentation);
+        }
+        let smallest = self.extreme(Extreme::Smallest, &sampled, work);
+        Err(ContactError::DetachesBefore {
+            smallest: stiffness * smallest.compression,
+        })
+    }
+
+    /// Finds the first indentation in m, from `from` on, at which the compression of a loading is
+    /// `wanted` in m.
+    fn reach_on_loading(
+        &self,
+        wanted: f64,
+        from: f64,
+        work: &mut Work,
+    ) -> Result<f64, ContactError> {
         let complete = self.end.max(from);
-        if let Some(found) =
-            self.first_at_least(&Grid::new(from, complete, SEARCH_INTERVALS), wanted, work)?
-        {
-            return Ok(found);
+        let grid = Grid::new(from, complete, SEARCH_INTERVALS);
+        if let Some(indentation) = self.first_at_least(&grid, wanted, work)? {
+            return Ok(indentation);
         }
         // Beyond full contact the force rises with all springs; a second step removes the rounding
         // of the first.
-        let mut found = complete;
+        let mut indentation = complete;
         for _ in 0..2 {
-            let full = self.state(found)?;
-            let next = found + (wanted - full.compression) / full.length;
+            let full = self.state(indentation)?;
+            let next = indentation + (wanted - full.compression) / full.length;
             if full.totals.springs < self.contact.gaps().len() as i64 || !next.is_finite() {
                 return Err(ContactError::OutOfReach);
             }
-            found = next.max(complete);
+            indentation = next.max(complete);
         }
-        Ok(found)
+        Ok(indentation)
     }
 
+    /// Computes the contact of this leg, beside the instrument in searches, at the points of a
+    /// grid.
     pub(crate) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
             Patches::Runs(tree, runs) => along_runs!(self, tree, runs, along => along.sample(grid)),
         }?;
         if self.instrument > 0.0 {
-            sampled
-                .iter_mut()
-                .for_each(|state| *state = state.beside(self.instrument));
+            for state in &mut sampled {
+                *state = state.beside(self.instrument);
+            }
         }
         Ok(sampled)
     }
@@ -230,12 +254,8 @@ impl Leg {
             return Vec::new();
         }
         let slides = self.contact.edges == Edges::SubCell;
-        let mut intervals = Intervals::new(
-            ends,
-            slides,
-            self.contact.profile.springs.scale(),
-            self.instrument,
-        );
+        let scale = self.contact.profile.springs.scale();
+        let mut intervals = Intervals::new(ends, slides, scale, self.instrument);
         match &self.patches {
             Patches::Springs(thresholds) => {
                 Thresholds::new(&self.contact, thresholds).search(&mut intervals)
@@ -255,13 +275,13 @@ impl Leg {
         leg: &[ContactState],
         work: &mut Work,
     ) -> ContactState {
-        let mut best = extreme.of(leg);
+        let mut best = extreme.among(leg);
         // Without adhesion the force never falls.
-        if self.contact.hess.is_some() {
+        if self.contact.has_adhesion() {
             let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
-            self.events(&chosen, work)
-                .iter()
-                .for_each(|interval| interval.extreme(extreme, &mut best));
+            for interval in &self.events(&chosen, work) {
+                interval.extreme(extreme, &mut best);
+            }
         }
         best
     }
@@ -275,7 +295,7 @@ impl Leg {
         work: &mut Work,
     ) -> Result<ContactState, ContactError> {
         let coarse = self.sample(grid.coarser(STRIDE))?;
-        let best = Extreme::Smallest.of(&coarse);
+        let best = Extreme::Smallest.among(&coarse);
         let leg = self.refined(grid, coarse, |low, high| {
             Extreme::Smallest.may_lie(low, high, &best)
         })?;
@@ -290,28 +310,23 @@ impl Leg {
         wanted: f64,
         work: &mut Work,
     ) -> Result<Option<f64>, ContactError> {
+        // Nothing is sought after the first point with that compression.
+        let may_lie = |first: Option<f64>, low: &ContactState, high: &ContactState| {
+            high.indentation <= first.unwrap_or(f64::INFINITY) && upper_bound(low, high) >= wanted
+        };
         let coarse = self.sample(grid.coarser(STRIDE))?;
-        let reached = |leg: &[ContactState]| {
-            leg.iter()
-                .find(|state| state.compression >= wanted)
-                .map(|state| state.indentation)
-        };
-        // Behind the first point that has it nothing is sought.
-        let may_lie = |end: Option<f64>| {
-            let last = end.unwrap_or(f64::INFINITY);
-            move |low: &ContactState, high: &ContactState| {
-                high.indentation <= last && upper_bound(low, high) >= wanted
+        let first_of_coarse = first_point_at_least(&coarse, wanted);
+        let leg = self.refined(grid, coarse, |low, high| {
+            may_lie(first_of_coarse, low, high)
+        })?;
+        let first = first_point_at_least(&leg, wanted);
+        let chosen = intervals(&leg, |low, high| may_lie(first, low, high));
+        for interval in &self.events(&chosen, work) {
+            if let Some(indentation) = interval.first_at_least(wanted) {
+                return Ok(Some(indentation));
             }
-        };
-        let coarse_end = reached(&coarse);
-        let leg = self.refined(grid, coarse, may_lie(coarse_end))?;
-        let end = reached(&leg);
-        let chosen = intervals(&leg, may_lie(end));
-        Ok(self
-            .events(&chosen, work)
-            .iter()
-            .find_map(|interval| interval.first_at_least(wanted))
-            .or(end))
+        }
+        Ok(first)
     }
 
     /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of
@@ -322,15 +337,17 @@ impl Leg {
         mut coarse: Vec<ContactState>,
         may_lie: impl Fn(&ContactState, &ContactState) -> bool,
     ) -> Result<Vec<ContactState>, ContactError> {
-        let between = |[low, high]: [ContactState; 2]| {
-            let place = |state: ContactState| grid.first_at_least(state.indentation);
-            place(low) + 1..place(high)
-        };
-        let chosen = intervals(&coarse, may_lie).into_iter().flat_map(between);
-        let fine: Vec<f64> = chosen.map(|index| grid.points[index]).collect();
+        let mut fine = Vec::new();
+        for [low, high] in intervals(&coarse, may_lie) {
+            let after_low = grid.first_at_least(low.indentation) + 1;
+            let end = grid.first_at_least(high.indentation);
+            if after_low < end {
+                fine.extend_from_slice(&grid.points[after_low..end]);
+            }
+        }
         if !fine.is_empty() {
             coarse.extend(self.sample(Grid::at(fine))?);
-            coarse.sort_by(|one, other| one.indentation.total_cmp(&other.indentation));
+            coarse.sort_by(|state, other| state.indentation.total_cmp(&other.indentation));
         }
         Ok(coarse)
     }
@@ -338,16 +355,23 @@ impl Leg {
     /// Finds the largest indentation in m, between the ends of a sampled leg, at which the
     /// compression is at most `wanted` in m.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
-        let reached = leg.iter().rfind(|state| state.compression <= wanted);
-        let start = reached.map(|state| state.indentation);
-        let first = start.unwrap_or(f64::NEG_INFINITY);
+        let last = leg.iter().rfind(|state| state.compression <= wanted);
+        let last = last.map(|state| state.indentation);
         let chosen = intervals(leg, |low, high| {
-            low.indentation >= first && lower_bound(low, high) <= wanted
+            low.indentation >= last.unwrap_or(f64::NEG_INFINITY) && lower_bound(low, high) <= wanted
         });
-        self.events(&chosen, work)
-            .iter()
-            .rev()
-            .find_map(|interval| interval.last_at_most(wanted))
-            .or(start)
+        for interval in self.events(&chosen, work).iter().rev() {
+            if let Some(indentation) = interval.last_at_most(wanted) {
+                return Some(indentation);
+            }
+        }
+        last
     }
+}
+
+/// Returns the smallest indentation in m among the points of a sampled leg at which the compression
+/// is at least `wanted` in m.
+fn first_point_at_least(leg: &[ContactState], wanted: f64) -> Option<f64> {
+    let first = leg.iter().find(|state| state.compression >= wanted)?;
+    Some(first.indentation)
 }

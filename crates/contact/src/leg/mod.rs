@@ -1,8 +1,7 @@
 //! A leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::Runs;
-use super::adhesive::levels::Edges;
-use super::adhesive::levels::{EdgeCell, EdgeCells, Levels, Slider, Span};
+use super::adhesive::levels::{EdgeCell, EdgeCells, Edges, Levels, Slider, Span};
 use super::adhesive::loading::Closing;
 use super::adhesive::run::{Ground, HeldPatch, Run};
 use super::adhesive::tree::ContactTree;
@@ -90,6 +89,20 @@ pub struct PatchState {
     pub most_stretched: f64,
 }
 
+/// A patch, and the height in m of its edges above its largest gap if they are pinned.
+#[derive(Clone, Copy)]
+struct PinnedPatch {
+    springs: Patch,
+    pin: Option<f64>,
+}
+
+/// Springs that attach (a positive number) or detach at an indentation in m.
+#[derive(Clone, Copy)]
+struct Event {
+    indentation: f64,
+    springs: f64,
+}
+
 /// Evaluates an expression on the runs of a leg, with the edge model of its contact as a constant.
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
@@ -145,23 +158,20 @@ impl Leg {
         end: f64,
         thresholds: Vec<f64>,
     ) -> Self {
-        let patches = Patches::Springs(Arc::new(thresholds));
         Leg {
-            patches,
+            patches: Patches::Springs(Arc::new(thresholds)),
             end,
             ..Leg::apart(&contact.of_whole_springs(), direction)
         }
     }
 
     fn without_adhesion(contact: &Contact, direction: Direction) -> Self {
-        let patches = Patches::Springs(Arc::clone(&contact.profile.springs.gaps));
-        let end = if direction == Direction::Loading {
-            contact.profile.deepest()
-        } else {
-            0.0
+        let end = match direction {
+            Direction::Loading => contact.profile.deepest(),
+            Direction::Unloading => 0.0,
         };
         Leg {
-            patches,
+            patches: Patches::Springs(Arc::clone(&contact.profile.springs.gaps)),
             end,
             ..Leg::apart(contact, direction)
         }
@@ -176,13 +186,12 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the leg in the opposite direction that begins at the indentation `at` in m of this
-    /// leg.
+    /// Computes the leg in the opposite direction that begins at an indentation in m of this leg.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the
     /// [stepwise solver](crate::motion::Stepwise).
-    pub fn turn(&self, at: f64) -> Result<Self, ContactError> {
+    pub fn turn(&self, indentation: f64) -> Result<Self, ContactError> {
         let direction = match self.direction {
             Direction::Loading => Direction::Unloading,
             Direction::Unloading => Direction::Loading,
@@ -191,8 +200,10 @@ impl Leg {
         match &self.patches {
             Patches::Springs(_) => Ok(Leg::without_adhesion(&self.contact, direction)),
             Patches::Runs(tree, runs) => {
-                let held: Vec<HeldPatch> = along_runs!(self, tree, runs, along => along.held_at(at, self.pins()).collect());
-                Leg::apart(&self.contact, direction).list(tree, &held, at)
+                let held: Vec<HeldPatch> = along_runs!(self, tree, runs, along => along
+                    .held_at(indentation, self.pins())
+                    .collect());
+                Leg::apart(&self.contact, direction).list(tree, &held, indentation)
             }
         }
     }
@@ -205,30 +216,31 @@ impl Leg {
         held: &[HeldPatch],
         from: f64,
     ) -> Result<Self, ContactError> {
-        let mut evaluations = 0;
+        let mut evaluations_of_closing = 0;
         let listed = along_runs!(self, tree, &[], along => match self.direction {
             Direction::Loading => {
                 let closing = self.contact.closing(|| {
                     let closing = Closing::new(&along.ground)?;
-                    evaluations = closing.evaluations;
+                    evaluations_of_closing = closing.evaluations;
                     Ok(closing)
                 });
                 closing?.list(&along.ground, held)?
             }
             Direction::Unloading => along.ground.open(held, from)?,
         });
-        evaluations += listed.evaluations;
-        let patches = Patches::Runs(Arc::clone(tree), Arc::new(listed.runs));
         Ok(Leg {
-            patches,
+            patches: Patches::Runs(Arc::clone(tree), Arc::new(listed.runs)),
             end: listed.end,
-            evaluations,
+            evaluations: evaluations_of_closing + listed.evaluations,
             ..self
         })
     }
 
     fn is_stepwise(&self) -> bool {
-        matches!(&self.patches, Patches::Springs(thresholds) if self.contact.hess.is_some() && !thresholds.is_empty())
+        let Patches::Springs(thresholds) = &self.patches else {
+            return false;
+        };
+        self.contact.has_adhesion() && !thresholds.is_empty()
     }
 
     /// Returns an error for a leg of the stepwise solver, which is known only at its steps.
@@ -276,11 +288,10 @@ impl Leg {
                 Patch::of_springs(thresholds.iter().map(|&threshold| threshold <= indentation))
             }
             Patches::Runs(tree, runs) => {
-                let patch = |held: HeldPatch| Patch {
-                    first: held.first as usize,
-                    last: held.last as usize,
-                };
-                along_runs!(self, tree, runs, along => along.held_at(indentation, false).map(patch).collect())
+                along_runs!(self, tree, runs, along => along
+                    .held_at(indentation, false)
+                    .map(|held| held.springs())
+                    .collect())
             }
         }
     }
@@ -312,28 +323,45 @@ impl Leg {
         let Patches::Runs(_, runs) = &self.patches else {
             return Vec::new();
         };
-        let springs = |[first, last]: [u32; 2]| f64::from(last - first + 1);
-        let ends = runs
-            .iter()
-            .flat_map(|run| [(run.from, springs(run.bottom)), (run.to, -springs(run.top))]);
-        let mut events: Vec<(f64, f64)> = ends.filter(|(at, _)| low < *at && *at <= high).collect();
-        events.sort_unstable_by(|one, other| {
-            one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1))
+        let mut events = Vec::new();
+        for run in runs.iter() {
+            let begins = Event {
+                indentation: run.from,
+                springs: springs_between(run.bottom),
+            };
+            let ends = Event {
+                indentation: run.to,
+                springs: -springs_between(run.top),
+            };
+            for event in [begins, ends] {
+                if low < event.indentation && event.indentation <= high {
+                    events.push(event);
+                }
+            }
+        }
+        events.sort_unstable_by(|event, other| {
+            let by_indentation = event.indentation.total_cmp(&other.indentation);
+            by_indentation.then(event.springs.total_cmp(&other.springs))
         });
+        let mut jumps = Vec::new();
+        for together in events.chunk_by(|event, next| event.indentation == next.indentation) {
+            if self.jump_of(together) >= least {
+                jumps.push(together[0].indentation);
+            }
+        }
+        jumps
+    }
+
+    /// Returns about the jump of the force in N at events of one indentation.
+    fn jump_of(&self, events: &[Event]) -> f64 {
+        let mut most: f64 = 0.0;
+        for event in events {
+            most = most.max(event.springs.abs());
+        }
+        let change: f64 = events.iter().map(|event| event.springs).sum();
         // The springs that attach or detach are stretched by about s √n.
         let stretch = self.contact.rule().stretch(self.direction);
-        let jump = |events: &[(f64, f64)]| {
-            let most = events
-                .iter()
-                .fold(0.0_f64, |most, event| most.max(event.1.abs()));
-            let change: f64 = events.iter().map(|event| event.1).sum();
-            self.contact.foundation.spring_stiffness() * stretch * most.sqrt() * change.abs()
-        };
-        let together = events.chunk_by(|one, next| one.0 == next.0);
-        together
-            .filter(|events| jump(events) >= least)
-            .map(|events| events[0].0)
-            .collect()
+        self.contact.foundation.spring_stiffness() * stretch * most.sqrt() * change.abs()
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which the spring is
@@ -365,74 +393,65 @@ impl Leg {
             .collect()
     }
 
-    /// Returns the patches in contact at an indentation in m. If the edges of a patch are pinned,
-    /// it has their height in m above its largest gap.
-    fn pinned_patches(&self, indentation: f64) -> Vec<(Patch, Option<f64>)> {
-        let Patches::Runs(tree, runs) = &self.patches else {
-            return self
-                .patches(indentation)
-                .into_iter()
-                .map(|patch| (patch, None))
-                .collect();
-        };
-        let patch = |held: HeldPatch| {
-            (
-                Patch {
-                    first: held.first as usize,
-                    last: held.last as usize,
-                },
-                held.pin,
-            )
-        };
-        along_runs!(self, tree, runs, along => along.held_at(indentation, self.pins()).map(patch).collect())
+    /// Returns the patches in contact at an indentation in m, from left to right.
+    fn pinned_patches(&self, indentation: f64) -> Vec<PinnedPatch> {
+        match &self.patches {
+            Patches::Springs(_) => {
+                let patches = self.patches(indentation).into_iter();
+                patches
+                    .map(|springs| PinnedPatch { springs, pin: None })
+                    .collect()
+            }
+            Patches::Runs(tree, runs) => {
+                along_runs!(self, tree, runs, along => along
+                    .held_at(indentation, self.pins())
+                    .map(|held| PinnedPatch { springs: held.springs(), pin: held.pin })
+                    .collect())
+            }
+        }
     }
 
-    fn state_of(&self, &(patch, pin): &(Patch, Option<f64>), indentation: f64) -> PatchState {
-        let Contact {
-            profile,
-            foundation,
-            edges,
-            ..
-        } = &self.contact;
-        let (rule, gaps, scale) = (self.contact.rule(), profile.gaps(), profile.springs.scale());
-        let slides = *edges == Edges::SubCell;
-        let stretch = rule.stretch(self.direction);
-        let Patch { first, last } = patch;
+    fn state_of(&self, patch: &PinnedPatch, indentation: f64) -> PatchState {
+        let contact = &self.contact;
+        let gaps = contact.gaps();
+        let scale = contact.profile.springs.scale();
+        let slides = contact.edges == Edges::SubCell;
+        let stretch = contact.rule().stretch(self.direction);
+        let springs = patch.springs;
+        let gaps_of_patch = &gaps[springs.springs()];
         let span = Span {
-            gap: gaps[patch.springs()].iter().copied().fold(0.0, f64::max),
-            first,
-            last,
+            gap: gaps_of_patch.iter().copied().fold(0.0, f64::max),
+            first: springs.first,
+            last: springs.last,
         };
-        let totals = ContactTotals::of_patch(&gaps[patch.springs()], slides, scale);
-        let cells = || Slider::new(gaps, &span, stretch, pin).edge_cells(indentation);
-        let cells = if slides {
-            cells()
+
+        let totals = ContactTotals::of_patch(gaps_of_patch, slides, scale);
+        let mut edge_cells = EdgeCells::default();
+        let mut rise = 0.0;
+        if slides {
+            let slider = Slider::new(gaps, &span, stretch, patch.pin);
+            edge_cells = slider.edge_cells(indentation);
+            let (levels, _) = Levels::between_springs(gaps, &span);
+            rise = levels.rise(stretch, indentation);
+        }
+        let level = span.gap + patch.pin.unwrap_or(rise);
+        let [left_share, right_share] = if slides {
+            EdgeCell::of_span(gaps, &span, level).map(|cell| cell.share)
         } else {
-            EdgeCells::default()
+            [0.5; 2]
         };
-        let state = ContactState::new(slides, indentation, totals, cells, &scale);
-        let free = || {
-            if slides {
-                Levels::between_springs(gaps, &span)
-                    .0
-                    .rise(stretch, indentation)
-            } else {
-                0.0
-            }
-        };
-        let point = state.point(*foundation);
-        let level = span.gap + pin.unwrap_or_else(free);
-        let [left, right] = match slides {
-            true => EdgeCell::of_span(gaps, &span, level).map(|cell| cell.share),
-            false => [0.5; 2],
-        };
+        let left_edge = springs.first as f64 + 0.5 - left_share;
+        let right_edge = springs.last as f64 + 0.5 + right_share;
+
+        let state = ContactState::new(slides, indentation, totals, edge_cells, &scale);
+        let point = state.point(contact.foundation);
+        let unit_stretch = contact.rule().stretch(Direction::Unloading);
         PatchState {
-            springs: patch,
-            edges: [first as f64 + 0.5 - left, last as f64 + 0.5 + right]
-                .map(|cells| profile.place(cells)),
+            springs,
+            edges: [left_edge, right_edge].map(|edge| contact.profile.place(edge)),
             length: point.contact_length,
             force: point.force,
-            largest_stretch: rule.stretch(Direction::Unloading) * state.length.sqrt(),
+            largest_stretch: unit_stretch * state.length.sqrt(),
             most_stretched: level - indentation,
         }
     }
@@ -456,4 +475,10 @@ impl Leg {
         };
         Runs { ground, runs }
     }
+}
+
+/// Returns the number of springs from the first to the last of `ends`.
+fn springs_between(ends: [u32; 2]) -> f64 {
+    let [first, last] = ends;
+    f64::from(last - first + 1)
 }
