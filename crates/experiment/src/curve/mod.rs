@@ -12,8 +12,9 @@ use crate::curve::numerics::{Extent, right_angled};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
 use crate::error::{ExperimentError, refused};
-use crate::read::Columns;
+use crate::read;
 use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
+use crate::read::points::Columns;
 use asperity_data::{format_quantity, grouped, mean};
 use asperity_surface::files::content;
 use std::path::Path;
@@ -114,7 +115,7 @@ impl MeasuredCurve {
         bytes: &[u8],
         options: &CurveOptions,
     ) -> Result<Self, ExperimentError> {
-        MeasuredCurve::prepare(Columns::parse(name, bytes, options)?, options)
+        MeasuredCurve::prepare(read::parse(name, bytes, options)?, options)
     }
 
     /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a
@@ -151,7 +152,7 @@ impl MeasuredCurve {
 
     /// Returns true if the file at `path` can be read and has columns of displacement and force.
     pub fn is_in(path: &Path) -> bool {
-        let parse = |bytes: Vec<u8>| Columns::parse(path, &bytes, &CurveOptions::default());
+        let parse = |bytes: Vec<u8>| read::parse(path, &bytes, &CurveOptions::default());
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
     }
 

@@ -2,7 +2,7 @@
 //! them.
 
 use crate::curve::numerics::Extent;
-use crate::read::Label;
+use crate::read::points::Label;
 
 /// Share of the range by which the displacement comes back after a turning point.
 const TURN: f64 = 0.05;

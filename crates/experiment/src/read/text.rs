@@ -1,10 +1,16 @@
-//! Where the points of a text begin, and what the lines above them say.
+//! The points of a text: where they begin, what the lines above them say, and their rows.
 
+use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
-use crate::read::names::is_unit;
+use crate::read::names::{is_unit, names_segment};
+use crate::read::options::CurveOptions;
+use crate::read::points::{Columns, Rows};
 use asperity_data::text_table::{
-    COMMENT, Decimal, HeadLines, Separator, TextCell, TextColumn, TextFault, each_line,
+    COMMENT, Decimal, HeadLines, ONE_MARK, Separator, TextCell, TextColumn, TextFault, each_line,
 };
+use asperity_data::{PROVENANCE, shown};
+use asperity_surface::files::refused;
+use asperity_surface::{Place, SurfaceError};
 
 /// Number of like rows of numbers that make them points. Lines of metadata with numbers are fewer.
 const RUN: usize = 5;
@@ -13,7 +19,7 @@ const OF_AFMFORMATS: &str = "END METADATA";
 
 /// Form of a row of numbers: separator, number of cells, and which cells are words.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Shape {
+struct Shape {
     pub separator: Separator,
     pub count: usize,
     words: Vec<usize>,
@@ -59,7 +65,7 @@ impl Shape {
 }
 
 /// Beginning of the points of a text.
-pub(crate) struct Beginning {
+struct Beginning {
     /// Number of the line, from 1.
     pub line: usize,
     pub shape: Shape,
@@ -67,7 +73,7 @@ pub(crate) struct Beginning {
 
 /// Returns where the points of a text begin. The first few like rows decide, or else the first row.
 /// Returns `None` if there is no row of numbers.
-pub(crate) fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
+fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     for least in [2, 1] {
         let mut runs = Runs::default();
         each_line(bytes, |number, line| {
@@ -131,12 +137,12 @@ impl Runs {
     }
 }
 
-pub(crate) fn is_comment(line: &str) -> bool {
+fn is_comment(line: &str) -> bool {
     line.starts_with(COMMENT)
 }
 
 /// Returns the name of the segment that a comment states.
-pub(crate) fn segment_of(comment: &str) -> Option<&str> {
+fn segment_of(comment: &str) -> Option<&str> {
     let (key, name) = comment.trim_start_matches(COMMENT).split_once(':')?;
     let is_segment = key.trim().eq_ignore_ascii_case("segment");
     is_segment.then_some(name.trim())
@@ -144,7 +150,7 @@ pub(crate) fn segment_of(comment: &str) -> Option<&str> {
 
 /// Lines above the points.
 #[derive(Default)]
-pub(crate) struct Above {
+struct Above {
     header: HeadLines,
     pub metadata: Metadata,
     /// Names of columns followed by the first numbers, from a file without a line end between them.
@@ -205,6 +211,138 @@ fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
     let mut names = names.to_vec();
     names.push(&shared[..end]);
     Some(names.join("\t"))
+}
+
+/// Reads the content of a text file.
+pub(crate) fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
+    let Some(beginning) = beginning(bytes)? else {
+        return Ok(Vec::new());
+    };
+    let mut reader = TextReader {
+        options,
+        is_of_program: bytes.starts_with(PROVENANCE.as_bytes()),
+        beginning,
+        above: Above::default(),
+        rows: None,
+        decimal: Decimal::default(),
+        name: String::new(),
+    };
+    each_line(bytes, |number, line| reader.take(number, line))?;
+    reader.decimal.check()?;
+    let mut parts = reader.rows.map_or_else(Vec::new, Rows::finished);
+    if reader.above.has_merged()
+        && let Some(first) = parts.first_mut()
+    {
+        first.missing += 1;
+    }
+    Ok(parts)
+}
+
+/// Reader of the lines of a text.
+struct TextReader<'a> {
+    options: &'a CurveOptions,
+    /// True for a table of this program, in SI units.
+    is_of_program: bool,
+    beginning: Beginning,
+    above: Above,
+    /// Rows so far; `None` before the first one.
+    rows: Option<Rows>,
+    decimal: Decimal,
+    /// Name of a segment above its points.
+    name: String,
+}
+
+impl TextReader<'_> {
+    /// Reads the line with a number from 1.
+    fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
+        if is_comment(line)
+            && let Some(segment) = segment_of(line)
+        {
+            segment.clone_into(&mut self.name);
+        }
+        if number < self.beginning.line {
+            self.above.take(line, &self.beginning.shape);
+            return Ok(());
+        }
+        if line.is_empty() || is_comment(line) {
+            return Ok(());
+        }
+        self.take_row(Place::Line(number), line)
+    }
+
+    /// Reads a line of numbers, or of the name of a segment between numbers.
+    fn take_row(&mut self, place: Place, line: &str) -> Result<(), SurfaceError> {
+        let mut rows = match self.rows.take() {
+            Some(rows) => rows,
+            None => self.first_rows()?,
+        };
+        let shape = &self.beginning.shape;
+        let cells: Vec<&str> = shape.separator.split(line).collect();
+        if cells.iter().all(|cell| shape.is_word(cell)) && names_segment(line) {
+            line.clone_into(&mut self.name);
+            self.rows = Some(rows);
+            return Ok(());
+        }
+        if cells.len() != shape.count {
+            let found = format!("{} columns", cells.len());
+            let allowed = format!("{}, as in the first line of numbers", shape.count);
+            return Err(refused(place, found, allowed));
+        }
+        if !self.name.is_empty() && rows.choice.segment.is_none() {
+            rows.begin_segment(&self.name);
+        }
+        let decimal = &mut self.decimal;
+        rows.take(
+            &place,
+            |column| number_in(cells[column], column, shape, decimal, &place),
+            |column| cells[column].into(),
+        )?;
+        self.rows = Some(rows);
+        Ok(())
+    }
+
+    /// Chooses the columns by the lines above the first row.
+    fn first_rows(&self) -> Result<Rows, SurfaceError> {
+        let stated = Stated {
+            metadata: &self.above.metadata,
+            is_si: self.is_of_program || self.above.is_of_afmformats(),
+        };
+        let columns = self.above.columns(&self.beginning.shape);
+        Rows::new(&columns, stated, self.options)
+    }
+}
+
+/// Returns the number in a column; NaN if it is missing.
+fn number_in(
+    cell: &str,
+    column: usize,
+    shape: &Shape,
+    decimal: &mut Decimal,
+    place: &Place,
+) -> Result<f64, SurfaceError> {
+    let (fault, allowed) = match decimal.read(cell, shape.separator) {
+        // A number of hundreds of digits is not the word for infinity, which marks a missing value.
+        TextCell::Number(value)
+            if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) =>
+        {
+            (
+                "beyond all numbers",
+                "displacements and forces, NaN for a missing value",
+            )
+        }
+        TextCell::Number(value) => return Ok(value),
+        TextCell::Missing => return Ok(f64::NAN),
+        TextCell::OtherMark => (
+            "a number with another decimal mark than the numbers before",
+            ONE_MARK,
+        ),
+        TextCell::NoNumber => (
+            "not a number",
+            "numbers of one decimal mark, NaN for a missing value",
+        ),
+    };
+    let found = format!("column {}: {:?} is {fault}", column + 1, shown(cell));
+    Err(refused(place.clone(), found, allowed))
 }
 
 #[cfg(test)]
