@@ -89,7 +89,7 @@ pub fn run_study(
         total,
         elapsed: Duration::ZERO,
     };
-    control.report(&progress);
+    control.report(progress);
     if progress.is_complete() {
         return Ok(progress);
     }
@@ -134,7 +134,7 @@ pub fn run_study(
             .unwrap_or_else(|panic| resume_unwind(panic))?;
         written.map_err(StudyError::unwritable(&path))
     })?;
-    control.report(&progress);
+    control.report(progress);
     Ok(progress)
 }
 
@@ -205,7 +205,7 @@ impl WrittenFile<'_> {
             }
             if reported.elapsed() >= TICK {
                 self.check_exists()?;
-                control.report(&*progress);
+                control.report(*progress);
                 reported = Instant::now();
             }
             if ended {
