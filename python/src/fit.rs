@@ -1,12 +1,14 @@
 //! Fits of scenes to measured force curves.
 
-use crate::computing::Call;
+use crate::computing::{Call, Case};
 use crate::failure::Failure;
 use crate::results::{Report, bytes};
 use crate::words::command;
 use asperity::cli::arguments::Command;
 use asperity::data::{Control, on_threads, path_name};
-use asperity::experiment::{CurveOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble};
+use asperity::experiment::{
+    CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
+};
 use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -43,11 +45,13 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
         "none of {} curves is fitted; the first one: {reason}",
         rows.len()
     );
-    let files = curves
-        .iter()
-        .filter(|curve| curve.1.is_none())
-        .map(|curve| PathBuf::from(&curve.0));
-    Err(Failure::of_files(&files.collect::<Vec<_>>(), message))
+    let mut files = Vec::new();
+    for curve in curves {
+        if curve.1.is_none() {
+            files.push(PathBuf::from(&curve.0));
+        }
+    }
+    Err(Failure::of_files(&files, message))
 }
 
 /// Fits a scene to one curve, to each of several, or on random profiles to all together; the words
@@ -65,93 +69,119 @@ pub fn fit(
         let Some(Command::Fit(arguments)) = command("fit", words)? else {
             return Err("fit: no options of a fit".to_owned().into());
         };
-        let document = case.document.clone();
-        let free = arguments.free;
         let reading = CurveOptions {
-            instrument: document.scene().loading_stiffness,
+            instrument: case.document.scene().loading_stiffness,
             ..arguments.reading
         };
-        let computed_curves = |computed: &u64| Some(*computed);
-        if let Some(lines) = arguments.ensemble.lines {
+        if let Some(profiles) = arguments.ensemble.lines {
             let options = arguments
                 .ensemble
-                .options(&free, lines)
+                .options(&arguments.free, profiles)
                 .map_err(|error| error.to_string())?;
-            let curves = curves
-                .iter()
-                .map(|curve| Ok((curve.0.clone(), curve.read(&reading)?)));
-            let curves = curves.collect::<Result<Vec<_>, Failure>>()?;
-            let fit = case.watched(0, computed_curves, |control| {
-                fit_ensemble(&curves, &document, &options, control)
-            })?;
-            let has_roughness_errors =
-                options.height_error.is_some() || options.hurst_error.is_some();
-            return Ok(Report::new(move |format| {
-                let (title, fit) = (document.title(), &fit);
-                bytes(
-                    Some(&document),
-                    &EnsembleFitReport {
-                        title,
-                        fit,
-                        has_roughness_errors,
-                    },
-                    format,
-                )
-            }));
+            return fit_together(&case, &curves, &reading, &options);
         }
-        let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
-        if let ([curve], true) = (&curves[..], is_one) {
-            let (title, curve) = (curve.0.clone(), curve.read(&reading)?);
-            let fit = case.watched(0, computed_curves, |control| fit.run(&curve, control))?;
-            return Ok(Report::new(move |format| {
-                bytes(
-                    Some(&fit.document),
-                    &FitReport {
-                        title: &title,
-                        curve: &curve,
-                        fit: &fit,
-                    },
-                    format,
-                )
-            }));
+        let mut fit = Fit::of(&case.document);
+        for parameter in &arguments.free {
+            fit = fit.free(*parameter);
         }
-        let watch = case.watch;
-        let stop = || watch.stop();
-        let (done, all) = (AtomicU64::new(0), curves.len() as u64);
-        let worker = || {
-            |number: u64| {
-                let (given, control) = (
-                    &curves[number as usize],
-                    Control::default().stopped_by(&stop),
-                );
-                let row = CurveRow::of(
-                    &given.0,
-                    given.read(&reading).map_err(|failure| failure.message()),
-                    &fit,
-                    control,
-                );
-                watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
-                if stop() {
-                    Err("stopped".to_owned())
-                } else {
-                    Ok(row)
-                }
-            }
-        };
-        let rows = on_threads(all, case.jobs, worker)?;
-        check_any_fitted(&curves, &rows)?;
-        let is_free = |one: &Parameter| free.iter().any(|free: &Free| free.parameter == *one);
-        let free: Vec<Parameter> = Parameter::ALL.into_iter().filter(is_free).collect();
-        Ok(Report::new(move |format| {
-            bytes(
-                Some(&document),
-                &FitsReport {
-                    scene: document.scene(),
-                    free: &free,
-                    rows: &rows,
-                },
-                format,
-            )
-        }))
+        match &curves[..] {
+            [curve] if is_one => fit_single(&case, &fit, curve, &reading),
+            _ => fit_each(&case, &fit, &arguments.free, &curves, &reading),
+        }
     })
+}
+
+/// The progress of a fit, which is the number of computed force curves.
+fn computed_curves(computed: &u64) -> Option<u64> {
+    Some(*computed)
+}
+
+/// Fits a scene on random profiles to all curves together.
+fn fit_together(
+    case: &Case,
+    curves: &[Curve],
+    reading: &CurveOptions,
+    options: &EnsembleOptions,
+) -> Result<Report, Failure> {
+    let mut named = Vec::with_capacity(curves.len());
+    for curve in curves {
+        named.push((curve.0.clone(), curve.read(reading)?));
+    }
+    let document = case.document.clone();
+    let fit = case.watched(0, computed_curves, |control| {
+        fit_ensemble(&named, &document, options, control)
+    })?;
+    let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
+    Ok(Report::new(move |format| {
+        let report = EnsembleFitReport {
+            title: document.title(),
+            fit: &fit,
+            has_roughness_errors,
+        };
+        bytes(Some(&document), &report, format)
+    }))
+}
+
+/// Fits a scene to the only curve.
+fn fit_single(
+    case: &Case,
+    fit: &Fit,
+    curve: &Curve,
+    reading: &CurveOptions,
+) -> Result<Report, Failure> {
+    let title = curve.0.clone();
+    let curve = curve.read(reading)?;
+    let result = case.watched(0, computed_curves, |control| fit.run(&curve, control))?;
+    Ok(Report::new(move |format| {
+        let report = FitReport {
+            title: &title,
+            curve: &curve,
+            fit: &result,
+        };
+        bytes(Some(&result.document), &report, format)
+    }))
+}
+
+/// Fits a scene to each of several curves.
+fn fit_each(
+    case: &Case,
+    fit: &Fit,
+    free: &[Free],
+    curves: &[Curve],
+    reading: &CurveOptions,
+) -> Result<Report, Failure> {
+    let watch = case.watch;
+    let stop = || watch.stop();
+    let done = AtomicU64::new(0);
+    let all = curves.len() as u64;
+    let worker = || {
+        |number: u64| {
+            let given = &curves[number as usize];
+            let curve = given.read(reading).map_err(|failure| failure.message());
+            let control = Control::default().stopped_by(&stop);
+            let row = CurveRow::of(&given.0, curve, fit, control);
+            watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
+            if stop() {
+                return Err("stopped".to_owned());
+            }
+            Ok(row)
+        }
+    };
+    let rows = on_threads(all, case.jobs, worker)?;
+    check_any_fitted(curves, &rows)?;
+    let mut parameters = Vec::new();
+    for parameter in Parameter::ALL {
+        if free.iter().any(|free| free.parameter == parameter) {
+            parameters.push(parameter);
+        }
+    }
+    let document = case.document.clone();
+    Ok(Report::new(move |format| {
+        let report = FitsReport {
+            scene: document.scene(),
+            free: &parameters,
+            rows: &rows,
+        };
+        bytes(Some(&document), &report, format)
+    }))
 }

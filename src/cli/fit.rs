@@ -106,22 +106,33 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     if let Some(lines) = compared.lines {
         return ensemble(&curves, compared, lines, stdout);
     }
-    let [path] = paths else {
-        return fit_all(&curves, stdout);
-    };
-    if path.is_dir() {
-        return fit_all(&curves, stdout);
+    match paths {
+        [path] if is_one => fit_one(arguments, &curves, path, stdout),
+        _ => fit_all(&curves, stdout),
     }
-    let format = arguments.output.format(&Format::ALL, Format::Text)?;
+}
+
+/// Fits the scene to a single curve.
+fn fit_one(
+    arguments: &FitArguments,
+    curves: &Curves<'_>,
+    path: &Path,
+    stdout: &mut dyn Write,
+) -> Result<(), CliError> {
+    let output = &arguments.output;
+    let format = output.format(&Format::ALL, Format::Text)?;
     if let Some(file) = &arguments.scene {
-        check_file(file, "ron", arguments.output.force)?;
+        check_file(file, "ron", output.force)?;
     }
-    let document = arguments.overrides.apply(open_scene(&scene)?)?;
+    let document = arguments.overrides.apply(open_scene(curves.scene)?)?;
     let title = path_name(path);
     let reading = curves.reading_for(&document);
     let curve = MeasuredCurve::read(path, &reading)
         .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
-    let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
+    let mut fit = Fit::of(&document);
+    for parameter in &arguments.free {
+        fit = fit.free(*parameter);
+    }
     let task = Task {
         name: Some(document.name()),
         threads: threads(None),
@@ -133,11 +144,11 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
     let found = watched(task, show, |control| fit.run(&curve, control))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));
-        let document = found
+        let fitted = found
             .document
             .moved_to(|measured| named_from(measured, &document.resolve(""), folder))?;
-        write_new(file, arguments.output.force, |out| {
-            out.write_all(document.text().as_bytes())
+        write_new(file, output.force, |out| {
+            out.write_all(fitted.text().as_bytes())
         })?;
     }
     let report = FitReport {
@@ -145,18 +156,11 @@ pub(super) fn fit(arguments: &FitArguments, stdout: &mut dyn Write) -> Result<()
         curve: &curve,
         fit: &found,
     };
-    arguments.output.write(
-        stdout,
-        &report,
-        format,
-        Origin::Scene(&document, found.document.scene()),
-    )?;
-    if let Some(text) = report
-        .text()
-        .filter(|_| output.file().is_some() && format != Format::Text)
-    {
-        // What a picture or a table leaves out; the file is written even if standard error is
-        // closed.
+    let origin = Origin::Scene(&document, found.document.scene());
+    output.write(stdout, &report, format, origin)?;
+    let leaves_out_words = output.file().is_some() && format != Format::Text;
+    if leaves_out_words && let Some(text) = report.text() {
+        // The file is written even if standard error is closed.
         let _ = io::stderr().write_all(text.as_bytes());
     }
     Ok(())

@@ -343,39 +343,60 @@ fn run_loadings(
     format: Format,
     write: &mut WriteReport<'_>,
 ) -> Result<(), CliError> {
-    let [one] = chosen else {
-        let mut scenes = Vec::new();
-        for one in chosen {
-            let (outcome, ensemble) = (
-                compute(one.document, &one.scene)?,
-                arguments.ensemble(one, format)?,
-            );
-            if !holds_warnings(format) {
-                warn(one.document, &outcome_warnings(&outcome, ensemble.as_ref()));
-            }
-            scenes.push(ComparedScene {
-                document: one.document,
-                outcome,
-                ensemble,
-            });
-        }
+    let mut scenes = Vec::new();
+    for scene in chosen {
+        scenes.push(loaded(arguments, scene, format)?);
+    }
+    let [chosen] = chosen else {
         return write(&ScenesReport {
             scenes: &scenes,
             panels: arguments.draw == Some(Drawn::Panels),
         });
     };
+    let Some(ComparedScene {
+        outcome, ensemble, ..
+    }) = scenes.pop()
+    else {
+        return Ok(());
+    };
+    write_loading(arguments, chosen, outcome, ensemble, format, write)
+}
+
+/// Computes a scene on its own profile, and on random profiles if the options ask for them.
+fn loaded<'a>(
+    arguments: &RunArguments,
+    chosen: &Chosen<'a>,
+    format: Format,
+) -> Result<ComparedScene<'a>, CliError> {
+    // First the profile of the scene, whose failure is that of the scene.
+    let outcome = compute(chosen.document, &chosen.scene)?;
+    let ensemble = arguments.ensemble(chosen, format)?;
+    if !holds_warnings(format) {
+        let warnings = outcome_warnings(&outcome, ensemble.as_ref());
+        warn(chosen.document, &warnings);
+    }
+    Ok(ComparedScene {
+        document: chosen.document,
+        outcome,
+        ensemble,
+    })
+}
+
+/// Writes the result of a single scene: of random profiles as a table, else with its errors.
+fn write_loading(
+    arguments: &RunArguments,
+    chosen: &Chosen<'_>,
+    outcome: Outcome,
+    ensemble: Option<Ensemble>,
+    format: Format,
+    write: &mut WriteReport<'_>,
+) -> Result<(), CliError> {
     let Chosen {
         document,
         scene,
         choice,
-    } = one;
+    } = chosen;
     let choice = choice.as_ref();
-    // First the profile of the scene, whose failure is that of the scene.
-    let outcome = compute(document, scene)?;
-    let ensemble = arguments.ensemble(one, format)?;
-    if !holds_warnings(format) {
-        warn(document, &outcome_warnings(&outcome, ensemble.as_ref()));
-    }
     if let Some(ensemble) = ensemble.as_ref().filter(|_| format.is_table()) {
         return write(ensemble);
     }

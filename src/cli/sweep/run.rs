@@ -51,21 +51,8 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     // The parser requires a plan if there is no command.
     let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
     let jobs = threads(arguments.jobs) as u64;
-    let memory = plan.memory(jobs)?;
+    let text = cost_of(&plan, jobs)?;
     let mut stderr = io::stderr();
-    let text = format!(
-        "{} cells on {} {}: {} records; {jobs} {}, at most {} of memory",
-        plan.cells(),
-        plan.lines,
-        if plan.lines == 1 {
-            "profile"
-        } else {
-            "profiles"
-        },
-        plan.records_in_all(),
-        if jobs == 1 { "thread" } else { "threads" },
-        memory_size(memory)
-    );
     if arguments.check {
         writeln!(stdout, "{text}")?;
         return Ok(());
@@ -75,6 +62,41 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         return Ok(());
     };
     let folder = Folder::create(output, &plan)?;
+    let shard = arguments.shard.unwrap_or(Shard::WHOLE);
+    let computed = compute(&folder, shard, jobs as usize)?;
+    if let Some(shard) = arguments.shard {
+        let _ = writeln!(
+            stderr,
+            "all {} records of shard {} exist",
+            computed.total, shard
+        );
+        // The process that completes the study merges it; of two at the same time both do.
+        if Status::of(&folder)?.missing > 0 {
+            return Ok(());
+        }
+    }
+    write_merged(&folder, &merge(&folder)?, stdout)
+}
+
+/// Returns the number of records of a plan, and the memory that this number of threads needs.
+fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
+    let profiles = if plan.lines == 1 {
+        "profile"
+    } else {
+        "profiles"
+    };
+    let threads = if jobs == 1 { "thread" } else { "threads" };
+    Ok(format!(
+        "{} cells on {} {profiles}: {} records; {jobs} {threads}, at most {} of memory",
+        plan.cells(),
+        plan.lines,
+        plan.records_in_all(),
+        memory_size(plan.memory(jobs)?)
+    ))
+}
+
+/// Computes the missing records of a part of a study, and shows the progress.
+fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyProgress, CliError> {
     let watch = SignalWatch::begin()?;
     let stop = || watch.is_signalled();
     let mut line = ProgressLine::default();
@@ -89,10 +111,10 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         line.show(&text, is_due.then_some(&text));
     };
     let control = Control::default()
-        .on_threads(jobs as usize)
+        .on_threads(threads)
         .stopped_by(&stop)
         .reporting_to(&mut report);
-    let ended = run_study(&folder, arguments.shard.unwrap_or(Shard::WHOLE), control);
+    let ended = run_study(folder, shard, control);
     line.keep();
     let ended = ended?;
     if !ended.is_complete() {
@@ -102,17 +124,5 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         );
         return Err(watch.interrupted(stopped));
     }
-    drop(watch);
-    if let Some(shard) = arguments.shard {
-        let _ = writeln!(
-            stderr,
-            "all {} records of shard {} exist",
-            ended.total, shard
-        );
-        // The process that completes the study merges it; of two at the same time both do.
-        if Status::of(&folder)?.missing > 0 {
-            return Ok(());
-        }
-    }
-    write_merged(&folder, &merge(&folder)?, stdout)
+    Ok(ended)
 }
