@@ -46,6 +46,7 @@ mod branches;
 mod closed_form;
 mod contact;
 mod contact_state;
+mod crossing;
 mod cycle;
 mod error;
 mod figures;
