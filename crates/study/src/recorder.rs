@@ -119,10 +119,8 @@ impl<'p> Recorder<'p> {
         if !loops.is_empty() || plan.records(Needs::Touch) {
             solved = self.solve(&scene, &governing, loops)?;
         }
-        let SolvedLoops {
-            mut loadings,
-            first_touch,
-        } = solved;
+        let first_touch = solved.first_touch;
+        let mut loadings = solved.loadings;
         let mut zero_force = None;
         if needs_zero_force {
             let loading = loadings.get(count);
@@ -137,9 +135,8 @@ impl<'p> Recorder<'p> {
             let mut smooth = None;
             if needs_touch_regime || needs_regime {
                 let figures = &loading.figures;
-                smooth = self
-                    .simulation
-                    .smooth_adhesion_force(&scene, &governing, figures)?;
+                let simulation = &mut self.simulation;
+                smooth = simulation.smooth_adhesion_force(&scene, &governing, figures)?;
             }
             let warnings = [&loading.warnings[..], &warnings_of_scene].concat();
             let case = CaseOutcome {

@@ -120,14 +120,7 @@ pub fn run_study(
         let computing = Builder::new()
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
-        let mut written = WrittenFile {
-            path: &path,
-            file: &mut file,
-            clock,
-            pending: 0,
-            computed: Duration::ZERO,
-            synced: Instant::now(),
-        };
+        let mut written = WrittenFile::new(&path, &mut file, clock);
         let written = written.write_all(&receiver, &mut progress, &mut control);
         computing
             .join()
@@ -182,7 +175,18 @@ struct WrittenFile<'a> {
     synced: Instant,
 }
 
-impl WrittenFile<'_> {
+impl<'a> WrittenFile<'a> {
+    fn new(path: &'a Path, file: &'a mut File, clock: Instant) -> WrittenFile<'a> {
+        WrittenFile {
+            path,
+            file,
+            clock,
+            pending: 0,
+            computed: Duration::ZERO,
+            synced: Instant::now(),
+        }
+    }
+
     /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end.
     /// The progress counts only records that have reached the disk.
     fn write_all(
