@@ -126,18 +126,19 @@ impl Parameter {
     /// let remedy = Parameter::remedy(Parameter::Modulus, Parameter::Radius);
     /// assert_eq!(remedy, "the radius from an image of the form");
     /// ```
-    pub fn remedy(one: Parameter, other: Parameter) -> &'static str {
+    pub fn remedy(first: Parameter, second: Parameter) -> &'static str {
         use Parameter::{ClosingWork, Modulus, Offset, Radius, Stiffness, Work, Zero};
-        if one == other {
+        if first == second {
             return "less noise, a larger preload, or its value from another measurement";
         }
         // The parameter that comes first in tables comes first here.
-        let (first, second) = if (one as usize) < other as usize {
-            (one, other)
+        let is_in_order = (first as usize) < second as usize;
+        let pair = if is_in_order {
+            (first, second)
         } else {
-            (other, one)
+            (second, first)
         };
-        match (first, second) {
+        match pair {
             (Modulus, Stiffness) => {
                 "the stiffness of the instrument from a curve on a hard specimen"
             }

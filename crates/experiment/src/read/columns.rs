@@ -191,10 +191,9 @@ impl<'a> Table<'a> {
     fn with_named_segment(&self, places: Vec<[usize; 2]>) -> Roles {
         let mut segment = None;
         if places.len() == 1 {
-            segment = self
-                .named
-                .iter()
-                .position(|column| column.direction.is_none() && is_one_of(&column.rest, SEGMENT));
+            segment = self.named.iter().position(|column| {
+                column.direction.is_none() && is_one_of(&column.quantity_name, SEGMENT)
+            });
         }
         Roles { places, segment }
     }
@@ -216,7 +215,7 @@ impl<'a> Table<'a> {
     fn is_unknown(&self) -> bool {
         for column in &self.named {
             for quantity in &QUANTITIES {
-                if is_one_of(&column.rest, quantity.names) {
+                if is_one_of(&column.quantity_name, quantity.names) {
                     return false;
                 }
             }
@@ -286,7 +285,7 @@ impl<'a> Table<'a> {
         {
             return None;
         }
-        is_one_of(&self.named[place].rest, OF_BODY).then(|| self.name(place))
+        is_one_of(&self.named[place].quantity_name, OF_BODY).then(|| self.name(place))
     }
 
     /// Returns the error of columns that are not recognised.
@@ -401,7 +400,7 @@ struct Named {
     /// [`APPROACH`], [`RETRACTION`] or neither.
     direction: Option<usize>,
     /// Letters of the words that state neither direction nor unit.
-    rest: String,
+    quantity_name: String,
     /// Unit among the words, as in `Defl_pN_Ex`.
     unit: Option<String>,
 }
@@ -414,17 +413,17 @@ impl Named {
         let unit_of_name = words.iter().skip(1).copied().find(|word| names_unit(word));
 
         let mut direction_of_column = None;
-        let mut rest = String::new();
+        let mut quantity_name = String::new();
         for word in words {
             match direction(word) {
                 Some(found) => direction_of_column = direction_of_column.or(Some(found)),
                 None if unit_of_name == Some(word) => {}
-                None => rest += &letters(word),
+                None => quantity_name += &letters(word),
             }
         }
         Named {
             direction: direction_of_column,
-            rest,
+            quantity_name,
             unit: column.unit.clone().or(unit_of_name.map(str::to_owned)),
         }
     }
@@ -493,7 +492,7 @@ fn best_column(
 ) -> Option<usize> {
     let mut best: Option<(usize, usize)> = None;
     for (place, column) in named.iter().enumerate() {
-        if column.direction != direction || column.rest != name {
+        if column.direction != direction || column.quantity_name != name {
             continue;
         }
         let rank = if quantity == FORCE { column.rank() } else { 0 };

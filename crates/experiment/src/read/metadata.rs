@@ -36,7 +36,7 @@ pub(crate) struct Metadata {
 }
 
 impl Metadata {
-    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is behind
+    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is after
     /// the key or the value; without a unit the value is in SI units.
     pub fn take(&mut self, line: &str) {
         let Some(entry) = Entry::of(line) else {
