@@ -66,10 +66,10 @@ fn modules() -> BTreeMap<Module, String> {
             text[*start..]
                 .lines()
                 .nth(2)
-                .is_some_and(|line| line.ends_with('{'))
+                .is_some_and(|line| line.contains("mod ") && line.ends_with('{'))
         };
         let mut tests = text
-            .match_indices("\n#[cfg(test)]\nmod ")
+            .match_indices("\n#[cfg(test)]\n")
             .map(|(start, _)| start);
         let code = &text[..tests.find(is_body).unwrap_or(text.len())];
         let lines: Vec<&str> = code

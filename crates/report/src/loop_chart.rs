@@ -392,7 +392,8 @@ impl<'a> ForceLoop<'a> {
         layers
     }
 
-    /// Returns the name in the legend of the lines of a direction; empty for lines without an entry.
+    /// Returns the name in the legend of the lines of a direction; empty for lines without an
+    /// entry.
     fn legend_name(&self, direction: Direction) -> Label {
         let Some(name) = &self.name else {
             return Label::plain(match direction {

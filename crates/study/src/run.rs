@@ -65,8 +65,8 @@ impl StudyProgress {
 }
 
 /// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
-/// file in the folder. `control` is asked after each loading whether it stops the computation, which
-/// then ends without an error. It reports the progress several times a second and at the end.
+/// file in the folder. `control` is asked after each loading whether it stops the computation,
+/// which then ends without an error. It reports the progress several times a second and at the end.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested, if the memory does not suffice for a record, or

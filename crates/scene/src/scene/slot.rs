@@ -293,8 +293,8 @@ impl Place {
     }
 }
 
-/// Makes the [`Place`] of a member of every scene, such as `place!(numerics.points)`, or of a member
-/// that some scenes have, such as `place!(form, Some(Form::Cone { angle }) => angle)`.
+/// Makes the [`Place`] of a member of every scene, such as `place!(numerics.points)`, or of a
+/// member that some scenes have, such as `place!(form, Some(Form::Cone { angle }) => angle)`.
 macro_rules! place {
     ($($member:ident).+) => {
         $crate::scene::slot::Place {

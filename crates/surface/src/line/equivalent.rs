@@ -232,9 +232,9 @@ impl MeasuredRoughness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::analysis::AnalysisOptions;
     use crate::spectrum::moments::Moment;
     use crate::spectrum::nodes::End;
+    use crate::spectrum::options::AnalysisOptions;
     use std::path::PathBuf;
 
     fn face() -> Face {

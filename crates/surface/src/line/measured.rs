@@ -3,7 +3,8 @@
 
 use super::spectrum::{Amplitude, ModeSquare};
 use crate::error::{Place, SurfaceError, refused};
-use crate::spectrum::analysis::{Analysis, AnalysisOptions, analyse};
+use crate::spectrum::analysis::{Analysis, analyse};
+use crate::spectrum::options::AnalysisOptions;
 use crate::topography::open::{content, parse, parse_all};
 use crate::topography::options::ReadOptions;
 use crate::topography::positions::{UNEVEN, first_uneven, interpolated};

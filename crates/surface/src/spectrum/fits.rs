@@ -1,7 +1,6 @@
 //! Fits of spectra to the observed powers of all surfaces, and how the results change with the
 //! heights that were interpolated and with the waves that are missing.
 
-use super::analysis::AnalysisOptions;
 use super::isotropic::IsotropicSpectrum;
 use super::isotropic_fit::fit_isotropic;
 use super::last_wave::last_significant;
@@ -9,6 +8,7 @@ use super::likelihood::Model;
 use super::no_maximum;
 use super::nodes::{End, WaveRange};
 use super::observation::Observation;
+use super::options::AnalysisOptions;
 use super::powers::Powers;
 use super::self_affine_fit::{SelfAffineFit, fit_self_affine};
 use crate::error::{Place, SurfaceError, refused};

@@ -1,6 +1,6 @@
 //! A surface without its polynomial, as the analysis sees it.
 
-use super::analysis::AnalysisOptions;
+use super::options::AnalysisOptions;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::{Detrend, Topography};
 

@@ -29,6 +29,7 @@ mod map_power;
 pub(crate) mod moments;
 pub(crate) mod nodes;
 mod observation;
+pub(crate) mod options;
 pub(crate) mod periodogram;
 mod point_results;
 mod powers;

@@ -1,10 +1,10 @@
 //! Power spectra of all surfaces together: what the fits observe of them, and what figures show.
 
-use super::analysis::AnalysisOptions;
 use super::levelled::LevelledSurface;
 use super::map_power::MapPower;
 use super::nodes::WaveRange;
 use super::observation::{self, Observation};
+use super::options::AnalysisOptions;
 use super::periodogram::{Along, Bin, ProfilePower, Wave, bins};
 use super::point_results::SAME;
 use crate::error::SurfaceError;

@@ -104,7 +104,7 @@ pub(super) fn fit_self_affine(
     Some(SelfAffineFit {
         hurst: ValueWithError {
             value: parameters.hurst,
-            // The surface may have a roll-off that the data cannot tell from chance.
+            // The surface may have a roll-off that the data cannot distinguish from chance.
             error: error(1).hypot(hurst_with - parameters.hurst),
         },
         roll_off,

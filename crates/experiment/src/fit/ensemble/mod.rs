@@ -3,9 +3,9 @@
 //!
 //! Each measured curve becomes a few numbers, its summaries ([`summary`]). Curves of random
 //! profiles have summaries at all nodes of a table ([`table`]). From the table polynomials are
-//! learned that predict the parameters, and the mean prediction over the measured curves is compared
-//! with the predictions over all profiles ([`posterior`]). The result also has the effect of errors
-//! of the roughness, and whether the profiles describe the curves ([`deviation`]).
+//! learned that predict the parameters, and the mean prediction over the measured curves is
+//! compared with the predictions over all profiles ([`posterior`]). The result also has the effect
+//! of errors of the roughness, and whether the profiles describe the curves ([`deviation`]).
 
 pub(crate) mod deviation;
 pub(crate) mod posterior;
