@@ -14,7 +14,7 @@ use super::powers::Powers;
 use super::self_affine_fit::SelfAffineFit;
 use super::statistics::PointStatistics;
 use crate::error::{Place, SurfaceError, refused};
-use crate::topography::surface::{Detrend, Topography};
+use crate::topography::surface::Topography;
 use std::f64::consts::TAU;
 
 /// Result of [`analyse`]: statistics, spectra and equivalent line of measured surfaces.
