@@ -160,14 +160,10 @@ impl Results {
         })
     }
 
-    /// Makes a study in memory that has no values yet. It is a checked scene on `lines` random
-    /// profiles, with the recorded quantities `record`. Its only axis, if given, is `preloads`:
-    /// preloads in N that replace the loading of the scene.
+    /// Makes the study of [`Results::of_scene`] without values.
     ///
     /// # Errors
-    /// Returns an error if `lines` is above 1 and the profile of the scene is fixed. It is also an
-    /// error if `preloads` are given and the solver of the scene is not [`Solver::Exact`], or if
-    /// the memory does not suffice for the study.
+    /// Returns the errors of [`Results::of_scene`], except for failed profiles.
     pub(super) fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -185,13 +181,15 @@ impl Results {
         })
     }
 
-    /// Makes a study as [`Results::begin`] does, and computes its values. `control` reports the
-    /// results so far after each profile.
+    /// Computes a study in memory: a checked scene on `lines` random profiles, with the recorded
+    /// quantities `record`. Its only axis, if given, is `preloads`: preloads in N that replace the
+    /// loading of the scene. `control` reports the results so far after each profile.
     ///
     /// # Errors
-    /// Returns an error if zero threads are requested, if a profile or its contact cannot be
-    /// computed, or if `control` stops the computation. The errors of [`Results::begin`] are
-    /// possible too.
+    /// Returns an error if zero threads are requested, if `lines` is above 1 and the profile of the
+    /// scene is fixed, or if `preloads` are given and the solver of the scene is not
+    /// [`Solver::Exact`]. It is also an error if the memory does not suffice, if a profile or its
+    /// contact cannot be computed, or if `control` stops the computation.
     pub fn of_scene(
         scene: &Scene,
         record: &[Quantity],
