@@ -59,7 +59,7 @@ const EXAMINED: u64 = 5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
-/// Options of [`fit_ensemble`](crate::fit_ensemble), which compares measured curves with random
+/// Options of [`fit_ensemble`], which compares measured curves with random
 /// profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EnsembleOptions {
@@ -75,7 +75,7 @@ pub struct EnsembleOptions {
     pub hurst_error: Option<f64>,
 }
 
-/// Result of [`fit_ensemble`](crate::fit_ensemble): the work of adhesion and the effective modulus
+/// Result of [`fit_ensemble`]: the work of adhesion and the effective modulus
 /// of one rough body, from curves measured at several places of it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
