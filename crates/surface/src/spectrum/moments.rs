@@ -28,7 +28,8 @@ pub struct Moment {
     pub method: f64,
     /// Largest change of the value if the surface has shorter waves than the points resolve: a
     /// power law down to a quarter of the shortest resolved wavelength. The change is zero with
-    /// [`End::Continues`], and if the spectrum ends before the last resolved wave.
+    /// [`End::Continues`](super::nodes::End::Continues), and if the spectrum ends before the last
+    /// resolved wave.
     pub missing_short_waves: f64,
 }
 

@@ -10,7 +10,7 @@ pub enum End {
     #[default]
     Ends,
     /// Waves continue up to this wave number in rad/m. Their spectrum is the power law through the
-    /// last two [nodes](Node).
+    /// last two nodes.
     Continues(f64),
 }
 
