@@ -132,7 +132,8 @@ impl ContactBuilder {
             effective_modulus: modulus.pascals(),
             length: profile.length,
         };
-        let rules = (work > 0.0).then(|| Rules::from_works(foundation, closing, work));
+        let rules =
+            (work > 0.0).then(|| Rules::<ContactRule>::from_works(foundation, closing, work));
         Ok(Contact {
             profile,
             foundation,
@@ -259,7 +260,7 @@ impl Contact {
     /// Returns the rules of attachment and detachment; without adhesion their largest stretch is
     /// zero.
     pub(super) fn rules(&self) -> Rules<ContactRule> {
-        self.rules.unwrap_or(Rules::NO_ADHESION)
+        self.rules.unwrap_or(Rules::<ContactRule>::NO_ADHESION)
     }
 
     /// Returns the closing thresholds of a loading from separation; `close` computes them at the

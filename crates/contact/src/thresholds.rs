@@ -147,5 +147,5 @@ impl<'a> Thresholds<'a> {
 
 /// Returns the rule by which springs fill a cell without adhesion.
 fn no_stretch() -> ContactRule {
-    Rules::NO_ADHESION.rule(Direction::Loading)
+    Rules::<ContactRule>::NO_ADHESION.rule(Direction::Loading)
 }

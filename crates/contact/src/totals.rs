@@ -158,8 +158,8 @@ impl ContactTotals {
     ///
     /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
     /// 2u |result| plus n 2^(e−62). The gaps are summed exactly, n d is an exact product of two
-    /// numbers, and only their difference is rounded. For a largest gap below about 2^−938 m a quantum is 2^−1000 m
-    /// and no smaller.
+    /// numbers, and only their difference is rounded. For a largest gap below about 2^−938 m a
+    /// quantum is 2^−1000 m and no smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;

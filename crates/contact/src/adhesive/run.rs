@@ -64,8 +64,8 @@ pub struct RunList {
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and rule of detachment for one direction of motion, the input of all passes over
-/// the tree.
+/// Gaps, contact tree and rule of detachment for one direction of motion, the input of all passes
+/// over the tree.
 ///
 /// With `SLIDES`, edges move between springs, and the force is curved between two events. Without
 /// `SLIDES` a patch of whole springs has one length at all levels of a span, and no edge cells.

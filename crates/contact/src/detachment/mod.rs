@@ -68,15 +68,15 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         self.largest_stretch(1.0) == 0.0
     }
 
-    /// Returns true if a patch of this length in cells bears a stretch in m, at least zero, whatever
-    /// the rounding. This bound and the next two save evaluations of the rule.
+    /// Returns true if a patch of this length in cells bears a stretch in m, at least zero,
+    /// whatever the rounding. This bound and the next two save evaluations of the rule.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
         stretch <= self.sure_stretch(cells)
     }
 
-    /// Returns false if a patch of this length in cells bears no stretch of this size in m, whatever
-    /// the rounding.
+    /// Returns false if a patch of this length in cells bears no stretch of this size in m,
+    /// whatever the rounding.
     #[inline]
     fn may_bear(&self, stretch: f64, cells: f64) -> bool {
         stretch < self.largest_stretch(cells) * (1.0 + ROUNDING)
@@ -117,9 +117,9 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         growth > 0.0 && !self.bears_no_stretch()
     }
 
-    /// Returns the height in m above the largest gap at which free edges are in equilibrium. `above`
-    /// is the indentation minus the largest gap in m. A height beyond the levels of the span stands
-    /// for the nearest of them.
+    /// Returns the height in m above the largest gap at which free edges are in equilibrium.
+    /// `above` is the indentation minus the largest gap in m. A height beyond the levels of the
+    /// span stands for the nearest of them.
     fn free_rise(&self, levels: &Levels, above: f64) -> f64 {
         if levels.growth <= 0.0 {
             return above + self.largest_stretch(levels.length);
