@@ -3,8 +3,9 @@
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;
+use super::detachment::{ContactRule, Rules};
 use super::error::{ContactError, LARGEST, check, is_positive};
-use super::foundation::{Foundation, HessRule};
+use super::foundation::Foundation;
 use super::history::{CurvePoint, Patch};
 use super::modulus::Modulus;
 use super::profile::Profile;
@@ -34,7 +35,8 @@ pub struct Contact {
     pub(super) profile: Profile,
     pub(super) foundation: Foundation,
     pub(super) edges: Edges,
-    pub(super) hess: Option<HessRule>,
+    /// Rules of attachment and detachment; `None` without adhesion.
+    rules: Option<Rules<ContactRule>>,
     /// Stiffness k in N/m of the instrument that moves the body; infinite for a rigid instrument.
     pub(super) loading_stiffness: f64,
     closing: Arc<OnceLock<Closing>>,
@@ -130,12 +132,13 @@ impl ContactBuilder {
             effective_modulus: modulus.pascals(),
             length: profile.length,
         };
-        let hess = (work > 0.0).then(|| HessRule::from_works(foundation, closing, work));
+        let rules =
+            (work > 0.0).then(|| Rules::<ContactRule>::from_works(foundation, closing, work));
         Ok(Contact {
             profile,
             foundation,
             edges,
-            hess,
+            rules,
             loading_stiffness,
             closing: Arc::default(),
         })
@@ -251,12 +254,13 @@ impl Contact {
 
     /// Returns true if the contact has adhesion: its work of adhesion on opening is above zero.
     pub fn has_adhesion(&self) -> bool {
-        self.hess.is_some()
+        self.rules.is_some()
     }
 
-    /// Returns the rule of Hess; without adhesion its largest stretch is zero.
-    pub(super) fn rule(&self) -> HessRule {
-        self.hess.unwrap_or(HessRule::NO_ADHESION)
+    /// Returns the rules of attachment and detachment; without adhesion their largest stretch is
+    /// zero.
+    pub(super) fn rules(&self) -> Rules<ContactRule> {
+        self.rules.unwrap_or(Rules::<ContactRule>::NO_ADHESION)
     }
 
     /// Returns the closing thresholds of a loading from separation; `close` computes them at the

@@ -2,6 +2,7 @@
 //! two indentations.
 
 use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
+use super::detachment::DetachmentRule;
 use super::error::ContactError;
 use super::foundation::Foundation;
 use super::history::CurvePoint;
@@ -156,7 +157,7 @@ impl Tally {
 
     /// Adds edge cells that are in contact at these points.
     #[inline]
-    pub fn slide(&mut self, carries: Range<usize>, slider: &Slider) {
+    pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
         for (sums, &point) in self.edges[carries].iter_mut().zip(points) {
             sums.add(slider.edge_cells(point));

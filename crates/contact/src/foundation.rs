@@ -1,6 +1,6 @@
-//! The elastic foundation of the method of dimensionality reduction, and the rule of Hess.
+//! The elastic foundation of the method of dimensionality reduction.
 
-use super::history::{CurvePoint, Direction, Patch};
+use super::history::{CurvePoint, Patch};
 
 /// A foundation of independent springs that is equivalent to an elastic half-space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,74 +42,9 @@ impl Foundation {
         0.5 * (point.contact_length + separated_springs as f64 * self.spacing)
     }
 
-    /// Returns the largest stretch √(π Δx γ/E*) in m of a single spring, eq. (10), for a work of
-    /// adhesion γ in J/m².
-    fn stretch_of_one_spring(&self, work: f64) -> f64 {
-        // The quotient γ/E* first: scaling both by one power of two then changes no bit.
-        let range = work / self.effective_modulus;
-        (std::f64::consts::PI * self.spacing * range).sqrt()
-    }
-
     /// Returns the stiffness Δk = E* Δx of one spring in N/m, eq. (1) of Popov and Filippov (2012).
     pub fn spring_stiffness(&self) -> f64 {
         self.effective_modulus * self.spacing
-    }
-}
-
-/// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): the largest stretch of the
-/// springs of a patch.
-///
-/// If the work of adhesion on opening exceeds the work on closing, springs attach by the closing
-/// rule and detach by the opening rule. Between both limits the edges of a patch do not move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HessRule {
-    /// Largest stretch in m of a single spring before it detaches.
-    opening: f64,
-    /// Largest stretch in m with which a single spring attaches, at most `opening`.
-    closing: f64,
-}
-
-impl HessRule {
-    /// The rule without adhesion: the largest stretch is zero.
-    pub const NO_ADHESION: HessRule = HessRule {
-        opening: 0.0,
-        closing: 0.0,
-    };
-
-    /// Creates the rule for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in
-    /// J/m².
-    ///
-    /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just
-    /// attached.
-    pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
-        let closing = foundation.stretch_of_one_spring(closing);
-        let opening = foundation.stretch_of_one_spring(opening);
-        HessRule {
-            opening: opening.max(closing),
-            closing,
-        }
-    }
-
-    /// Returns the largest stretch of a patch of one spring in m: on unloading before it detaches,
-    /// on loading as it attaches.
-    pub fn stretch(&self, direction: Direction) -> f64 {
-        match direction {
-            Direction::Loading => self.closing,
-            Direction::Unloading => self.opening,
-        }
-    }
-
-    /// Returns true if springs attach and detach by the same rule.
-    pub fn is_one(&self) -> bool {
-        self.opening == self.closing
-    }
-
-    /// Returns the largest stretch Δl_max = √(π n Δx γ/E*) in m of a patch of n = `springs`
-    /// springs.
-    ///
-    /// Rounding keeps the order: the value never falls with the number of springs.
-    pub fn largest_stretch(&self, direction: Direction, springs: usize) -> f64 {
-        self.stretch(direction) * (springs as f64).sqrt()
     }
 }
 

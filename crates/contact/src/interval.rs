@@ -7,6 +7,7 @@
 use super::adhesive::levels::{EdgeSum, Slider};
 use super::contact_state::{ContactState, Extreme, lower_bound, upper_bound};
 use super::crossing::{bisect, crossing, last_before};
+use super::detachment::DetachmentRule;
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 use std::rc::Rc;
@@ -20,30 +21,30 @@ struct Step {
 
 /// Edge cells of a patch over the indentations at which it fills one span.
 #[derive(Clone, Copy, Debug)]
-pub struct Piece {
-    pub slider: Slider,
+pub struct Piece<R> {
+    pub slider: Slider<R>,
     pub from: f64,
     pub to: f64,
 }
 
 /// Part of a motion between two indentations, with the events inside.
-pub struct Interval {
+pub struct Interval<R> {
     slides: bool,
     /// The instrument as a number of springs parallel to the contact; see [`ContactState::beside`].
     instrument: f64,
     scale: GapScale,
     /// The contact at the lowest indentation, then the events; sorted by [`Interval::sort`].
     steps: Rc<Vec<Step>>,
-    pieces: Vec<Piece>,
+    pieces: Vec<Piece<R>>,
     /// Contact at the lowest and at the highest indentation.
     low: ContactState,
     high: ContactState,
 }
 
 /// Ascending intervals of a sampled motion in which a force is searched, at least one.
-pub struct Intervals(Vec<Interval>);
+pub struct Intervals<R>(Vec<Interval<R>>);
 
-impl Intervals {
+impl<R: DetachmentRule> Intervals<R> {
     /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs
     /// parallel to the contact.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
@@ -95,7 +96,7 @@ impl Intervals {
     }
 
     /// Adds edge cells to all intervals that they overlap.
-    pub fn add_piece(&mut self, piece: Piece) {
+    pub fn add_piece(&mut self, piece: Piece<R>) {
         let range = self.between(piece.from, piece.to);
         for interval in &mut self.0[range] {
             interval.pieces.push(piece);
@@ -103,7 +104,7 @@ impl Intervals {
     }
 
     /// Returns the intervals with sorted events, and adds the number of events to `sorted`.
-    pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval> {
+    pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval<R>> {
         for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
             interval.sort();
@@ -112,7 +113,7 @@ impl Intervals {
     }
 }
 
-impl Interval {
+impl<R: DetachmentRule> Interval<R> {
     /// Sorts the events; each step then has the totals of all steps up to it.
     fn sort(&mut self) {
         let steps = Rc::make_mut(&mut self.steps);
@@ -143,7 +144,7 @@ impl Interval {
         self.steps[above.saturating_sub(1)].totals
     }
 
-    fn sliders(&self, indentation: f64) -> impl Iterator<Item = Slider> {
+    fn sliders(&self, indentation: f64) -> impl Iterator<Item = Slider<R>> {
         self.pieces
             .iter()
             .filter(move |piece| piece.is_at(indentation))
@@ -219,7 +220,7 @@ impl Interval {
 
     fn between(&self, low: ContactState, high: ContactState) -> Self {
         let overlaps =
-            |piece: &&Piece| piece.from <= high.indentation && piece.to > low.indentation;
+            |piece: &&Piece<R>| piece.from <= high.indentation && piece.to > low.indentation;
         Interval {
             steps: Rc::clone(&self.steps),
             pieces: self.pieces.iter().filter(overlaps).copied().collect(),
@@ -384,7 +385,7 @@ impl Interval {
     }
 }
 
-impl Piece {
+impl<R> Piece<R> {
     fn is_at(&self, indentation: f64) -> bool {
         self.from <= indentation && indentation < self.to
     }

@@ -48,6 +48,7 @@ mod contact;
 mod contact_state;
 mod crossing;
 mod cycle;
+mod detachment;
 mod error;
 mod figures;
 mod foundation;

@@ -7,6 +7,7 @@
 use super::adhesive::levels::EdgeCells;
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid};
+use super::detachment::DetachmentRule;
 use super::error::{ContactError, STEP_LIMIT};
 use super::history::{CurvePoint, Direction, Extremes, Goal, LegRecord, Passage, Work, plan};
 use super::leg::Leg;
@@ -122,7 +123,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Extends each patch over its neighbours as long as the rule of Hess allows.
+    /// Extends each patch over its neighbours as long as the rule of detachment allows.
     fn grow_patches(&mut self) {
         let springs = self.holds.len();
         let mut first = 0;
@@ -130,8 +131,8 @@ impl<'a> Stepwise<'a> {
             let mut patch = start..start + 1;
             loop {
                 patch = self.whole_patch(patch);
-                let rule = self.contact.rule();
-                let stretch = rule.largest_stretch(Direction::Loading, patch.len());
+                let rule = self.contact.rules().rule(Direction::Loading);
+                let stretch = rule.largest_stretch(patch.len() as f64);
                 self.work.spring_updates += 2;
                 let Some(next) = self.next_to_attach(&patch, stretch) else {
                     break;
@@ -179,8 +180,8 @@ impl<'a> Stepwise<'a> {
                 let in_contact = self.holds[first..].iter().take_while(|&&holds| holds);
                 let springs = in_contact.count();
                 self.work.spring_updates += 2 * springs as u64 + 1;
-                let rule = self.contact.rule();
-                let stretch = rule.largest_stretch(Direction::Unloading, springs);
+                let rule = self.contact.rules().rule(Direction::Unloading);
+                let stretch = rule.largest_stretch(springs as f64);
                 for (place, &gap) in gaps[first..first + springs].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the
                     // patch as well.
@@ -221,7 +222,10 @@ impl<'a> Stepwise<'a> {
                 force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
             }
             Goal::Force(_) | Goal::Displacement(_) => start,
-            Goal::Separation(_) => -self.contact.rule().stretch(Direction::Unloading),
+            Goal::Separation(_) => {
+                let rule = self.contact.rules().rule(Direction::Unloading);
+                -rule.largest_stretch(1.0)
+            }
         };
         if !end.is_finite() {
             return Err(ContactError::OutOfReach);

@@ -10,7 +10,9 @@
 use super::adhesive::levels::{Edges, Slider, larger, smaller};
 use super::contact::Contact;
 use super::contact_state::{ContactState, Grid, Tally};
+use super::detachment::{ContactRule, Rules};
 use super::error::ContactError;
+use super::history::Direction;
 use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
@@ -58,7 +60,7 @@ impl<'a> Thresholds<'a> {
                 tally.begin(place, self.totals(first..end));
             }
             if self.slides && first > 0 {
-                let cell = Slider::of_cell(self.thresholds[first - 1], threshold);
+                let cell = Slider::of_cell(self.thresholds[first - 1], threshold, no_stretch());
                 let filling = place.min(place_before)..place.max(place_before);
                 tally.slide(filling, &cell);
             }
@@ -74,7 +76,7 @@ impl<'a> Thresholds<'a> {
 
     /// Adds the events and the partly filled cells to the intervals in which a crossing is
     /// searched.
-    pub fn search(&self, intervals: &mut Intervals) {
+    pub fn search(&self, intervals: &mut Intervals<ContactRule>) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {
             if low < threshold && threshold <= high {
@@ -89,7 +91,7 @@ impl<'a> Thresholds<'a> {
             let to = larger(cell[0], cell[1]);
             if from < to && from <= high && to > low {
                 intervals.add_piece(Piece {
-                    slider: Slider::of_cell(from, to),
+                    slider: Slider::of_cell(from, to, no_stretch()),
                     from,
                     to,
                 });
@@ -101,13 +103,13 @@ impl<'a> Thresholds<'a> {
     }
 
     /// Returns the half cells at both ends of the foundation; none for whole springs.
-    fn half_cells(&self) -> Vec<Piece> {
+    fn half_cells(&self) -> Vec<Piece<ContactRule>> {
         let mut half_cells = Vec::new();
         if self.slides {
             let ends = [self.thresholds.first(), self.thresholds.last()];
             for &gap in ends.into_iter().flatten() {
                 half_cells.push(Piece {
-                    slider: Slider::half_cell(gap),
+                    slider: Slider::half_cell(gap, no_stretch()),
                     from: gap,
                     to: f64::INFINITY,
                 });
@@ -141,4 +143,9 @@ impl<'a> Thresholds<'a> {
             ..ContactTotals::of_patch(gaps, self.slides, self.scale)
         }
     }
+}
+
+/// Returns the rule by which springs fill a cell without adhesion.
+fn no_stretch() -> ContactRule {
+    Rules::<ContactRule>::NO_ADHESION.rule(Direction::Loading)
 }

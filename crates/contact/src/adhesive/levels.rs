@@ -2,6 +2,7 @@
 //! the gap at which its edges lie. The length of the patch and its edge cells follow from the
 //! level.
 
+use crate::detachment::{DetachmentRule, Levels};
 use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
@@ -126,20 +127,6 @@ pub fn smaller(a: f64, b: f64) -> f64 {
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
-}
-
-/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)`
-/// cells, for t from `gap` to `top`.
-#[derive(Clone, Copy, Debug)]
-pub struct Levels {
-    /// Largest gap of the span in m, the lowest level.
-    pub gap: f64,
-    /// Length of the patch at the lowest level, in cells.
-    pub length: f64,
-    /// Growth of the length with the level in cells per metre.
-    pub growth: f64,
-    /// Highest level in m: the gap of the wall, or infinity where the span fills the profile.
-    pub top: f64,
 }
 
 /// Returns the growth in 1/m of the share of a cell that fills over this height of the level in m.
@@ -281,56 +268,33 @@ impl Levels {
         (levels, cells)
     }
 
-    /// Returns the length in cells at the level `gap + rise` in m.
+    /// Returns the height in m of the edges above the largest gap at an indentation in m.
     #[inline]
-    pub fn length_at(&self, rise: f64) -> f64 {
-        self.length + self.growth * rise
-    }
-
-    /// Returns the height in m of the edges above the largest gap, by the rule of Hess at an
-    /// indentation in m. `stretch` is the largest stretch in m of a patch one cell long.
-    #[inline]
-    pub fn rise(&self, stretch: f64, indentation: f64) -> f64 {
+    pub fn rise<R: DetachmentRule>(&self, rule: R, indentation: f64) -> f64 {
         if self.growth <= 0.0 {
             0.0
         } else {
-            self.free_rise(stretch, indentation - self.gap)
+            self.free_rise(rule, indentation - self.gap)
         }
     }
 
-    /// Returns √ℓ of a patch whose edges are free to move. `stretch` is the largest stretch in m of
-    /// a patch one cell long, and `above` the indentation minus the largest gap in m.
-    ///
-    /// With y = √ℓ the level is d + stretch y, and ℓ = length + growth (level − gap) is quadratic
-    /// in y.
-    #[inline]
-    fn root(&self, stretch: f64, above: f64) -> f64 {
-        let half = 0.5 * stretch * self.growth;
-        let square = (half * half + self.length) + self.growth * above;
-        // A square that is not a number results from growth without bound; then only `half` counts.
-        half + if square > 0.0 { square.sqrt() } else { 0.0 }
-    }
-
     /// Returns the height in m of free edges above the largest gap, limited to the levels of the
-    /// span.
+    /// span. `above` is the indentation minus the largest gap in m.
     #[inline]
-    fn free_rise(&self, stretch: f64, above: f64) -> f64 {
-        let rise = above + stretch * self.root(stretch, above);
+    fn free_rise<R: DetachmentRule>(&self, rule: R, above: f64) -> f64 {
+        let rise = rule.free_rise(self, above);
         let most = self.top - self.gap;
         let rise = if rise > 0.0 { rise } else { 0.0 };
         if rise < most { rise } else { most }
     }
 
     /// Returns the indentation in m at which edges that are pinned at the height `rise` (m) begin
-    /// to move. The second value is true if the edges then slide, and false if they jump. `stretch`
-    /// is the largest stretch in m of a patch one cell long.
+    /// to move. The second value is true if the edges then slide, and false if they jump.
     #[inline]
-    pub fn release(&self, stretch: f64, rise: f64) -> (f64, bool) {
+    pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
-        let root = 0.5 * stretch * self.growth;
-        let released = (self.gap + rise) - stretch * length.sqrt();
-        // φ rises with the level where √ℓ exceeds half of stretch × growth.
-        let slides = root * root <= length;
+        let released = (self.gap + rise) - rule.largest_stretch(length);
+        let slides = rule.turning_length(self.growth) <= length;
         (released, slides)
     }
 }
@@ -338,10 +302,9 @@ impl Levels {
 /// The two edge cells of a span. Their edges slide with the indentation, or are pinned at one
 /// level.
 #[derive(Clone, Copy, Debug)]
-pub struct Slider {
+pub struct Slider<R> {
     levels: Levels,
-    /// Largest stretch in m of a patch one cell long.
-    stretch: f64,
+    rule: R,
     /// Number of whole cells between the springs of the span.
     cells: f64,
     /// Length of the edge cells in contact at the level of the largest gap, in cells.
@@ -353,17 +316,16 @@ pub struct Slider {
     squares: f64,
 }
 
-impl Slider {
-    /// Creates the edge cells of a span. `stretch` is the largest stretch in m of a patch one cell
-    /// long. `pin` is the height in m above the largest gap at which the edges are pinned, or
-    /// `None` if they slide.
+impl<R: DetachmentRule> Slider<R> {
+    /// Creates the edge cells of a span. `pin` is the height in m above the largest gap at which
+    /// the edges are pinned, or `None` if they slide.
     #[inline]
-    pub fn new(gaps: &[f64], span: &Span, stretch: f64, pin: Option<f64>) -> Self {
+    pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
         let cells = span.springs() as f64 - 1.0;
         let mut slider = Slider {
             levels,
-            stretch,
+            rule,
             cells,
             edges: levels.length - cells,
             compression: 0.5 * (left.carries + right.carries),
@@ -379,36 +341,38 @@ impl Slider {
         slider
     }
 
-    /// Creates the cell between two springs with these gaps in m, without adhesion. It fills from
-    /// the smaller gap to the larger one.
+    /// Creates the cell between two springs with these gaps in m. It fills from the smaller gap to
+    /// the larger one by a rule that bears no stretch.
     #[inline]
-    pub fn of_cell(left: f64, right: f64) -> Self {
+    pub fn of_cell(left: f64, right: f64, no_stretch: R) -> Self {
         let gap = smaller(right, left);
         let top = larger(left, right);
-        Self::without_adhesion(Levels {
+        let levels = Levels {
             gap,
             length: 0.0,
             growth: growth_over(top - gap),
             top,
-        })
+        };
+        Self::without_adhesion(levels, no_stretch)
     }
 
-    /// Creates the half cell at an end of the foundation, without adhesion. It has the gap of the
-    /// last spring, in m, everywhere.
-    pub fn half_cell(gap: f64) -> Self {
-        Self::without_adhesion(Levels {
+    /// Creates the half cell at an end of the foundation, which has the gap of the last spring, in
+    /// m, everywhere. Its rule bears no stretch.
+    pub fn half_cell(gap: f64, no_stretch: R) -> Self {
+        let levels = Levels {
             gap,
             length: 0.5,
             growth: 0.0,
             top: f64::INFINITY,
-        })
+        };
+        Self::without_adhesion(levels, no_stretch)
     }
 
     #[inline]
-    fn without_adhesion(levels: Levels) -> Self {
+    fn without_adhesion(levels: Levels, no_stretch: R) -> Self {
         Slider {
             levels,
-            stretch: 0.0,
+            rule: no_stretch,
             cells: 0.0,
             edges: levels.length,
             compression: 0.0,
@@ -420,7 +384,7 @@ impl Slider {
     #[inline]
     pub fn edge_cells(&self, indentation: f64) -> EdgeCells {
         let above = indentation - self.levels.gap;
-        let rise = self.levels.free_rise(self.stretch, above);
+        let rise = self.levels.free_rise(self.rule, above);
         let grown = self.levels.growth * rise;
         EdgeCells {
             length: self.edges + grown,
@@ -431,38 +395,25 @@ impl Slider {
         }
     }
 
-    /// Returns ½ (stretch ℓ)² in cells times m², at an indentation in m. It is the sum of the
-    /// squared stretches with which springs attached as the edges moved. It equals twice the
-    /// surface energy of the patch over the stiffness of a spring.
+    /// Returns ∫ Δl² dℓ from zero length to the length of the patch in cells times m², at an
+    /// indentation in m. It is the sum of the squared stretches with which springs attached as the
+    /// edges moved. It equals twice the surface energy of the patch over the stiffness of a spring.
     pub fn surface(&self, indentation: f64) -> f64 {
-        let length = self.stretch * (self.cells + self.edge_cells(indentation).length);
-        0.5 * length * length
+        let length = self.cells + self.edge_cells(indentation).length;
+        self.rule.squares_up_to(length)
     }
 
     /// Returns the derivative of the compression of the edge cells with respect to the indentation
-    /// (m), in cells.
-    ///
-    /// The edges move with the indentation. The derivative is therefore ℓ (2y − 3k)/(2y − k) minus
-    /// the number of whole cells, with y = √ℓ and k = stretch × growth. The derivative only grows
-    /// with the indentation, so the force is convex between events.
+    /// (m), in cells. It only grows with the indentation, so the force is convex between events.
+    #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let levels = self.levels;
         let above = indentation - levels.gap;
-        let rise = levels.free_rise(self.stretch, above);
-        // k of the formula above.
-        let fall = self.stretch * levels.growth;
-        if fall <= 0.0 {
+        let rise = levels.free_rise(self.rule, above);
+        if !self.rule.slides(levels.growth) {
             // Edges that do not move, or that bear no stretch.
             return self.edges + levels.growth * rise;
         }
-        // The edges also slide at the ends of their levels, to one side at least.
-        let root = levels.root(self.stretch, above);
-        let rises = 2.0 * root - fall;
-        if rises > 0.0 {
-            levels.length_at(rise) * (2.0 * root - 3.0 * fall) / rises - self.cells
-        } else {
-            // The edges of a patch that is about to detach recede without bound.
-            f64::NEG_INFINITY
-        }
+        self.rule.stiffness(&levels, above, rise) - self.cells
     }
 }

@@ -1,9 +1,10 @@
 //! Loading: finds the indentation at which each node of the contact tree closes, and lists the
 //! patches between these events.
 
-use super::levels::{Levels, Span, larger, smaller};
+use super::levels::{Span, larger, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
 use super::tree::{Branch, Node};
+use crate::detachment::{DetachmentRule, Levels};
 use crate::error::ContactError;
 use asperity_data::{gathered, push, resized};
 use std::borrow::Cow;
@@ -25,8 +26,8 @@ pub struct Closing {
 }
 
 /// A loading that begins with patches in contact.
-struct Loading<'a, const SLIDES: bool> {
-    ground: &'a Ground<'a, SLIDES>,
+struct Loading<'a, const SLIDES: bool, R> {
+    ground: &'a Ground<'a, SLIDES, R>,
     held: &'a [HeldPatch],
     closes: Cow<'a, [f64]>,
     known: &'a [[u32; 2]],
@@ -78,7 +79,9 @@ struct Ascent {
 }
 
 impl Closing {
-    pub fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>) -> Result<Self, ContactError> {
+    pub fn new<const SLIDES: bool, R: DetachmentRule>(
+        ground: &Ground<'_, SLIDES, R>,
+    ) -> Result<Self, ContactError> {
         let count = ground.tree.node_count();
         let mut closing = Closing {
             closes: resized(Vec::new(), count, 0.0)?,
@@ -100,9 +103,9 @@ impl Closing {
     /// Finds where the left (`side` 0) or the right part (1) of a node attaches the spring of the
     /// node. `child` is the node of that part, and any node if the part is a leaf.
     #[inline]
-    fn close_part<const SLIDES: bool>(
+    fn close_part<const SLIDES: bool, R: DetachmentRule>(
         &mut self,
-        ground: &Ground<'_, SLIDES>,
+        ground: &Ground<'_, SLIDES, R>,
         node: &Node,
         side: usize,
         child: usize,
@@ -123,7 +126,7 @@ impl Closing {
         let known = if is_leaf { [place; 2] } else { known_of_child };
         let need = node.gap - closes;
         let sure_length = ground.least_length(known[0] as usize, known[1] as usize);
-        if need * need <= ground.square() * sure_length {
+        if ground.rule.surely_bears(need, sure_length) {
             return Reached { closes, known };
         }
         let gap = if is_leaf {
@@ -142,9 +145,9 @@ impl Closing {
 
     /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the
     /// patches in contact at its beginning.
-    pub fn list<const SLIDES: bool>(
+    pub fn list<const SLIDES: bool, R: DetachmentRule>(
         &self,
-        ground: &Ground<'_, SLIDES>,
+        ground: &Ground<'_, SLIDES, R>,
         held: &[HeldPatch],
     ) -> Result<RunList, ContactError> {
         let mut closes = Cow::Borrowed(self.closes.as_slice());
@@ -168,7 +171,7 @@ impl Closing {
     }
 }
 
-impl<const SLIDES: bool> Loading<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
     /// Splits a range of held patches into the patches left and right of a spring.
     fn split(&self, held: &Range<usize>, spring: usize) -> [Range<usize>; 2] {
         let inside = &self.held[held.clone()];
@@ -303,7 +306,6 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
     ) -> Result<(), ContactError> {
         let ground = self.ground;
         let gaps = ground.gaps;
-        let square = ground.square();
         let runs_before = self.listed.runs.len();
         let mut ascent = Ascent {
             branch: visit.branch,
@@ -321,10 +323,13 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
             let Span { first, last, .. } = ascent.span;
             let need = gaps[wall] - ascent.closes;
             let mut attaches = ascent.closes;
-            if need * need > square * ground.least_length(first, last) {
-                attaches = self.list_span(&mut ascent, gaps[wall])?;
-            } else {
+            if ground
+                .rule
+                .surely_bears(need, ground.least_length(first, last))
+            {
                 ascent.below = None;
+            } else {
+                attaches = self.list_span(&mut ascent, gaps[wall])?;
             }
             if wall == visit.parent || attaches >= visit.merges {
                 break;
@@ -365,7 +370,7 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
         let attaches = larger(ascent.closes, ground.attachment(&levels, wall_gap));
         let end = smaller(attaches, merges);
         if let Some(rise) = ascent.pin.take() {
-            let (released, _) = levels.release(ground.stretch, rise);
+            let (released, _) = levels.release(ground.rule, rise);
             let released = smaller(released, end);
             let mut pinned = Run::new(branch, &span, ascent.closes, released);
             pinned.pin = rise;
@@ -388,11 +393,11 @@ impl<const SLIDES: bool> Loading<'_, SLIDES> {
     }
 }
 
-impl<const SLIDES: bool> Ground<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Follows a branch from its beginning up to the spring `parent`. The branch attaches that
     /// spring at its largest φ (m), but not before it begins.
     ///
-    /// On a span with n cells known inside, φ at a gap b is at most b − s√n. Most spans therefore
+    /// On a span with n cells known inside, φ at a gap b is at most b − Δl(n). Most spans therefore
     /// need no evaluation.
     #[inline(never)]
     fn climb(&self, start: BranchStart, parent: usize, evaluations: &mut u64) -> Reached {
@@ -425,7 +430,10 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
     fn may_rise(&self, closes: f64, gap: f64, span: &Span) -> bool {
         let need = gap - closes;
-        need > 0.0 && need * need > self.square() * self.least_length(span.first, span.last)
+        need > 0.0
+            && !self
+                .rule
+                .surely_bears(need, self.least_length(span.first, span.last))
     }
 
     /// Returns the smallest span of a branch, around the springs that attach at its beginning.

@@ -14,6 +14,7 @@ use levels::Span;
 use run::{Ground, HeldPatch, Run, SpanAtLevel};
 
 use crate::contact_state::{ContactState, Grid, Tally};
+use crate::detachment::DetachmentRule;
 use crate::error::ContactError;
 use crate::interval::{Intervals, Piece};
 use crate::totals::SquareScale;
@@ -21,12 +22,12 @@ use asperity_data::CompensatedSum;
 use levels::EdgeCell;
 
 /// The runs of a motion, and the ground on which they were listed.
-pub struct Runs<'a, const SLIDES: bool> {
-    pub ground: Ground<'a, SLIDES>,
+pub struct Runs<'a, const SLIDES: bool, R> {
+    pub ground: Ground<'a, SLIDES, R>,
     pub runs: &'a [Run],
 }
 
-impl<const SLIDES: bool> Runs<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each
     /// has the height of its edges, which stay in place at the beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
@@ -111,7 +112,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
 
     /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or
     /// a crossing is searched.
-    pub fn search(&self, intervals: &mut Intervals) {
+    pub fn search(&self, intervals: &mut Intervals<R>) {
         let ground = &self.ground;
         let (low, high) = intervals.ends();
         for run in self.runs {
@@ -145,7 +146,10 @@ struct SquaredStretch {
 
 impl SquaredStretch {
     /// Creates an empty sum for indentations θ between `−largest` and `largest` in m.
-    fn new<const SLIDES: bool>(ground: &Ground<'_, SLIDES>, largest: f64) -> Self {
+    fn new<const SLIDES: bool, R: DetachmentRule>(
+        ground: &Ground<'_, SLIDES, R>,
+        largest: f64,
+    ) -> Self {
         let scale = SquareScale::new(ground.tree.scale, largest);
         SquaredStretch {
             scale,
@@ -155,9 +159,9 @@ impl SquaredStretch {
     }
 
     /// Adds (`sign` 1) or subtracts (−1) the squared stretches of a patch at an indentation in m.
-    fn add<const SLIDES: bool>(
+    fn add<const SLIDES: bool, R: DetachmentRule>(
         &mut self,
-        ground: &Ground<'_, SLIDES>,
+        ground: &Ground<'_, SLIDES, R>,
         sign: i8,
         patch: &SpanAtLevel,
         indentation: f64,
@@ -188,7 +192,7 @@ impl SquaredStretch {
     }
 }
 
-impl<const SLIDES: bool> Ground<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Returns the level in m of the edges of a span, at an indentation that is not above the end
     /// of its run.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
@@ -207,7 +211,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 }
 
-impl<const SLIDES: bool> Runs<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach
     /// at an indentation θ above `low` and up to `high` (m). It measures the energy that springs
     /// release as they detach, and take as they attach under a stretch.
@@ -218,7 +222,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
     /// beginning of each run, minus those at its end, and the squares along its sliding edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
-        if ground.stretch == 0.0 {
+        if ground.rule.bears_no_stretch() {
             return 0.0;
         }
         let mut sum = SquaredStretch::new(ground, self.largest_event(low, high));
@@ -230,9 +234,7 @@ impl<const SLIDES: bool> Runs<'_, SLIDES> {
             if run.to <= high {
                 sum.add(ground, -1, &largest, run.to);
             }
-            let half_square = 0.5 * ground.stretch * ground.stretch;
-            let passed_squares = ground.passed_squares(&smallest, &largest);
-            sum.edges.add(half_square * passed_squares);
+            sum.edges.add(ground.passed_squares(&smallest, &largest));
         }
         sum.total()
     }

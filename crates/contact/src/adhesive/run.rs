@@ -3,8 +3,7 @@
 //!
 //! A patch grows from span to span. On each span its level lies between the largest gap of the span
 //! and the gap of the wall, the spring that attaches next. The level gives the length ℓ, the only
-//! input of the rule of Hess. The largest stretch is Δl_max = s √ℓ, eq. (10), with the stretch s of
-//! a patch of unit length.
+//! input of the rule of detachment, and the rule gives the largest stretch Δl_max(ℓ).
 //!
 //! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n
 //!   Δx at all levels of its span.
@@ -14,13 +13,11 @@
 //!   while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest value and
 //!   then rises. A patch rests only where φ rises.
 
-use super::levels::{EdgeCell, Levels, Slider, Span, larger};
+use super::levels::{EdgeCell, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
+use crate::detachment::{DetachmentRule, Levels, ROUNDING};
 use crate::history::Patch;
 use crate::totals::ContactTotals;
-
-/// Relative margin for rounding in bounds.
-const ROUNDING: f64 = 1e-12;
 
 /// One patch over a range of indentations in which it grows from span to span, until it jumps,
 /// merges or splits.
@@ -67,17 +64,17 @@ pub struct RunList {
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and rule of Hess for one direction of motion, the input of all passes over
-/// the tree.
+/// Gaps, contact tree and rule of detachment for one direction of motion, the input of all passes
+/// over the tree.
 ///
 /// With `SLIDES`, edges move between springs, and the force is curved between two events. Without
 /// `SLIDES` a patch of whole springs has one length at all levels of a span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
-pub struct Ground<'a, const SLIDES: bool> {
+pub struct Ground<'a, const SLIDES: bool, R> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
-    /// Largest stretch in m of a patch of unit length.
-    pub stretch: f64,
+    /// Rule of the direction of motion.
+    pub rule: R,
     pub unloading: bool,
 }
 
@@ -114,7 +111,7 @@ impl Run {
     }
 }
 
-impl<const SLIDES: bool> Ground<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     #[inline]
     pub fn span(&self, branch: Branch, ends: [u32; 2]) -> Span {
         let first = ends[0] as usize;
@@ -135,8 +132,8 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 
     #[inline]
-    pub fn slider(&self, run: &Run, span: &Span) -> Slider {
-        Slider::new(self.gaps, span, self.stretch, run.pin())
+    pub fn slider(&self, run: &Run, span: &Span) -> Slider<R> {
+        Slider::new(self.gaps, span, self.rule, run.pin())
     }
 
     /// Returns the smallest indentation in m at which a span attaches its wall, the next spring,
@@ -157,7 +154,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// the height of pinned edges.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
-        pin.unwrap_or_else(|| self.levels(span).rise(self.stretch, indentation))
+        pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))
     }
 
     /// Returns the totals of the whole springs of a span, or with `SLIDES` of its whole cells. The
@@ -201,14 +198,10 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     /// the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
-        let root = (self.square() * self.least_length(span.first, span.last)).sqrt();
-        (indentation + root) - ROUNDING * (indentation.abs() + root)
-    }
-
-    /// Returns the squared largest stretch in m² of a patch of unit length, rounded down.
-    #[inline]
-    pub fn square(&self) -> f64 {
-        self.stretch * self.stretch * (1.0 - ROUNDING)
+        let stretch = self
+            .rule
+            .sure_stretch(self.least_length(span.first, span.last));
+        (indentation + stretch) - ROUNDING * (indentation.abs() + stretch)
     }
 
     /// Calls `see` with each span of a run, from the smallest on, and the range of indentations in
@@ -256,7 +249,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     }
 }
 
-impl<const SLIDES: bool> Ground<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Returns the length of a patch on this span as a function of its level.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
@@ -288,7 +281,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         } else {
             levels.length
         };
-        wall - self.stretch * length.sqrt()
+        wall - self.rule.largest_stretch(length)
     }
 
     /// Returns the smallest indentation in m at which a span with these levels still holds its most
@@ -296,23 +289,22 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
-        let stretch = self.stretch;
+        let rule = self.rule;
         if !SLIDES {
             // At this indentation the spring is stretched by just Δl_max and detaches, so the
             // smallest that still holds it is the next number above; but a spring whose gap is
             // closed stays under any rule.
-            let detaches = gap - stretch * levels.length.sqrt();
+            let detaches = gap - rule.largest_stretch(levels.length);
             return detaches.next_up().min(gap);
         }
-        // φ is smallest where √ℓ is half of stretch × growth.
-        let root = 0.5 * stretch * levels.growth;
-        let excess = root * root - levels.length;
+        // φ is smallest at the turning length.
+        let excess = rule.turning_length(levels.growth) - levels.length;
         // The choices are of values: the processor would often mispredict branches.
         let lowest = excess / levels.growth;
         let most = levels.top - gap;
         let limited = if lowest < most { lowest } else { most };
         let rise = if excess > 0.0 { limited } else { 0.0 };
-        let holds = (gap + rise) - stretch * levels.length_at(rise).sqrt();
+        let holds = (gap + rise) - rule.largest_stretch(levels.length_at(rise));
         if holds < gap { holds } else { gap }
     }
 
@@ -323,31 +315,33 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
             return true;
         }
         // φ rises from the lowest level of the upper span on, and that span adds no level cell.
-        let root = 0.5 * self.stretch * upper.growth;
         let reached = lower.length_at(lower.top - lower.gap);
-        root * root < upper.length && upper.length - reached < 0.25
+        self.rule.turning_length(upper.growth) < upper.length && upper.length - reached < 0.25
     }
 
-    /// Computes ∫ (c − θ)² dx over the part of the profile that the edges pass from one state of a
-    /// run to a larger one. Here θ is the indentation at which an edge passes the point. The unit
-    /// is cells times ½ s².
+    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the profile that the edges pass
+    /// from one state of a run to a larger one. Here θ is the indentation at which an edge passes
+    /// the point, so c − θ is the largest stretch there.
     pub fn passed_squares(&self, lower: &SpanAtLevel, upper: &SpanAtLevel) -> f64 {
         if !SLIDES {
             let fewer = lower.span.springs() as f64;
             let more = upper.span.springs() as f64;
             // Springs attach one by one to patches of `fewer` springs and more, and detach from
             // those of `more` and fewer.
-            let sign = if self.unloading { 1.0 } else { -1.0 };
-            return (more - fewer) * (more + fewer + sign);
+            return if self.unloading {
+                self.rule.squares_of_patches(fewer + 1.0, more)
+            } else {
+                self.rule.squares_of_patches(fewer, more - 1.0)
+            };
         }
-        // Twice the stretch s √ℓ of an edge times the change of the length ℓ. Whole cells and
-        // shares are subtracted separately: as lengths they would lose digits.
+        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
         let fewer_cells = lower.whole_cells();
         let more_cells = upper.whole_cells();
         let smaller_share = lower.share_of_edges(self.gaps);
         let larger_share = upper.share_of_edges(self.gaps);
-        ((more_cells - fewer_cells) + (larger_share - smaller_share))
-            * ((fewer_cells + more_cells) + (smaller_share + larger_share))
+        let difference = (more_cells - fewer_cells) + (larger_share - smaller_share);
+        let sum = (fewer_cells + more_cells) + (smaller_share + larger_share);
+        self.rule.squares_between(difference, sum)
     }
 }
 

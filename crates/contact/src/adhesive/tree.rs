@@ -29,7 +29,7 @@ pub struct ContactTree {
     sums: Vec<[i128; 2]>,
     /// True if the sums are over the cells between springs rather than over springs.
     of_cells: bool,
-    pub(super) scale: GapScale,
+    pub(crate) scale: GapScale,
 }
 
 /// A local maximum of the gap, where two patches merge.

@@ -1,14 +1,12 @@
 //! Unloading: finds the indentation at which each node of the contact tree opens, and lists the
 //! patches between these events.
 
-use super::levels::{Levels, Span, smaller};
+use super::levels::{Span, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
 use super::tree::Branch;
+use crate::detachment::{DetachmentRule, Levels};
 use crate::error::ContactError;
 use asperity_data::push;
-
-/// Factor that widens bounds by a margin for rounding.
-const ABOVE: f64 = 1.0 + 1e-12;
 
 /// Part of the contact at the beginning of the unloading whose runs are not listed yet.
 #[derive(Clone, Copy, Debug)]
@@ -73,12 +71,12 @@ impl Descent {
     }
 }
 
-impl<const SLIDES: bool> Ground<'_, SLIDES> {
+impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in
     /// contact there, from left to right.
     ///
     /// A patch splits when its most stretched spring detaches. This happens as soon as the larger
-    /// patch around it has split and the rule of Hess no longer holds the spring: t_v = min(t of
+    /// patch around it has split and the rule no longer holds the spring: t_v = min(t of
     /// the patch around v, smallest φ of v).
     pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {
         let mut listed = RunList {
@@ -112,7 +110,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
-        need <= 0.0 || need * need < self.stretch * self.stretch * ABOVE * (springs + 1) as f64
+        need <= 0.0 || self.rule.may_bear(need, (springs + 1) as f64)
     }
 
     #[inline]
@@ -211,7 +209,7 @@ impl<const SLIDES: bool> Ground<'_, SLIDES> {
         if descent.is_whole {
             to = f64::INFINITY;
             if let Some(rise) = descent.pin {
-                let (released, slides) = levels.release(self.stretch, rise);
+                let (released, slides) = levels.release(self.rule, rise);
                 let released = smaller(descent.opens, released);
                 leaves = if slides {
                     smaller(leaves, released)

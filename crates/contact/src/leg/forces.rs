@@ -9,6 +9,7 @@
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
 use crate::contact_state::{ContactState, Extreme, Grid, intervals, lower_bound, upper_bound};
+use crate::detachment::ContactRule;
 use crate::error::ContactError;
 use crate::history::{CurvePoint, Direction, Goal, Work};
 use crate::interval::{Interval, Intervals};
@@ -249,7 +250,7 @@ impl Leg {
     }
 
     /// Returns the intervals between these ascending ends, with the events inside each.
-    fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval> {
+    fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval<ContactRule>> {
         if ends.is_empty() {
             return Vec::new();
         }

@@ -1,12 +1,13 @@
 //! A leg: the contact at all indentations of a motion in one direction.
 
 use super::adhesive::Runs;
-use super::adhesive::levels::{EdgeCell, EdgeCells, Edges, Levels, Slider, Span};
+use super::adhesive::levels::{EdgeCell, EdgeCells, Edges, Slider, Span};
 use super::adhesive::loading::Closing;
 use super::adhesive::run::{Ground, HeldPatch, Run};
 use super::adhesive::tree::ContactTree;
 use super::contact::Contact;
 use super::contact_state::ContactState;
+use super::detachment::{ContactRule, DetachmentRule, Levels};
 use super::error::ContactError;
 use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
@@ -179,7 +180,7 @@ impl Leg {
 
     /// Computes the leg of a loading that begins in separation.
     pub fn approach(contact: &Contact) -> Result<Self, ContactError> {
-        if contact.hess.is_none() {
+        if !contact.has_adhesion() {
             return Ok(Leg::without_adhesion(contact, Direction::Loading));
         }
         let tree = contact.profile.springs.tree(contact.edges)?;
@@ -359,9 +360,9 @@ impl Leg {
             most = most.max(event.springs.abs());
         }
         let change: f64 = events.iter().map(|event| event.springs).sum();
-        // The springs that attach or detach are stretched by about s √n.
-        let stretch = self.contact.rule().stretch(self.direction);
-        self.contact.foundation.spring_stiffness() * stretch * most.sqrt() * change.abs()
+        // The springs that attach or detach are stretched by about Δl(n).
+        let stretch = self.rule().largest_stretch(most);
+        self.contact.foundation.spring_stiffness() * stretch * change.abs()
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which the spring is
@@ -416,7 +417,7 @@ impl Leg {
         let gaps = contact.gaps();
         let scale = contact.profile.springs.scale();
         let slides = contact.edges == Edges::SubCell;
-        let stretch = contact.rule().stretch(self.direction);
+        let rule = self.rule();
         let springs = patch.springs;
         let gaps_of_patch = &gaps[springs.springs()];
         let span = Span {
@@ -429,10 +430,10 @@ impl Leg {
         let mut edge_cells = EdgeCells::default();
         let mut rise = 0.0;
         if slides {
-            let slider = Slider::new(gaps, &span, stretch, patch.pin);
+            let slider = Slider::new(gaps, &span, rule, patch.pin);
             edge_cells = slider.edge_cells(indentation);
             let (levels, _) = Levels::between_springs(gaps, &span);
-            rise = levels.rise(stretch, indentation);
+            rise = levels.rise(rule, indentation);
         }
         let level = span.gap + patch.pin.unwrap_or(rise);
         let [left_share, right_share] = if slides {
@@ -445,13 +446,13 @@ impl Leg {
 
         let state = ContactState::new(slides, indentation, totals, edge_cells, &scale);
         let point = state.point(contact.foundation);
-        let unit_stretch = contact.rule().stretch(Direction::Unloading);
+        let opening = contact.rules().rule(Direction::Unloading);
         PatchState {
             springs,
             edges: [left_edge, right_edge].map(|edge| contact.profile.place(edge)),
             length: point.contact_length,
             force: point.force,
-            largest_stretch: unit_stretch * state.length.sqrt(),
+            largest_stretch: opening.largest_stretch(state.length),
             most_stretched: level - indentation,
         }
     }
@@ -459,18 +460,23 @@ impl Leg {
     /// Returns true if the edges of patches keep their places at first when the direction changes.
     /// They do where the rules of loading and unloading differ and edges lie between springs.
     fn pins(&self) -> bool {
-        self.contact.edges == Edges::SubCell && !self.contact.rule().is_one()
+        self.contact.edges == Edges::SubCell && !self.contact.rules().is_one()
+    }
+
+    /// Returns the rule of the direction of motion.
+    fn rule(&self) -> ContactRule {
+        self.contact.rules().rule(self.direction)
     }
 
     fn along<'a, const SLIDES: bool>(
         &'a self,
         tree: &'a ContactTree,
         runs: &'a [Run],
-    ) -> Runs<'a, SLIDES> {
+    ) -> Runs<'a, SLIDES, ContactRule> {
         let ground = Ground {
             gaps: self.contact.gaps(),
             tree,
-            stretch: self.contact.rule().stretch(self.direction),
+            rule: self.rule(),
             unloading: self.direction == Direction::Unloading,
         };
         Runs { ground, runs }
