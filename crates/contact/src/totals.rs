@@ -156,10 +156,10 @@ impl ContactTotals {
     /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times
     /// metres of `count` cells. It is the force over the stiffness of one spring.
     ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most 2u |result|
-    /// plus n 2^(e−62). The gaps are summed exactly, n d is an exact product of two numbers, and
-    /// only their difference is rounded. For a largest gap below about 2^−938 m a quantum is
-    /// 2^−1000 m and no smaller.
+    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
+    /// 2u |result| plus n 2^(e−62). The gaps are summed exactly, n d is an exact product of two
+    /// numbers, and only their difference is rounded. For a largest gap below about 2^−938 m a
+    /// quantum is 2^−1000 m and no smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
