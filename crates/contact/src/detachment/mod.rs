@@ -119,7 +119,7 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
 
     /// Returns the height in m above the largest gap at which free edges are in equilibrium.
     /// `above` is the indentation minus the largest gap in m. A height beyond the levels of the
-    /// span stands for the nearest of them.
+    /// span means the nearest of them.
     fn free_rise(&self, levels: &Levels, above: f64) -> f64 {
         if levels.growth <= 0.0 {
             return above + self.largest_stretch(levels.length);
