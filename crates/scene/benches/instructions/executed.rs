@@ -34,7 +34,10 @@ pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "Hess",
         lines: Lines::Of(&[
-            ("crates/contact/src/detachment/hess.rs", "fn largest_stretch("),
+            (
+                "crates/contact/src/detachment/hess.rs",
+                "fn largest_stretch(",
+            ),
             ("crates/contact/src/adhesive/run.rs", "pub fn attachment("),
             ("crates/contact/src/adhesive/run.rs", "pub fn holds_to("),
         ]),
