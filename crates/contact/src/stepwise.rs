@@ -105,13 +105,14 @@ impl<'a> Stepwise<'a> {
     /// Sweeps until no spring touches and no patch grows.
     fn relax_loading(&mut self) {
         let gaps = self.contact.gaps();
+        let indentation = self.indentation;
         loop {
             let before = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             self.work.spring_updates += gaps.len() as u64;
             for (index, &gap) in gaps.iter().enumerate() {
-                if !self.holds[index] && gap <= self.indentation {
-                    self.change(index, true, self.indentation);
+                if !self.holds[index] && gap <= indentation {
+                    self.change(index, true, indentation);
                 }
             }
             if self.contact.has_adhesion() {
@@ -125,13 +126,13 @@ impl<'a> Stepwise<'a> {
 
     /// Extends each patch over its neighbours as long as the rule of detachment allows.
     fn grow_patches(&mut self) {
+        let rule = self.contact.rules().rule(Direction::Loading);
         let springs = self.holds.len();
         let mut first = 0;
         while let Some(start) = (first..springs).find(|&index| self.holds[index]) {
             let mut patch = start..start + 1;
             loop {
                 patch = self.whole_patch(patch);
-                let rule = self.contact.rules().rule(Direction::Loading);
                 let stretch = rule.largest_stretch(patch.len() as f64);
                 self.work.spring_updates += 2;
                 let Some(next) = self.next_to_attach(&patch, stretch) else {
@@ -145,14 +146,10 @@ impl<'a> Stepwise<'a> {
 
     /// Extends a range of springs in contact to the whole patch around it.
     fn whole_patch(&self, part: Range<usize>) -> Range<usize> {
-        let Range { mut start, mut end } = part;
-        while end < self.holds.len() && self.holds[end] {
-            end += 1;
-        }
-        while start > 0 && self.holds[start - 1] {
-            start -= 1;
-        }
-        start..end
+        let (before, from) = self.holds.split_at(part.start);
+        let on_the_left = before.iter().rev().take_while(|&&holds| holds).count();
+        let from_the_start = from.iter().take_while(|&&holds| holds).count();
+        part.start - on_the_left..part.start + from_the_start
     }
 
     /// Returns the spring beside a patch that attaches under a stretch of at most `stretch` in m.
@@ -172,24 +169,24 @@ impl<'a> Stepwise<'a> {
     fn relax_unloading(&mut self, held_until: f64) {
         let gaps = self.contact.gaps();
         let indentation = self.indentation;
+        let rule = self.contact.rules().rule(Direction::Unloading);
         loop {
             let held = self.totals.springs;
             self.work.relaxation_sweeps += 1;
             let mut first = 0;
             while first < gaps.len() {
                 let in_contact = self.holds[first..].iter().take_while(|&&holds| holds);
-                let springs = in_contact.count();
-                self.work.spring_updates += 2 * springs as u64 + 1;
-                let rule = self.contact.rules().rule(Direction::Unloading);
-                let stretch = rule.largest_stretch(springs as f64);
-                for (place, &gap) in gaps[first..first + springs].iter().enumerate() {
+                let end = first + in_contact.count();
+                self.work.spring_updates += 2 * (end - first) as u64 + 1;
+                let stretch = rule.largest_stretch((end - first) as f64);
+                for (place, &gap) in gaps[first..end].iter().enumerate() {
                     // A spring stretched too far here is stretched too far in each part of the
                     // patch as well.
                     if indentation <= gap - stretch && indentation < gap {
                         self.change(first + place, false, held_until);
                     }
                 }
-                first += springs + 1;
+                first = end + 1;
             }
             if self.totals.springs == held {
                 return;
