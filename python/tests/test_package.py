@@ -276,7 +276,7 @@ class Program(unittest.TestCase):
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(1)
         child.send_signal(signal.SIGINT)
-        self.assertEqual(child.wait(timeout=10), -signal.SIGINT)
+        self.assertEqual(child.wait(timeout=10), 128 + signal.SIGINT)
 
 
 class Documentation(unittest.TestCase):
