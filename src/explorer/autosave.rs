@@ -166,7 +166,7 @@ impl Autosave {
         }
     }
 
-    /// Returns true if a file holds unsaved changes of this session.
+    /// Returns true if a file holds the unsaved changes of this explorer.
     pub fn has_file(&self) -> bool {
         self.own.is_some()
     }

@@ -421,7 +421,7 @@ impl From<Patch> for (usize, usize) {
     }
 }
 
-/// Where a motion ends.
+/// Condition that ends a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Goal {
     /// An indentation in m.

@@ -84,8 +84,9 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches or detaches a spring at an indentation in m. A spring that detaches was held up to
-    /// exactly this indentation, because the overshoot of a step is no property of the contact.
+    /// Attaches or detaches a spring at an indentation in m. A spring that detaches
+    /// counts as held until exactly this indentation, so that its energy does not depend on the
+    /// overshoot of a step.
     fn change(&mut self, index: usize, attaches: bool, indentation: f64) {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;

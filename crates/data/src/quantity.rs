@@ -8,7 +8,7 @@ const DIGITS: usize = 4;
 /// An SI unit, with the words of a message about a wrong unit.
 struct Dimension {
     unit: &'static str,
-    /// What the unit measures, such as "unit of length".
+    /// Name of the unit in messages, such as "unit of length".
     name: &'static str,
     /// Units that a message proposes.
     proposed: &'static str,

@@ -457,8 +457,8 @@ proptest! {
         }
     }
 
-    /// What is stored is the work done on the body and the energy that springs take as they attach.
-    /// What an unloading releases is not given back as work.
+    /// The stored energy is the sum of the work done on the body and of the energy that springs
+    /// gain as they attach. The energy released on unloading is not recovered as work.
     #[test]
     fn a_power_of_the_length_keeps_the_energy(gaps in distinct_gaps(), rule in power_rules()) {
         let line = Line::new(&gaps, Edges::SubCell);

@@ -24,7 +24,7 @@ const AT_ONCE: usize = 16;
 /// Distance, in grid points, between the points that are evaluated first.
 const STRIDE: usize = 16;
 
-/// Whether a body is separated at the ends of a motion.
+/// Ends of a motion at which the body is separated.
 #[derive(Clone, Copy)]
 pub(crate) struct SeparatedEnds {
     pub at_begin: bool,

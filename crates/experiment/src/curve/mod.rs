@@ -60,8 +60,8 @@ pub struct MeasuredCurve {
     pub(crate) remaining: [f64; 3],
     /// Time and displacement of each point, as shares of the whole curve.
     pub(crate) shares: [Vec<f64>; 2],
-    /// Whether the zero of the force, a drift and a tilt were estimated from the points without
-    /// contact and subtracted.
+    /// For the zero of the force, a drift and a tilt in this order: true if the correction was
+    /// estimated from the points without contact and subtracted.
     pub(crate) is_estimated: [bool; 3],
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,

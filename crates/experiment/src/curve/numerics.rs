@@ -168,7 +168,7 @@ pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let mut sum = 0.0;
     for lag in 1..residuals.len() / RANGES {
         let correlation = dot(residuals, &residuals[lag..]) / square;
-        // Without noise the square is 0, and the correlation is no number.
+        // Without noise the square is 0, and the correlation is NaN.
         if correlation.is_nan() || correlation <= least {
             break;
         }

@@ -5,7 +5,7 @@
 pub(crate) mod bodies;
 pub(crate) mod specimens;
 
-use asperity_contact::{CurvePoint, Move};
+use asperity_contact::{CurvePoint, LegRecord, Move};
 use asperity_data::Control;
 use asperity_experiment::{CurveOptions, Drift, Fit, FitResult, Free, MeasuredCurve, Parameter};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
@@ -37,7 +37,7 @@ pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
         .run(&fine, &|| false, &mut |_, _, _| Ok(()))
         .unwrap();
     let legs = &outcome.history.legs;
-    let base = |point: &CurvePoint| point.indentation + point.force / stiffness(scene);
+    let base = |point: &CurvePoint| displacement(point, stiffness(scene));
     let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
     let low = -0.5 * top
         - legs[1]
@@ -45,31 +45,49 @@ pub(crate) fn force_curve(scene: &Scene) -> Vec<(f64, f64)> {
             .iter()
             .map(|point| base(point).abs())
             .fold(0.0, f64::max);
+    sampled(legs, stiffness(scene), low, top, 500)
+}
+
+/// Displacement d + F/k in m of a point, for a stiffness k in N/m.
+pub(crate) fn displacement(point: &CurvePoint, stiffness: f64) -> f64 {
+    point.indentation + point.force / stiffness
+}
+
+/// Returns `count` points of the approach from `low` to `top` (m) and as many of the retraction
+/// back, as displacements in m and forces in N. They are the first points of fine curves at or
+/// beyond evenly spaced displacements; the force is 0 where the body is free.
+pub(crate) fn sampled(
+    legs: &[LegRecord],
+    stiffness: f64,
+    low: f64,
+    top: f64,
+    count: usize,
+) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
-        let mut at = 0;
-        for index in 0..500 {
-            let share = index as f64 / 499.0;
-            let wanted = if sign > 0.0 {
+        let presses = sign > 0.0;
+        let mut place = 0;
+        for index in 0..count {
+            let share = index as f64 / (count - 1) as f64;
+            let wanted = if presses {
                 low + share * (top - low)
             } else {
                 top + share * (low - top)
             };
-            while at < leg.curve.len() && sign * base(&leg.curve[at]) < sign * wanted {
-                at += 1;
+            while place < leg.curve.len()
+                && sign * displacement(&leg.curve[place], stiffness) < sign * wanted
+            {
+                place += 1;
             }
-            let last = if sign > 0.0 { leg.curve.last() } else { None };
-            points.push(
-                match leg
-                    .curve
-                    .get(at)
-                    .or(last)
-                    .filter(|_| sign < 0.0 || wanted > 0.0)
-                {
-                    Some(point) => (base(point), point.force),
-                    None => (wanted, 0.0),
-                },
-            );
+            let mut reached = leg.curve.get(place);
+            if presses {
+                // The approach ends at its last point, and is free before displacement 0.
+                reached = reached.or(leg.curve.last()).filter(|_| wanted > 0.0);
+            }
+            points.push(match reached {
+                Some(point) => (displacement(point, stiffness), point.force),
+                None => (wanted, 0.0),
+            });
         }
     }
     points

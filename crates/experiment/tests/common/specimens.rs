@@ -1,6 +1,6 @@
 //! Curves of specimens with known values, for tests.
 
-use super::{from_text, gauss, lines};
+use super::{displacement, from_text, gauss, lines, sampled};
 use asperity_contact::{CurvePoint, Move};
 use asperity_experiment::{CurveOptions, MeasuredCurve, Negate};
 use asperity_scene::{Adhesion, Document, Material, Scene, Simulation, open};
@@ -52,7 +52,7 @@ pub(crate) fn curve(
         .unwrap();
     let legs = &outcome.history.legs;
     let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-    let base = |point: &CurvePoint| point.indentation + point.force / stiffness;
+    let base = |point: &CurvePoint| displacement(point, stiffness);
     let top = legs[0].curve.iter().map(base).fold(f64::MIN, f64::max);
     let low = -0.3 * top
         - legs[1]
@@ -61,33 +61,7 @@ pub(crate) fn curve(
             .map(|point| base(point).abs())
             .fold(0.0, f64::max);
     let noise = gauss(share * preload, seed).into_iter().cycle();
-    let mut points = Vec::new();
-    for (leg, sign) in legs.iter().zip([1.0, -1.0]) {
-        let mut at = 0;
-        for index in 0..POINTS {
-            let way = index as f64 / (POINTS - 1) as f64;
-            let wanted = if sign > 0.0 {
-                low + way * (top - low)
-            } else {
-                top + way * (low - top)
-            };
-            while at < leg.curve.len() && sign * base(&leg.curve[at]) < sign * wanted {
-                at += 1;
-            }
-            let last = if sign > 0.0 { leg.curve.last() } else { None };
-            points.push(
-                match leg
-                    .curve
-                    .get(at)
-                    .or(last)
-                    .filter(|_| sign < 0.0 || wanted > 0.0)
-                {
-                    Some(point) => (base(point), point.force),
-                    None => (wanted, 0.0),
-                },
-            );
-        }
-    }
+    let points = sampled(legs, stiffness, low, top, POINTS);
     let disturbed = points.into_iter().zip(noise);
     let moved = disturbed.map(|((place, force), noise)| (place + 1e-6, force + noise + 3e-7));
     let scaled = moved.map(|(place, force)| (1e9 * place, 1e9 * force));
