@@ -65,5 +65,5 @@ fn assert_curve(curve: &MeasuredCurve) {
     curve
         .statements
         .iter()
-        .for_each(|statement| assert_message(statement));
+        .for_each(|statement| assert_message(&statement.to_string()));
 }

@@ -1,8 +1,9 @@
 //! Failures of computations and their exceptions.
 
+use crate::advice::{argument, name};
 use crate::words::sentence;
 use asperity::contact::ContactError;
-use asperity::data::shown;
+use asperity::data::{Remedied, shown};
 use asperity::experiment::ExperimentError;
 use asperity::scene::{Error, Origin, RunError, SceneError, SceneErrors};
 use asperity::study::StudyError;
@@ -61,6 +62,11 @@ impl Failure {
         }
     }
 
+    /// The failure of an error, with the arguments that help.
+    fn of_remedied(error: &impl Remedied) -> Failure {
+        error.in_words(argument).into()
+    }
+
     /// The sentence of the exception.
     pub fn message(&self) -> String {
         Python::attach(|py| self.0.value(py).to_string())
@@ -81,10 +87,9 @@ impl From<String> for Failure {
 
 impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Failure {
-        // The options of the command line are no part of Python.
         let line = |error: &SceneError| match error.origin {
             Origin::Overrides(_) if !error.field.is_empty() => error.what(),
-            _ => error.to_string().replace("--set ", ""),
+            _ => error.to_string(),
         };
         let message = errors.iter().map(line).collect::<Vec<_>>().join("\n");
         let SceneError {
@@ -139,7 +144,7 @@ macro_rules! failures {
                     $($error::$inner(inner) => inner.into(),)*
                     $($error::$memory { .. } => Failure(PyMemoryError::new_err(sentence(&error.to_string()))),)*
                     $($error::$file { .. } => Failure(PyOSError::new_err(sentence(&error.to_string()))),)*
-                    _ => error.to_string().into(),
+                    error => Failure::of_remedied(&error),
                 }
             }
         }
@@ -148,10 +153,68 @@ macro_rules! failures {
 
 failures! {
     Error: Values Contact Run, memory, file;
-    ExperimentError: File Run, memory, file;
-    HalfSpaceError: , memory OutOfMemory, file;
     RunError: Values Surface Contact, memory OutOfMemory, file;
-    SurfaceError: , memory OutOfMemory, file Unreadable;
+}
+
+impl From<HalfSpaceError> for Failure {
+    fn from(error: HalfSpaceError) -> Failure {
+        let message = error.to_string();
+        match error {
+            HalfSpaceError::OutOfMemory { .. } => {
+                Failure(PyMemoryError::new_err(sentence(&message)))
+            }
+            _ => message.into(),
+        }
+    }
+}
+
+impl From<SurfaceError> for Failure {
+    fn from(error: SurfaceError) -> Failure {
+        let message = error.in_words(argument);
+        match &error {
+            SurfaceError::OutOfMemory { .. } => Failure(PyMemoryError::new_err(sentence(&message))),
+            SurfaceError::Unreadable { .. } => Failure(PyOSError::new_err(sentence(&message))),
+            SurfaceError::MissingPoints { .. } => {
+                Failure::field_in_words(message, "interpolate", "False", "True")
+            }
+            SurfaceError::NoUnit { .. } => {
+                Failure::field_in_words(message, "unit", "None", "a unit of length, such as um")
+            }
+            SurfaceError::Channel { allowed, .. } => {
+                let field = first_name(&error).unwrap_or("channel");
+                Failure::field_in_words(message, field, "", allowed)
+            }
+            SurfaceError::Refused { found, allowed, .. } => match first_name(&error) {
+                Some(field) => Failure::field_in_words(message, field, found, allowed),
+                None => message.into(),
+            },
+            _ => message.into(),
+        }
+    }
+}
+
+impl From<ExperimentError> for Failure {
+    fn from(error: ExperimentError) -> Failure {
+        let message = error.in_words(argument);
+        match &error {
+            ExperimentError::File(error) => error.clone().into(),
+            ExperimentError::Run(error) => error.clone().into(),
+            ExperimentError::NoSuchSegment { wanted, segments } => {
+                let allowed = format!("{} to {}", segments.start(), segments.end());
+                Failure::field_in_words(message, "segments", &wanted.to_string(), &allowed)
+            }
+            ExperimentError::Refused { found, allowed, .. } => match first_name(&error) {
+                Some(field) => Failure::field_in_words(message, field, found, allowed),
+                None => message.into(),
+            },
+            _ => message.into(),
+        }
+    }
+}
+
+/// Returns the name of the argument that the first remedy of an error changes.
+fn first_name(error: &impl Remedied) -> Option<&'static str> {
+    error.remedies().first().and_then(name)
 }
 
 impl From<StudyError> for Failure {
@@ -162,7 +225,7 @@ impl From<StudyError> for Failure {
             StudyError::TooManyRecords(_) | StudyError::Memory { .. } => {
                 Failure(PyMemoryError::new_err(sentence(&error.to_string())))
             }
-            error => error.to_string().into(),
+            error => Failure::of_remedied(&error),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Fits of scenes to measured force curves.
 
+use crate::advice::argument;
 use crate::computing::{Call, Case};
 use crate::failure::Failure;
 use crate::results::{Report, bytes};
 use crate::words::command;
 use asperity::cli::arguments::Command;
-use asperity::data::{Control, on_threads, path_name};
+use asperity::data::{Control, Remedied, on_threads, path_name};
 use asperity::experiment::{
     CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
 };
@@ -26,7 +27,7 @@ impl Curve {
         }
         let path = PathBuf::from(&self.0);
         MeasuredCurve::read(&path, options).map_err(|error| {
-            let message = format!("{}: {error}", path_name(&path));
+            let message = format!("{}: {}", path_name(&path), error.in_words(argument));
             Failure::of_files(&[path], message)
         })
     }
@@ -117,6 +118,7 @@ fn fit_together(
             title: document.title(),
             fit: &fit,
             has_roughness_errors,
+            wording: argument,
         };
         bytes(Some(&document), &report, format)
     }))
@@ -137,6 +139,7 @@ fn fit_single(
             title: &title,
             curve: &curve,
             fit: &result,
+            wording: argument,
         };
         bytes(Some(&result.document), &report, format)
     }))
@@ -159,7 +162,7 @@ fn fit_each(
             let given = &curves[number as usize];
             let curve = given.read(reading).map_err(|failure| failure.message());
             let control = Control::default().stopped_by(&stop);
-            let row = CurveRow::of(&given.0, curve, fit, control);
+            let row = CurveRow::of(&given.0, curve, fit, control, argument);
             watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
             if stop() {
                 return Err("stopped".to_owned());
@@ -181,6 +184,7 @@ fn fit_each(
             scene: document.scene(),
             free: &parameters,
             rows: &rows,
+            wording: argument,
         };
         bytes(Some(&document), &report, format)
     }))

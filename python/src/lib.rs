@@ -3,6 +3,7 @@
 //! The native part of the package `asperity` of Python, between Python and the libraries of
 //! Asperity. It computes nothing itself.
 
+mod advice;
 mod computing;
 mod failure;
 mod fit;

@@ -1,6 +1,7 @@
 //! Results of scenes: the functions of the libraries, and the reports of the program as their
 //! answers.
 
+use crate::advice::argument;
 use crate::computing::{Call, Case, DEFECT};
 use crate::failure::Failure;
 use crate::force_loop::Loop;
@@ -139,6 +140,7 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
                 estimate,
                 ensemble,
                 deviation,
+                wording: argument,
             };
             bytes(named(&case.document, &case.in_memory), &report, format)
         }))
@@ -295,6 +297,7 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
                     title,
                     scene,
                     reference,
+                    wording: argument,
                 },
                 format,
             )

@@ -1,5 +1,6 @@
 //! Measured surfaces: from files by all readers of the program, or from arrays.
 
+use crate::advice::argument;
 use crate::computing::computed;
 use crate::failure::Failure;
 use crate::results::{Report, bytes};
@@ -58,6 +59,7 @@ impl Surface {
             preload,
             profiles,
             jobs,
+            wording: argument,
         };
         let heights = match &map {
             Some((map, spacing)) => Some((map.as_slice()?, map.shape()[1], *spacing)),

@@ -92,7 +92,7 @@ pub(super) fn cost(arguments: &CostArguments, stdout: &mut dyn Write) -> Result<
                 control.report(Trying { knob, setting });
             }
         };
-        measure(scene, &folder, arguments.budget, stop, &mut report)
+        measure(scene, &folder, arguments.budget, stop, &mut report).map_err(CliError::message)
     })?;
     let mut model = None;
     if arguments.model {

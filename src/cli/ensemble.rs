@@ -1,6 +1,7 @@
 //! `asperity fit … --profiles`: the work of adhesion of a rough body by comparison with random
 //! profiles.
 
+use super::advice::option;
 use super::error::CliError;
 use super::fits::{Curves, files_of};
 use super::output::Origin;
@@ -103,7 +104,7 @@ pub(super) fn ensemble(
         let name = path_name(path);
         match MeasuredCurve::read(path, &reading) {
             Ok(curve) => Ok((name, curve)),
-            Err(error) => Err(CliError::named(&name, no_curve(path, &error))),
+            Err(error) => Err(CliError::named(&name, no_curve(path, &error, option))),
         }
     };
     let curves = files_of(arguments.paths, arguments.output.file())?
@@ -122,6 +123,7 @@ pub(super) fn ensemble(
         fit_ensemble(&curves, &document, &options, control)
     })?;
     let report = EnsembleFitReport {
+        wording: option,
         title: document.title(),
         fit: &found,
         has_roughness_errors: options.height_error.is_some() || options.hurst_error.is_some(),

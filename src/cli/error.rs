@@ -1,5 +1,6 @@
 //! Errors of commands.
 
+use super::advice::advised;
 use asperity_data::WriteError;
 use std::error::Error;
 use std::fmt::Display;
@@ -43,6 +44,11 @@ impl CliError {
         self.exit_code > 128
     }
 
+    /// Creates an error with the name of its place, and with the options that help.
+    pub fn advised(name: impl Display, error: &(dyn Error + 'static)) -> CliError {
+        CliError::named(name, advised(error))
+    }
+
     /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.
     pub fn named(name: impl Display, error: impl Display) -> CliError {
         CliError::message(format!("{name}: {error}"))
@@ -62,7 +68,7 @@ impl<E: Error + 'static> From<E> for CliError {
         let message = match of_file {
             Some(WriteError::Exists(_)) => format!("{error}; --force overwrites it"),
             _ if of_output.is_some() => format!("standard output: cannot be written: {error}"),
-            _ => error.to_string(),
+            _ => advised(any),
         };
         let reason = match of_file {
             Some(WriteError::Failed { reason, .. }) => Some(reason),

@@ -1,5 +1,6 @@
 //! `asperity [SCENE]`: opens the explorer on a scene or on a finished study.
 
+use super::advice::option;
 use super::error::CliError;
 use super::scene::{Overrides, compute, open_scene};
 use crate::explorer::autosave;
@@ -208,7 +209,8 @@ fn opening(
                 None => errors.into(),
             }
         }
-        error => CliError::message(error.to_string()),
+        OpeningError::Study(error) => (*error).into(),
+        error => error.into(),
     })?;
     opening.document = arguments.overrides.apply(opening.document)?;
     if let Some(other) = &arguments.compare {
@@ -230,7 +232,7 @@ fn opening(
         };
         let measured = Measured::read(path, reading);
         opening.measured =
-            Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error)))?);
+            Some(measured.map_err(|error| CliError::named(&name, no_curve(path, &error, option)))?);
     }
     Ok(opening)
 }

@@ -58,10 +58,10 @@ impl FindArguments {
     ) -> Result<Question, CliError> {
         let scene = document.scene();
         let question = Question::new(scene, &self.field, self.condition, profiles, simulation);
-        let mut question = question.map_err(|error| CliError::named(document.name(), error))?;
+        let mut question = question.map_err(|error| CliError::advised(document.name(), &error))?;
         if let Some(range) = &self.range {
             let range = Axis::parse_range(range, question.axis.unit);
-            question.searched = range.map_err(|error| CliError::named("--range", error))?;
+            question.searched = range.map_err(|error| CliError::advised("--range", &error))?;
         }
         Ok(question)
     }

@@ -1,5 +1,6 @@
 //! `asperity fit`: fits the parameters of a scene to a measured force curve.
 
+use super::advice::option;
 use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
 use super::fits::{Curves, fit_all};
@@ -128,7 +129,7 @@ fn fit_one(
     let title = path_name(path);
     let reading = curves.reading_for(&document);
     let curve = MeasuredCurve::read(path, &reading)
-        .map_err(|error| CliError::named(&title, no_curve(path, &error)))?;
+        .map_err(|error| CliError::named(&title, no_curve(path, &error, option)))?;
     let mut fit = Fit::of(&document);
     for parameter in &arguments.free {
         fit = fit.free(*parameter);
@@ -152,6 +153,7 @@ fn fit_one(
         })?;
     }
     let report = FitReport {
+        wording: option,
         title: &title,
         curve: &curve,
         fit: &found,

@@ -1,10 +1,12 @@
 //! `asperity fit` for several curves: files and folders, on all cores, into a table that is
 //! continued where it ended.
 
+use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
 use super::scene::{Overrides, threads};
+use asperity_data::Remedied;
 use asperity_data::{
     Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
     write_new,
@@ -196,6 +198,7 @@ impl Batch<'_> {
             scene: self.document.scene(),
             free: &self.free,
             rows,
+            wording: option,
         }
     }
 
@@ -284,9 +287,10 @@ impl Batch<'_> {
             .fold(Fit::of(&self.document), Fit::free);
         CurveRow::of(
             name,
-            MeasuredCurve::read(path, &self.reading),
+            MeasuredCurve::read(path, &self.reading).map_err(|error| error.in_words(option)),
             &fit,
             Control::default().stopped_by(stop),
+            option,
         )
     }
 

@@ -30,7 +30,7 @@ pub(super) fn line(arguments: &LineArguments, stdout: &mut dyn Write) -> Result<
     warn(&document, &document.scene().warnings());
     let mut simulation = simulation_of(&document);
     let made = simulation.make_line(document.scene());
-    let (line, ..) = made.map_err(|error| CliError::named(document.name(), error))?;
+    let (line, ..) = made.map_err(|error| CliError::advised(document.name(), &error))?;
     arguments.output.write(
         stdout,
         line,

@@ -3,6 +3,7 @@
 //! Results go to standard output, everything else to standard error. Exit codes: 0 for success, 1
 //! for a failure of the input or the run, 2 for wrong usage.
 
+mod advice;
 pub mod arguments;
 mod check;
 mod completions;

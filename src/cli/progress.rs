@@ -3,7 +3,6 @@
 
 use super::error::CliError;
 use asperity_data::Control;
-use std::fmt::Display;
 use std::io;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -70,7 +69,7 @@ pub(super) struct Task<'a> {
 ///
 /// # Errors
 /// The computation fails, or a signal ended it.
-pub(super) fn watched<P, T, E: Display>(
+pub(super) fn watched<P, T, E: Into<CliError>>(
     task: Task<'_>,
     mut show: impl FnMut(&P, &mut ProgressLine),
     work: impl FnOnce(Control<'_, P>) -> Result<T, E>,
@@ -89,9 +88,12 @@ pub(super) fn watched<P, T, E: Display>(
     if watch.is_signalled() {
         return Err(watch.interrupted(STOPPED));
     }
-    result.map_err(|error| match task.name {
-        Some(name) => CliError::named(name, error),
-        None => CliError::message(error.to_string()),
+    result.map_err(|error| {
+        let error = error.into();
+        match task.name {
+            Some(name) => CliError::named(name, error),
+            None => error,
+        }
     })
 }
 

@@ -1,5 +1,6 @@
 //! `asperity reference`: a scene as a line and in three dimensions.
 
+use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
 use super::progress::{ProgressLine, Task, watched};
@@ -52,6 +53,7 @@ pub(super) fn reference(
     let found = compared(&document, options, arguments.profiles.threads())?;
     let scene = document.scene();
     let report = ReferenceReport {
+        wording: option,
         title: document.title(),
         scene,
         reference: &found,

@@ -81,7 +81,7 @@ pub(super) fn reversals(
     let (ends, count) = arguments.preloads.unwrap_or((None, USUAL));
     let map = map_of(&document, ends, count, &mut simulation)?;
     let warnings = warnings_of_reversals(&map, scene, &mut simulation)
-        .map_err(|error| CliError::named(document.name(), error))?;
+        .map_err(|error| CliError::advised(document.name(), &error))?;
     if !holds_warnings(format) {
         warn(&document, &warnings);
     }

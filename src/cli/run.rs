@@ -1,5 +1,6 @@
 //! `asperity run`: computes scenes without the explorer.
 
+use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, PICTURES, TEXT_OR_PICTURE};
 use super::progress::{ProgressLine, Task, watched};
@@ -412,6 +413,7 @@ fn write_loading(
         None => None,
     };
     write(&RunReport {
+        wording: option,
         title: document.title(),
         scene,
         outcome: &outcome,
@@ -498,7 +500,6 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
         document, scene, ..
     } in chosen
     {
-        let failed = |error| CliError::named(document.name(), error);
         let mut simulation = simulation_of(document);
         let mut sets = ContactSets::new(has_patches);
         let outcome = compute_stages(document, scene, |stop, after| {
@@ -512,7 +513,9 @@ fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, C
         figures.push(match has_patches {
             true => sets.patches_figure(document.title(), &outcome),
             false => {
-                let (line, ..) = simulation.make_line(scene).map_err(failed)?;
+                let (line, ..) = simulation
+                    .make_line(scene)
+                    .map_err(|error| CliError::advised(document.name(), &error))?;
                 sets.profile_figure(document.title(), &outcome, line)
             }
         });

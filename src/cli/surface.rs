@@ -1,12 +1,13 @@
 //! `asperity surface`: analyses measured surfaces and the equivalent line.
 
+use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, check_file};
 use super::progress::{ProgressLine, Task, watched};
 use super::scene::{MOST_LINES, threads};
 use crate::explorer::recognition::no_surface;
 use asperity_contact::Move;
-use asperity_data::{Control, parse_quantity, path_name, round_to, write_new};
+use asperity_data::{Control, Remedied, Wording, parse_quantity, path_name, round_to, write_new};
 use asperity_report::{Format, MeasuredFace, SurfaceFile, SurfaceReport, named_from};
 use asperity_scene::stages::equivalent_springs;
 use asperity_scene::{Adhesion, Document, Material, Measured, Numerics, Roughness, Scene};
@@ -162,6 +163,7 @@ impl SurfaceArguments {
             preload: self.preload,
             profiles: self.lines,
             jobs: threads(None),
+            wording: option,
         })
     }
 
@@ -203,6 +205,8 @@ pub struct SurfaceTask {
     pub profiles: Option<u32>,
     /// Number of threads. No result depends on it.
     pub jobs: usize,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 /// Number of random profiles whose adhesion is computed, and number of all random profiles.
@@ -235,7 +239,7 @@ impl SurfaceTask {
     /// # Errors
     /// Returns an error for a file that cannot be read or analysed.
     pub fn faces(&self) -> Result<Vec<MeasuredFace>, CliError> {
-        let mut faces = vec![face(&self.files(), &self.options())?];
+        let mut faces = vec![self.face(&self.files())?];
         faces.extend(self.opposite_face()?);
         Ok(faces)
     }
@@ -248,7 +252,33 @@ impl SurfaceTask {
         let Some(file) = &self.measured.opposite else {
             return Ok(None);
         };
-        face(&[PathBuf::from(file)], &self.options()).map(Some)
+        self.face(&[PathBuf::from(file)]).map(Some)
+    }
+
+    /// Reads and analyses the files of one face.
+    fn face(&self, files: &[PathBuf]) -> Result<MeasuredFace, CliError> {
+        let options = self.options();
+        let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
+        for file in files {
+            let read = read(file, &options.reading);
+            let read = read.map_err(|error| {
+                CliError::named(path_name(file), no_surface(file, &error, self.wording))
+            })?;
+            facts.extend(
+                read.iter()
+                    .map(|surface| SurfaceFile::new(file.clone(), surface)),
+            );
+            surfaces.extend(read);
+        }
+        let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
+            let file = facts.get(error.surface().unwrap_or(0));
+            let name = file.map(|file| path_name(&file.path));
+            CliError::named(name.unwrap_or_default(), error.in_words(self.wording))
+        })?;
+        Ok(MeasuredFace {
+            files: facts,
+            analysis,
+        })
     }
 
     /// Creates a scene of the equivalent line over the length of the scan, on a body of this
@@ -298,6 +328,7 @@ impl SurfaceTask {
                 .collect(),
         };
         let mut report = SurfaceReport {
+            wording: self.wording,
             faces,
             line,
             modulus: self.modulus,
@@ -322,7 +353,10 @@ impl SurfaceTask {
             let profiles_control = profiles_control.reporting_to(&mut report_profile);
             let adhesion = MeasuredAdhesion::of_line(&scene, &report.line, count, profiles_control);
             let file = Path::new(&self.measured.file);
-            solved = Some(adhesion.map_err(|error| CliError::named(path_name(file), error))?);
+            solved =
+                Some(adhesion.map_err(|error| {
+                    CliError::named(path_name(file), error.in_words(self.wording))
+                })?);
         }
         report.adhesion = Some((scene, solved));
         Ok(report)
@@ -373,31 +407,6 @@ pub(super) fn surface(
     arguments
         .output
         .write(stdout, &report, format, Origin::Files(&files))
-}
-
-fn face(files: &[PathBuf], options: &MeasuredOptions) -> Result<MeasuredFace, CliError> {
-    let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
-    for file in files {
-        let read = read(file, &options.reading);
-        let read =
-            read.map_err(|error| CliError::named(path_name(file), no_surface(file, &error)))?;
-        facts.extend(
-            read.iter()
-                .map(|surface| SurfaceFile::new(file.clone(), surface)),
-        );
-        surfaces.extend(read);
-    }
-    let analysis = analyse(&surfaces, &options.spectrum).map_err(|error| {
-        let file = facts.get(error.surface().unwrap_or(0));
-        CliError::named(
-            file.map(|file| path_name(&file.path)).unwrap_or_default(),
-            error,
-        )
-    })?;
-    Ok(MeasuredFace {
-        files: facts,
-        analysis,
-    })
 }
 
 /// Writes a scene, in which the measured files are named relative to its own folder.

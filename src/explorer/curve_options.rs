@@ -386,6 +386,7 @@ pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explorer::command_line::curve_arguments;
     use clap::Args;
     use std::collections::BTreeSet;
 
@@ -398,7 +399,7 @@ mod tests {
                 .unwrap();
             option
                 .with(&CurveOptions::default(), typed)
-                .map(|options| options.to_string())
+                .map(|options| curve_arguments(&options))
         };
         for row in [
             "columns|height, force| --columns=height,force",

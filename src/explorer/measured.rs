@@ -1,6 +1,7 @@
 //! A measured force curve, placed over the displacement of the instrument beside the scene.
 
 use super::studies::Findings;
+use crate::explorer::advice;
 use asperity_contact::CurvePoint;
 use asperity_data::path_name;
 use asperity_experiment::{CurveOptions, ExperimentError, FitResult, Free, MeasuredCurve};
@@ -43,6 +44,13 @@ impl Measured {
             measured.offset = self.offset;
         }
         Ok(measured)
+    }
+
+    /// The sentences on the curve, with the rows that change what they state.
+    pub fn statements(&self) -> String {
+        let notes = self.curve.statements.iter();
+        let sentences: Vec<String> = notes.map(|note| note.in_words(advice::row)).collect();
+        sentences.join(" ")
     }
 
     /// The measured points as points of a force curve, for an instrument of this stiffness, N/m.

@@ -6,10 +6,12 @@
 #![allow(missing_docs)]
 
 pub mod action;
+pub mod advice;
 pub mod app;
 pub mod autosave;
 mod caption;
 mod close_up;
+pub mod command_line;
 pub mod commands;
 mod completion;
 pub mod config;

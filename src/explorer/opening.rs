@@ -4,6 +4,8 @@
 use super::ghost::Ghost;
 use super::measured::Measured;
 use super::recognition::MeasuredFile;
+use crate::explorer::advice;
+use asperity_data::Remedied;
 use asperity_experiment::CurveOptions;
 use asperity_scene::library::open_argument;
 use asperity_scene::{Document, SceneErrors, open};
@@ -113,7 +115,7 @@ impl Opened {
             Some(MeasuredFile::Curve) => {
                 let measured = Measured::read(Path::new(name), CurveOptions::default());
                 let opened = measured.map(|measured| Opened::Curve(Box::new(measured)));
-                opened.map_err(|error| error.to_string())
+                opened.map_err(|error| error.in_words(advice::row))
             }
             Some(MeasuredFile::Surface) => Err(
                 "a surface; its name, typed on the row of the roughness, makes it the roughness of the scene"

@@ -1,12 +1,11 @@
 //! Recognition of measured files that are given in another place than theirs, by what the readers
 //! find in them.
 
-use asperity_data::{path_name, printable};
+use asperity_data::{Remedied, Wording, path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
 use asperity_scene::text::quoted;
 use asperity_surface::files::content;
-use asperity_surface::{ReadOptions, read};
-use std::fmt::Display;
+use asperity_surface::{ReadOptions, SurfaceError, read};
 use std::path::Path;
 
 /// What a measured file holds.
@@ -73,23 +72,25 @@ pub fn no_scene(path: &Path) -> Option<String> {
 }
 
 /// The reason why a file is not read as a force curve, with the way to read it if it is a surface.
-pub fn no_curve(path: &Path, why: &ExperimentError) -> String {
+pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String {
+    let reason = why.in_words(wording);
     match (why, MeasuredFile::of(path)) {
         (ExperimentError::File(_), Some(MeasuredFile::Surface)) => {
-            with_way(why, MeasuredFile::Surface, path)
+            with_way(&reason, MeasuredFile::Surface, path)
         }
-        _ => why.to_string(),
+        _ => reason,
     }
 }
 
 /// The reason why a file is not read as a surface, with the way to read it if it is a force curve.
-pub fn no_surface(path: &Path, why: &impl Display) -> String {
+pub fn no_surface(path: &Path, why: &SurfaceError, wording: Wording) -> String {
+    let reason = why.in_words(wording);
     match MeasuredFile::of(path) {
-        Some(MeasuredFile::Curve) => with_way(why, MeasuredFile::Curve, path),
-        _ => why.to_string(),
+        Some(MeasuredFile::Curve) => with_way(&reason, MeasuredFile::Curve, path),
+        _ => reason,
     }
 }
 
-fn with_way(why: &impl Display, file: MeasuredFile, path: &Path) -> String {
-    format!("{why}; it can be read as {}", file.way(path))
+fn with_way(reason: &str, file: MeasuredFile, path: &Path) -> String {
+    format!("{reason}; it can be read as {}", file.way(path))
 }

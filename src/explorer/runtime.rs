@@ -12,6 +12,8 @@ use super::solver::{Solve, Solver, SolverThread};
 use super::studies::{Study, StudyThread};
 use super::update::{request, update};
 use super::writing;
+use crate::explorer::advice;
+use asperity_data::Remedied;
 use asperity_scene::Simulation;
 use asperity_scene::library::{Entry, own_folder, scenes};
 use std::collections::VecDeque;
@@ -149,7 +151,7 @@ impl Runtime {
                     return Vec::new();
                 };
                 let read = measured.read_again(wanted.options.clone()).map(Box::new);
-                Action::CurveRead(wanted, read.map_err(|error| error.to_string()))
+                Action::CurveRead(wanted, read.map_err(|error| error.in_words(advice::row)))
             }
             Task::Copy(_) | Task::Redraw | Task::Suspend => return Vec::new(),
         };

@@ -6,8 +6,10 @@ use super::manual_body::{ManualBegin, ManualBody};
 use super::player::{At, Player, indentations};
 use super::request::{Drive, ManualMove, Request, SnapshotRequest};
 use super::snapshot::{ContactSnapshot, Probe, Reply, SolvedScene, SpringsInContact, profile_part};
+use crate::explorer::advice;
 use asperity_contact::motion::Leg;
 use asperity_contact::{ContactError, CurvePoint, Direction, LegRecord, Move};
+use asperity_data::Remedied;
 use asperity_report::{LineColumns, SectionContact};
 use asperity_scene::stages::{AfterLeg, Reach};
 use asperity_scene::{
@@ -136,7 +138,7 @@ impl Solver {
                 }
                 Err(error) => report(Reply::Failed {
                     generation,
-                    error: error.to_string(),
+                    error: error.in_words(advice::row),
                 }),
             }
         }

@@ -2,11 +2,12 @@
 //! curve for a typed value. The explorer holds one value of each type, with a key for what it was
 //! computed from. A thread of its own performs the newest order of studies; a newer order ends it.
 
+use crate::explorer::advice;
 use asperity_data::Control;
+use asperity_data::Remedied;
 use asperity_scene::{Scene, Simulation};
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
-use std::fmt::Display;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -35,7 +36,7 @@ pub struct Study {
 impl Study {
     /// Creates a study; its key identifies the scene or the parameters it depends on. The value so
     /// far is shown whenever `run` reports it.
-    pub fn new<T: Any + Clone + Send + Sync, E: Display>(
+    pub fn new<T: Any + Clone + Send + Sync, E: Remedied>(
         key: impl ToString,
         is_long: bool,
         run: impl FnOnce(&mut Simulation, Control<'_, T>) -> Result<T, E> + Send + 'static,
@@ -47,7 +48,7 @@ impl Study {
                 control.report(part);
             };
             let value = run(simulation, control_of_value.reporting_to(&mut report))
-                .map_err(|error| error.to_string())?;
+                .map_err(|error| error.in_words(advice::row))?;
             Ok(Arc::new(value))
         });
         Study {

@@ -391,3 +391,22 @@ fn replaced_words_are_not_used() {
     }
     assert!(words > 100_000, "{words} words");
 }
+
+/// Python and the explorer show the texts of the libraries too, and have no options. The words of
+/// an option are in `src/cli/advice.rs`.
+#[test]
+fn libraries_name_no_option_of_the_command_line() {
+    for (module, code) in modules() {
+        if module[0] == "program" {
+            continue;
+        }
+        for line in code.lines() {
+            let mut starts = line.match_indices("--");
+            let named = starts.find(|(start, _)| {
+                let next = line[start + 2..].chars().next();
+                next.is_some_and(|letter| letter.is_ascii_lowercase())
+            });
+            assert!(named.is_none(), "{module:?}: {line}");
+        }
+    }
+}

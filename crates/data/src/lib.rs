@@ -19,6 +19,7 @@ mod powers;
 mod quantity;
 #[cfg(feature = "files")]
 mod read;
+mod remedy;
 #[cfg(feature = "files")]
 mod table;
 mod text;
@@ -55,6 +56,7 @@ pub use quantity::{
 };
 #[cfg(feature = "files")]
 pub use read::{ReadError, into_text, open_regular, read_limited, read_regular, read_regular_text};
+pub use remedy::{Note, Remedied, Remedy, Wording};
 #[cfg(feature = "files")]
 pub use table::{Kind, Table, TableOf};
 pub use text::{

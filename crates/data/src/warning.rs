@@ -5,6 +5,7 @@
 //! [`Warning`] of this premise, and every report prints the same sentence.
 
 use crate::quantity::{format_quantity, format_rounded};
+use crate::remedy::{Note, Wording};
 use std::fmt::{Display, Formatter, Result};
 
 /// A premise of the model that a result does not meet, with the values that show it. `Display`
@@ -115,7 +116,7 @@ pub enum Warning {
         /// Name of the file.
         file: String,
         /// The property, with the place in the file where it has one.
-        property: String,
+        property: Note,
     },
     /// Two measured surfaces of one roughness have very different rms heights.
     SurfacesFarApart {
@@ -357,6 +358,17 @@ impl Warning {
             Warning::OffsetRows => "offset_rows",
             Warning::WavesApart { .. } => "waves_apart",
             Warning::TipArtefacts { .. } => "tip_artefacts",
+        }
+    }
+
+    /// Returns the sentences of the warning, with its remedies in the words of an interface.
+    pub fn in_words(&self, wording: Wording) -> String {
+        match self {
+            Warning::MeasuredFile { file, property } => {
+                let property = property.in_words(wording);
+                format!("{file}: {property}. {}", self.remedy())
+            }
+            other => other.to_string(),
         }
     }
 

@@ -4,7 +4,8 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::words::{plural, whole_percent};
 use asperity_data::{
-    AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, per_cent,
+    AxisScale, Kind, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
+    grouped, per_cent,
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -31,6 +32,8 @@ pub struct EnsembleFitReport<'a> {
     pub fit: &'a EnsembleFit,
     /// True if the user stated a standard error of the rms height or of the Hurst exponent.
     pub has_roughness_errors: bool,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 impl Report for EnsembleFitReport<'_> {
@@ -41,7 +44,7 @@ impl Report for EnsembleFitReport<'_> {
             sheet.paragraph(&sentence);
         }
         if let Some(reason) = &fit.unsuitable_profile {
-            sheet.paragraph(&reason.to_string());
+            sheet.paragraph(&reason.note().in_words(self.wording));
         }
         sheet.heading(&format!("Many random profiles of {}", self.title));
         if let Some(sentence) = &fit.instrument {
@@ -190,10 +193,10 @@ impl EnsembleFitReport<'_> {
 
     /// Adds the effect of errors of the roughness, which the curves cannot show.
     fn add_effect_of_roughness(&self, sheet: &mut Sheet) {
-        let mut options = "";
+        let mut errors = Note::new("The interval leaves out errors of the roughness.");
         if let Some(shifts) = self.fit.roughness {
             // Errors of a measured roughness cannot be stated.
-            options = ": --height-error, --hurst-error state them";
+            errors = errors.with(Remedy::RoughnessErrors);
             let step = per_cent(HEIGHT_CHANGE);
             let by_height = relative_change(shifts.work_by_height * HEIGHT_CHANGE);
             let by_hurst = relative_change(shifts.work_by_hurst * HURST_CHANGE);
@@ -203,9 +206,7 @@ impl EnsembleFitReport<'_> {
             ));
         }
         if !self.has_roughness_errors {
-            sheet.paragraph(&format!(
-                "The interval leaves out errors of the roughness{options}."
-            ));
+            sheet.paragraph(&errors.in_words(self.wording));
         }
     }
 

@@ -4,7 +4,7 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::warnings_section;
 use crate::words::percent;
-use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped};
+use asperity_data::{AxisScale, Table, Wording, format_quantity, format_rounded, grouped};
 use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
@@ -23,6 +23,8 @@ pub struct FitReport<'a> {
     pub curve: &'a MeasuredCurve,
     /// Fitted parameters of the scene, and how well it describes the curve.
     pub fit: &'a FitResult,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 /// Fit in SI units, with facts about its curve.
@@ -37,7 +39,7 @@ struct FitJson<'a> {
     points_used: usize,
     points_left_out: usize,
     /// Sentences on what was assumed when the curve was read.
-    reading: Vec<&'a String>,
+    reading: Vec<String>,
 }
 
 impl Report for FitReport<'_> {
@@ -49,7 +51,7 @@ impl Report for FitReport<'_> {
         }
         sheet.heading(&format!("Curve {}", self.title));
         for sentence in self.assumptions() {
-            sheet.paragraph(sentence);
+            sheet.paragraph(&sentence);
         }
         sheet.heading(&format!("Fit of {}", fit.document.title()));
         self.add_parameters(&mut sheet);
@@ -142,7 +144,7 @@ impl FitReport<'_> {
     /// Returns sentences on a curve that the model does not describe; `None` if it describes the
     /// curve.
     fn not_described(&self) -> Option<String> {
-        let reason = self.fit.reason.as_ref()?;
+        let reason = self.fit.reason.as_ref()?.note().in_words(self.wording);
         let intervals = if self.fit.has_other_profile() {
             "are the whole ranges of the search, since each profile gives other values"
         } else {
@@ -156,8 +158,9 @@ impl FitReport<'_> {
     }
 
     /// Returns what was assumed when the curve was read, and when it was fitted.
-    fn assumptions(&self) -> impl Iterator<Item = &String> {
-        self.curve.statements.iter().chain(&self.fit.assumptions)
+    fn assumptions(&self) -> impl Iterator<Item = String> {
+        let notes = self.curve.statements.iter().chain(&self.fit.assumptions);
+        notes.map(|note| note.in_words(self.wording))
     }
 
     /// Adds a table of the fitted parameters.

@@ -5,7 +5,7 @@ use crate::fit::FitReport;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::words::counted;
-use asperity_data::{AxisScale, Control, Kind, Table};
+use asperity_data::{AxisScale, Control, Kind, Note, Remedied, Remedy, Table, Wording};
 use asperity_data::{
     format_quantity, format_range, format_within, grouped, one_unit, printable, quartiles,
 };
@@ -66,6 +66,7 @@ impl CurveRow {
         curve: Result<MeasuredCurve, impl Display>,
         fit: &Fit<'_>,
         control: Control<'_>,
+        wording: Wording,
     ) -> Self {
         let curve = match curve {
             Ok(curve) => curve,
@@ -76,8 +77,9 @@ impl CurveRow {
                 title,
                 curve: &curve,
                 fit: &fit,
+                wording,
             }),
-            Err(error) => CurveRow::failed(title, &error.to_string()),
+            Err(error) => CurveRow::failed(title, &error.in_words(wording)),
         }
     }
 
@@ -92,7 +94,12 @@ impl CurveRow {
 
     /// Makes the row of a curve that was fitted.
     fn fitted(report: &FitReport<'_>) -> Self {
-        let FitReport { title, curve, fit } = *report;
+        let FitReport {
+            title,
+            curve,
+            fit,
+            wording,
+        } = *report;
         let force = curve.pull_off_force();
         let work = force.and_then(|force| report.pull_off_work(force));
         let mut parameters = Vec::with_capacity(fit.parameters.len());
@@ -101,7 +108,7 @@ impl CurveRow {
             parameters.push([fitted.value, low, high]);
         }
         let reason = match &fit.reason {
-            Some(reason) => reason.to_string(),
+            Some(reason) => reason.note().in_words(wording),
             None => String::new(),
         };
         CurveRow {
@@ -196,6 +203,8 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 /// Median and quartiles of a parameter over curves, and the number of these curves.
@@ -345,11 +354,12 @@ impl FitsReport<'_> {
             ));
         }
         if !self.free.contains(&Parameter::Offset) && without_fit < self.rows.len() {
-            sentences.push(format!(
+            let note = Note::new(
                 "The offset was not fitted, so the intervals leave out that first touch is known to the distance of two points \
-                 only: --free {} fits it.",
-                Parameter::Offset.name()
-            ));
+                 only.",
+            );
+            let offset = Remedy::Free(Parameter::Offset.name().to_owned());
+            sentences.push(note.with(offset).in_words(self.wording));
         }
         sentences
     }
@@ -606,6 +616,7 @@ mod tests {
             let rows: Vec<CurveRow> = described.chain(others).chain(failed).collect();
             let free = [Parameter::Work, Parameter::Modulus];
             let report = FitsReport {
+                wording: |remedy| format!("{remedy:?}"),
                 scene: document.scene(),
                 free: &free,
                 rows: &rows,
@@ -671,6 +682,7 @@ mod tests {
             .collect();
         let document = open("jkr-sphere").unwrap();
         let report = FitsReport {
+            wording: |remedy| format!("{remedy:?}"),
             scene: document.scene(),
             free: &[Parameter::Work],
             rows: &rows,
@@ -698,6 +710,7 @@ mod tests {
             [Parameter::Work, Parameter::Modulus],
         );
         let report = FitsReport {
+            wording: |remedy| format!("{remedy:?}"),
             scene: document.scene(),
             free: &free,
             rows: &rows,

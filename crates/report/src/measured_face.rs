@@ -2,7 +2,7 @@
 //! and warnings about their analysis.
 
 use crate::words::plural;
-use asperity_data::{NamedHeight, Warning, format_quantity, grouped, path_name, printable};
+use asperity_data::{NamedHeight, Note, Warning, format_quantity, grouped, path_name, printable};
 use asperity_surface::spectra::End;
 use asperity_surface::{Analysis, Topography};
 use serde::{Serialize, Serializer};
@@ -32,7 +32,7 @@ pub struct SurfaceFile {
     pub interpolated: usize,
     /// Sentences about unusual properties of the file.
     #[serde(skip)]
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Note>,
 }
 
 /// Writes a path. Characters that are not Unicode become U+FFFD.

@@ -6,7 +6,9 @@ use crate::status::duration;
 use crate::warnings::{counted_section, counted_texts};
 use crate::words::{counted, percent, whole_percent};
 use asperity_contact::Move;
-use asperity_data::{AxisScale, Table, format_quantity, format_rounded, grouped, memory_size};
+use asperity_data::{
+    AxisScale, Note, Remedy, Table, Wording, format_quantity, format_rounded, grouped, memory_size,
+};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Layer, Shape, Sign, Span, Stroke};
 use asperity_scene::Scene;
 use asperity_study::Statistics;
@@ -26,6 +28,8 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 /// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
@@ -312,8 +316,8 @@ impl ReferenceReport<'_> {
         if let Some(last_of_scene) = self.reference.omitted {
             let last_of_scene = grouped(last_of_scene);
             sentences += &format!(
-                " The squares do not resolve the waves up to {last_of_scene} of the scene, which both models leave out: --grid \
-                 refines the squares."
+                " The squares do not resolve the waves up to {last_of_scene} of the scene, which both models leave out: {}.",
+                (self.wording)(&Remedy::FinerGrid)
             );
         }
         sentences
@@ -448,7 +452,7 @@ impl ReferenceReport<'_> {
         }
         let forces = forces.join(", ");
         let help = match finer_grid {
-            Some(grid) => format!("; --grid {grid} may add them"),
+            Some(grid) => format!("; {} may add them", (self.wording)(&Remedy::Grid(grid))),
             None => String::new(),
         };
         Some(format!(
@@ -496,11 +500,12 @@ impl ReferenceReport<'_> {
                     "The largest is the model, at least {error}{waves}: more springs do not help."
                 )
             }
-            ("sample", _) => {
-                "The largest is the sample of squares and lines: --maps takes more of them."
-                    .to_owned()
-            }
-            ("grid", _) => "The largest is the grid of the squares: --grid refines it.".to_owned(),
+            ("sample", _) => Note::new("The largest is the sample of squares and lines.")
+                .with(Remedy::Maps)
+                .in_words(self.wording),
+            ("grid", _) => Note::new("The largest is the grid of the squares.")
+                .with(Remedy::FinerGrid)
+                .in_words(self.wording),
             _ => "The largest known error is the residual of the solver.".to_owned(),
         }
     }
@@ -812,6 +817,7 @@ mod tests {
         )
         .unwrap();
         let report = ReferenceReport {
+            wording: |remedy| format!("{remedy:?}"),
             title: "A sphere",
             scene: document.scene(),
             reference: &found,
@@ -851,6 +857,7 @@ mod tests {
         )
         .unwrap();
         let report = ReferenceReport {
+            wording: |remedy| format!("{remedy:?}"),
             title: "Rough",
             scene: document.scene(),
             reference: &found,
@@ -877,7 +884,15 @@ mod tests {
         let scene = document.scene();
         let outcome = asperity_scene::run(&document).unwrap();
         let budget = Budget::default();
-        let rows = crate::trust::error_rows(scene, &outcome, None, &budget, None, Some(&found));
+        let rows = crate::trust::error_rows(
+            scene,
+            &outcome,
+            None,
+            &budget,
+            None,
+            Some(&found),
+            |remedy| format!("{remedy:?}"),
+        );
         let row = rows
             .iter()
             .find(|(name, _)| *name == "three dimensions")
@@ -906,6 +921,7 @@ mod tests {
         )
         .unwrap();
         let report = ReferenceReport {
+            wording: |remedy| format!("{remedy:?}"),
             title: "A sphere",
             scene: document.scene(),
             reference: &found,

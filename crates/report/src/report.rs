@@ -206,7 +206,7 @@ impl Format {
             let name = chosen.name();
             let allowed = alternatives("", formats.iter().map(|format| format.name()));
             return Err(format!(
-                "--format {name}: this result has no such format; use {allowed}"
+                "format {name}: this result has no such format; use {allowed}"
             ));
         }
         let extensions: Vec<_> = formats.iter().map(|format| format.extension()).collect();
@@ -223,7 +223,7 @@ impl Format {
                 let name = chosen.name();
                 let extension = chosen.extension();
                 Err(format!(
-                    "{file}: the extension contradicts --format {name}; use .{extension}, or leave out --format"
+                    "{file}: the extension contradicts the format {name}; use .{extension}, or state no format"
                 ))
             }
             _ => Ok(format_of_extension),
@@ -292,9 +292,9 @@ mod tests {
             assert_eq!(of(path, Some(Format::Json)), Err(expected));
         }
         let expected =
-            "a.svg: the extension contradicts --format text; use .txt, or leave out --format";
+            "a.svg: the extension contradicts the format text; use .txt, or state no format";
         assert_eq!(of("a.svg", Some(Format::Text)), Err(expected.to_owned()));
-        let expected = "--format csv: this result has no such format; use text, json or svg";
+        let expected = "format csv: this result has no such format; use text, json or svg";
         assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
     }
 
@@ -354,6 +354,7 @@ mod tests {
             let scenes = [outcome.clone(), outcome.clone()].map(compared);
             let mut figures = vec![
                 RunReport {
+                    wording: |remedy| format!("{remedy:?}"),
                     title,
                     scene,
                     outcome: &outcome,

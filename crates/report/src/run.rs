@@ -6,7 +6,7 @@ use crate::report::{Json, Report};
 use crate::summary::Summary;
 use crate::warnings::warning_texts;
 use asperity_contact::{CurvePoint, Move, Patch, Work};
-use asperity_data::{Table, TableOf, Warning};
+use asperity_data::{Table, TableOf, Warning, Wording};
 use asperity_plot::Figure;
 use asperity_scene::discretisation::Choice;
 use asperity_scene::instrument::displacements;
@@ -36,6 +36,8 @@ pub struct RunReport<'a> {
     /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
     /// if it was not computed.
     pub deviation: Option<f64>,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 impl<'a> RunReport<'a> {
@@ -59,6 +61,7 @@ impl Report for RunReport<'_> {
             choice: self.choice,
             ensemble: self.ensemble,
             deviation: self.deviation,
+            wording: self.wording,
         };
         Some(summary.text())
     }

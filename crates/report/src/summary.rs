@@ -5,7 +5,7 @@ use crate::sheet::Sheet;
 use crate::trust::add_trust;
 use crate::warnings::{counted_section, warnings_section};
 use asperity_contact::{Move, Work};
-use asperity_data::{Warning, format_quantity, grouped};
+use asperity_data::{Warning, Wording, format_quantity, grouped};
 use asperity_scene::discretisation::Choice;
 use asperity_scene::loading::loading_text;
 use asperity_scene::stages::Timings;
@@ -31,6 +31,7 @@ pub(crate) struct Summary<'a> {
     /// Deviation of the adhesion force due to the spectrum of a measured surface, in N; `None` if
     /// it was not computed.
     pub(crate) deviation: Option<f64>,
+    pub(crate) wording: Wording,
 }
 
 impl Summary<'_> {
@@ -63,6 +64,7 @@ impl Summary<'_> {
             self.estimate,
             self.ensemble,
             self.deviation,
+            self.wording,
         );
         add_contact(&mut sheet, outcome);
         add_cost(&mut sheet, &outcome.history.work, &outcome.timings);
@@ -445,6 +447,7 @@ mod tests {
 
     fn text(scene: &Scene, outcome: &Outcome, estimate: Option<&Estimate>) -> String {
         let summary = Summary {
+            wording: |remedy| format!("{remedy:?}"),
             scene,
             outcome,
             estimate,

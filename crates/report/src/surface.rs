@@ -4,11 +4,12 @@ use crate::measured_face::{MeasuredFace, SurfaceFile};
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::spectrum_figure::{Spectra, spectrum_name, wave_numbers};
-use crate::warnings::{sentences_section, warning_texts};
+use crate::warnings::sentences_section;
 use crate::words::whole_percent;
 use asperity_contact::Move;
 use asperity_data::{
-    Kind, Table, Warning, format_quantity, format_range, grouped, path_name, per_cent,
+    Kind, Remedy, Table, Warning, Wording, format_quantity, format_range, grouped, path_name,
+    per_cent,
 };
 use asperity_plot::Figure;
 use asperity_scene::{CheckedScene, Governing, Scene};
@@ -58,6 +59,8 @@ pub struct SurfaceReport {
     /// whole is `None` if no adhesion was requested, and the second value is `None` if it was not
     /// computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
+    /// Words for the steps that help.
+    pub wording: Wording,
 }
 
 impl SurfaceReport {
@@ -92,7 +95,7 @@ impl Report for SurfaceReport {
         self.add_moments(&mut sheet);
         self.add_wavelengths(&mut sheet);
         if let Some((scene, computed)) = &self.adhesion {
-            add_adhesion(&mut sheet, scene, computed.as_ref());
+            add_adhesion(&mut sheet, scene, computed.as_ref(), self.wording);
         }
         sentences_section(&mut sheet, &self.warnings());
         Some(sheet.into_text())
@@ -106,13 +109,15 @@ impl Report for SurfaceReport {
             Some((scene, Some(computed))) => Some(AdhesionJson::new(scene, computed)),
             _ => None,
         };
-        let face = FaceJson::new(first);
+        let face = FaceJson::new(first, self.wording);
         let mut warnings = face.warnings;
         warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
         Some(Box::new(FaceJson {
             equivalent_line: Some(self.moments()),
             adhesion: Some(adhesion),
-            opposite: others.first().map(|face| Box::new(FaceJson::new(face))),
+            opposite: others
+                .first()
+                .map(|face| Box::new(FaceJson::new(face, self.wording))),
             warnings,
             ..face
         }))
@@ -276,7 +281,7 @@ impl SurfaceReport {
         for (number, face) in self.faces.iter().enumerate() {
             let whose = if number == 0 { "" } else { "opposite face: " };
             for warning in face.warnings() {
-                warnings.push(format!("{whose}{warning}"));
+                warnings.push(format!("{whose}{}", warning.in_words(self.wording)));
             }
         }
         warnings.extend(self.tabor_warning().iter().map(Warning::to_string));
@@ -378,13 +383,21 @@ fn add_self_affine_fit(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.row("roll-off wavelength", wavelength);
 }
 
+/// Number of profiles that is proposed for a computation of the adhesion.
+const PROFILES: u64 = 16;
+
 /// Adds the adhesion of random profiles with the spectrum of the equivalent line.
-fn add_adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhesion>) {
+fn add_adhesion(
+    sheet: &mut Sheet,
+    scene: &Scene,
+    computed: Option<&MeasuredAdhesion>,
+    wording: Wording,
+) {
     sheet.heading("Adhesion of the equivalent line");
     let preload = preload(scene);
     let loading = match preload {
         Some(force) => format!("to {}, then pull", format_quantity(force, "N")),
-        None => "turned at zero force (--preload presses before)".to_owned(),
+        None => format!("turned at zero force ({})", wording(&Remedy::Preload)),
     };
     sheet.row("loading", loading);
     let length = format_quantity(scene.length, "m");
@@ -396,7 +409,8 @@ fn add_adhesion(sheet: &mut Sheet, scene: &Scene, computed: Option<&MeasuredAdhe
         "adhesion force F_a(F=0)"
     };
     let Some(computed) = computed else {
-        let hint = format!("not computed on {springs} springs; --profiles 16 does");
+        let profiles = wording(&Remedy::Profiles(PROFILES));
+        let hint = format!("not computed on {springs} springs; {profiles} does");
         sheet.row(label, hint);
         return;
     };
@@ -499,7 +513,7 @@ impl<'a> AdhesionJson<'a> {
 
 impl<'a> FaceJson<'a> {
     /// Collects the facts of one face.
-    fn new(face: &'a MeasuredFace) -> Self {
+    fn new(face: &'a MeasuredFace, wording: Wording) -> Self {
         let MeasuredFace { files, analysis } = face;
         let mut profile_spectra = Vec::with_capacity(analysis.spectra.len());
         for (direction, bins) in &analysis.spectra {
@@ -519,7 +533,11 @@ impl<'a> FaceJson<'a> {
             spectrum: analysis.isotropic.nodes().collect(),
             profile_spectra,
             ends_inside_scan: analysis.ends_inside,
-            warnings: warning_texts(&face.warnings()),
+            warnings: face
+                .warnings()
+                .iter()
+                .map(|warning| warning.in_words(wording))
+                .collect(),
             opposite: None,
         }
     }

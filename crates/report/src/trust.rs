@@ -3,7 +3,7 @@
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
-use asperity_data::{Warning, per_cent};
+use asperity_data::{Remedy, Warning, Wording, per_cent};
 use asperity_scene::{Estimate, Outcome, Scene};
 use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
@@ -18,12 +18,13 @@ pub(crate) fn add_trust(
     estimate: Option<&Estimate>,
     ensemble: Option<&Ensemble>,
     deviation: Option<f64>,
+    wording: Wording,
 ) {
     let theories = theory_rows(scene, outcome, ensemble);
     let heading = "Adhesion without a preload, by several theories";
     add_rows(sheet, heading, theories);
     if let Some(budget) = Budget::of(outcome, estimate, ensemble, deviation) {
-        let errors = error_rows(scene, outcome, estimate, &budget, ensemble, None);
+        let errors = error_rows(scene, outcome, estimate, &budget, ensemble, None, wording);
         add_rows(sheet, "Errors of F_a by their sources", errors);
     }
 }
@@ -78,6 +79,7 @@ pub fn error_rows(
     budget: &Budget,
     ensemble: Option<&Ensemble>,
     reference: Option<&Reference>,
+    wording: Wording,
 ) -> Vec<(&'static str, String)> {
     let is_exceeded = outcome.warnings.iter().any(Warning::exceeds_errors);
     let mut rows = vec![
@@ -92,7 +94,7 @@ pub fn error_rows(
         rows.push(("three dimensions", difference));
     }
     rows.push(("model", model_in_words(scene, reference, is_exceeded)));
-    let largest = largest_in_words(budget, is_exceeded).to_owned();
+    let largest = largest_in_words(budget, is_exceeded, wording);
     rows.push(("largest known error", largest));
     rows
 }
@@ -162,15 +164,22 @@ fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: boo
 }
 
 /// Returns the source of the largest known error, with what reduces this error.
-fn largest_in_words(budget: &Budget, is_exceeded: bool) -> &'static str {
-    match budget.largest {
-        None if is_exceeded => "not known: a premise does not hold (Warnings)",
-        Some("grid") => "grid: more springs reduce it (--tolerance)",
-        Some("sample") => "sample of profiles: more profiles reduce it (--profiles)",
+fn largest_in_words(budget: &Budget, is_exceeded: bool, wording: Wording) -> String {
+    let words = match budget.largest {
+        Some("grid") => {
+            let option = wording(&Remedy::Tolerance);
+            return format!("grid: more springs reduce it ({option})");
+        }
+        Some("sample") => {
+            let option = wording(&Remedy::MoreProfiles);
+            return format!("sample of profiles: more profiles reduce it ({option})");
+        }
         Some("model") => "model: more springs do not help",
         Some(_) => "surface: more or larger scans reduce it",
+        None if is_exceeded => "not known: a premise does not hold (Warnings)",
         None => "not known",
-    }
+    };
+    words.to_owned()
 }
 
 #[cfg(test)]
@@ -251,12 +260,14 @@ mod tests {
             &budget,
             None,
             None,
+            |remedy| format!("{remedy:?}"),
         );
         assert!(
             rows[3].1.starts_with("not known: a premise")
                 && rows[4].1.starts_with("not known: a premise")
         );
         let report = crate::RunReport {
+            wording: |remedy| format!("{remedy:?}"),
             title: "",
             scene: document.scene(),
             outcome: &outcome,
@@ -291,7 +302,9 @@ mod tests {
         let ensemble = Ensemble::of(scene, &[], 6, &mut Simulation::default(), control).unwrap();
         let rows = |ensemble: Option<&Ensemble>| {
             let budget = Budget::of(&outcome, None, ensemble, None).unwrap();
-            error_rows(scene, &outcome, None, &budget, ensemble, None)
+            error_rows(scene, &outcome, None, &budget, ensemble, None, |remedy| {
+                format!("{remedy:?}")
+            })
         };
         let words =
             |rows: Vec<(&str, String)>| rows.into_iter().map(|row| row.1).collect::<Vec<_>>();

@@ -3,6 +3,7 @@
 use crate::scene::errors::SceneErrors;
 use crate::simulation::outcome::RunError;
 use asperity_contact::ContactError;
+use asperity_data::{Remedied, Remedy};
 use thiserror::Error;
 
 /// Error of the functions at the root of this crate, such as [`open()`](crate::open) and
@@ -30,6 +31,15 @@ pub enum Error {
     /// enough memory.
     #[error(transparent)]
     Run(RunError),
+}
+
+impl Remedied for Error {
+    fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Error::Run(error) => error.remedies(),
+            Error::Values(_) | Error::Contact(_) => Vec::new(),
+        }
+    }
 }
 
 impl From<RunError> for Error {

@@ -78,7 +78,7 @@ pub mod fields {
 /// write the shell command that opens a scene, and find the name that a misspelt name probably
 /// means.
 pub mod text {
-    pub use crate::scene::command::{command_line, quoted};
+    pub use crate::scene::command::quoted;
     pub use crate::scene::errors::{did_you_mean, nearest};
     pub use crate::scene::read::explain;
     pub use crate::scene::text::index::{Text, TextSpan, line_column};

@@ -1,6 +1,6 @@
 //! The errors of studies.
 
-use asperity_data::{WriteError, memory_size, path_name};
+use asperity_data::{Remedied, Remedy, WriteError, memory_size, path_name};
 use asperity_half_space::HalfSpaceError;
 use asperity_scene::{RunError, Scene};
 use asperity_surface::SurfaceError;
@@ -62,6 +62,8 @@ pub enum StudyError {
         found: String,
         /// Values or requests that are allowed, in words.
         allowed: String,
+        /// Steps that help; none if no single step does.
+        remedies: Vec<Remedy>,
     },
     /// Two files have different results for the same values on the axes and the same profile.
     #[error(
@@ -81,7 +83,8 @@ pub enum StudyError {
     TooManyRecords(u64),
     /// The study needs more memory on the requested number of threads than the system provides.
     #[error(
-        "not enough memory: with --jobs {jobs} the study takes up to {}; allowed: fewer jobs, or fewer springs",
+        "not enough memory: on {} the study takes up to {}; allowed: fewer threads, or fewer springs",
+        threads(*jobs),
         memory_size(*bytes)
     )]
     Memory {
@@ -94,6 +97,26 @@ pub enum StudyError {
     /// the reason.
     #[error("could not start a worker thread: {0}")]
     NoThread(io::Error),
+}
+
+fn threads(count: u64) -> String {
+    if count == 1 {
+        "1 thread".to_owned()
+    } else {
+        format!("{count} threads")
+    }
+}
+
+impl Remedied for StudyError {
+    fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            StudyError::Measured(error) => error.remedies(),
+            StudyError::Run { error, .. } => error.remedies(),
+            StudyError::Refused { remedies, .. } => remedies.clone(),
+            StudyError::Memory { jobs: 2.., .. } => vec![Remedy::FewerThreads],
+            _ => Vec::new(),
+        }
+    }
 }
 
 impl From<RunError> for StudyError {
@@ -117,7 +140,16 @@ impl StudyError {
             place: place.map(str::to_owned),
             found: found.into(),
             allowed: allowed.into(),
+            remedies: Vec::new(),
         }
+    }
+
+    /// Returns the same error with a further step that helps.
+    pub(super) fn with(mut self, remedy: Remedy) -> StudyError {
+        if let StudyError::Refused { remedies, .. } = &mut self {
+            remedies.push(remedy);
+        }
+        self
     }
 
     /// Makes the error of a request for several profiles of a scene that has one.

@@ -13,7 +13,7 @@ use super::profiles::on_profiles;
 use super::question::{Answer, Question};
 use super::results::CountedWarning;
 use asperity_contact::Move;
-use asperity_data::{Control, format_quantity, format_range, quantile};
+use asperity_data::{Control, Remedy, format_quantity, format_range, quantile};
 use asperity_scene::{CheckedScene, Simulation};
 
 /// Largest relative change of a quantity over the searched range with which the number counts as
@@ -139,10 +139,13 @@ impl Found {
         if let Some(reason) = &self.refused
             && is_of_preload
         {
-            let (found, allowed) = reason
-                .split_once("; allowed: ")
-                .unwrap_or((reason, "a smaller range: --range A..B"));
-            return Err(question.refused(found, allowed));
+            return Err(match reason.split_once("; allowed: ") {
+                Some((found, allowed)) => question.refused(found, allowed),
+                None => {
+                    let error = question.refused(reason, "a smaller range");
+                    error.with(Remedy::Range)
+                }
+            });
         }
         let name = question.quantity.symbol_or_name();
         let Some(reachable) = self.reachable() else {

@@ -7,7 +7,7 @@ use super::error::StudyError;
 use super::plan::{PRELOAD, Plan};
 use super::quantity::Quantity;
 use asperity_contact::Move;
-use asperity_data::{AxisScale, format_quantity, format_range, parse_quantity};
+use asperity_data::{AxisScale, Remedy, format_quantity, format_range, parse_quantity};
 use asperity_scene::fields::Field;
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 
@@ -196,7 +196,7 @@ impl Question {
         }
         if from.is_nan() {
             let found = "there is no usual range around a number that is not above 0";
-            return Err(self.refused(found, "a range: --range A..B"));
+            return Err(self.refused(found, "a range").with(Remedy::Range));
         }
         let first = format_quantity(from, self.axis.unit);
         let last = format_quantity(to, self.axis.unit);

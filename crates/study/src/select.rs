@@ -6,7 +6,7 @@ use super::grid::{Grid, GridLayer, across_and_up, scale_of};
 use super::plan::Plan;
 use super::quantity::Quantity;
 use super::results::Results;
-use asperity_data::{AxisScale, format_quantity, parse_quantity};
+use asperity_data::{AxisScale, Note, Remedy, format_quantity, parse_quantity};
 
 /// Largest number of values of a second axis that is shown as curves. With more values the figure
 /// is a map.
@@ -68,7 +68,7 @@ pub struct Selected {
     pub curves: bool,
     /// Sentence that states the preload of the figure, if the study has several preloads and the
     /// figure shows the first one because the user chose none; otherwise `None`.
-    pub note: Option<String>,
+    pub note: Option<Note>,
 }
 
 /// How the axes of a study are used.
@@ -87,10 +87,11 @@ impl ChosenAxes {
     }
 }
 
-/// Axis that an option names.
+/// Axis that the user names.
 struct NamedAxis {
     index: usize,
-    option: &'static str,
+    /// What the axis is in the figure.
+    role: &'static str,
 }
 
 impl Selection {
@@ -184,20 +185,20 @@ impl Selection {
         let mut across = None;
         let mut up = None;
         if let Some(path) = &self.across {
-            across = Some(name_axis(&mut named, axes, path, "--x")?);
+            across = Some(name_axis(&mut named, axes, path, "the horizontal axis")?);
         }
         if let Some(path) = &self.up {
-            up = Some(name_axis(&mut named, axes, path, "--y")?);
+            up = Some(name_axis(&mut named, axes, path, "the vertical axis")?);
         }
         let mut fixed: Vec<Option<usize>> = axes
             .iter()
             .map(|axis| (axis.values.len() == 1).then_some(0))
             .collect();
         for (path, value) in &self.at {
-            let index = name_axis(&mut named, axes, path, "--at")?;
+            let index = name_axis(&mut named, axes, path, "a fixed value")?;
             let axis = &axes[index];
             let Some(place) = place_of(value, axis) else {
-                let place = format!("--at {path}={value}");
+                let place = format!("{path} = {value}");
                 let found = "the study has no such value";
                 return Err(StudyError::refused(Some(&place), found, values_of(axis)));
             };
@@ -219,24 +220,25 @@ fn quantity_named(name: &str, recorded: &[Quantity]) -> Result<Quantity, StudyEr
     if names.is_empty() {
         allowed = "none, only regimes were recorded".to_owned();
     }
-    let place = format!("--quantity {name}");
+    let place = format!("quantity {name}");
     let found = "this study has no such quantity";
     Err(StudyError::refused(Some(&place), found, allowed))
 }
 
-/// Returns the index of the axis that an option names, unless another option names it too.
+/// Returns the index of the axis that is named for a role in the figure, unless it has another
+/// role.
 fn name_axis(
     named: &mut Vec<NamedAxis>,
     axes: &[Axis],
     path: &str,
-    option: &'static str,
+    role: &'static str,
 ) -> Result<usize, StudyError> {
-    let index = find(axes, path, option)?;
+    let index = find(axes, path, role)?;
     if let Some(known) = named.iter().find(|known| known.index == index) {
-        let found = format!("named by {} and by {option}", known.option);
+        let found = format!("named as {} and as {role}", known.role);
         return Err(StudyError::refused(Some(path), found, "one of them"));
     }
-    named.push(NamedAxis { index, option });
+    named.push(NamedAxis { index, role });
     Ok(index)
 }
 
@@ -288,13 +290,14 @@ fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
     let example = &axes[free[0]];
     let path = &example.path;
     let value = format_quantity(example.values[0], example.unit).replace(' ', "");
-    let allowed =
-        format!("two, named by --x and --y, and the others fixed, such as --at {path}={value}");
-    StudyError::refused(None, found, allowed)
+    let error = StudyError::refused(None, found, "two, and the others fixed");
+    error
+        .with(Remedy::FigureAxes)
+        .with(Remedy::FixAxis(format!("{path}={value}")))
 }
 
 /// Fixes an axis of preloads at its first value if too many axes are free, and says so.
-fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<String> {
+fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<Note> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
     let free = chosen.fixed.iter().filter(|place| place.is_none()).count();
@@ -304,10 +307,8 @@ fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<String> {
     chosen.fixed[last] = Some(0);
     let count = axis.values.len();
     let path = &axis.path;
-    Some(format!(
-        "{} is the first of {count} preloads; --at {path}=VALUE selects another one",
-        axis.at(0)
-    ))
+    let note = Note::new(format!("{} is the first of {count} preloads", axis.at(0)));
+    Some(note.with(Remedy::OtherValue(path.clone())))
 }
 
 /// Returns true if the axis `few` has few values and the axis `many` has many. The few values are
@@ -337,7 +338,7 @@ fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> G
     }
 }
 
-fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, StudyError> {
+fn find(axes: &[Axis], path: &str, role: &'static str) -> Result<usize, StudyError> {
     if let Some(index) = axes.iter().position(|axis| axis.path == path) {
         return Ok(index);
     }
@@ -346,7 +347,7 @@ fn find(axes: &[Axis], path: &str, option: &'static str) -> Result<usize, StudyE
     if paths.is_empty() {
         allowed = "none, it has one cell".to_owned();
     }
-    let place = format!("{option} {path}");
+    let place = format!("{role} {path}");
     let found = "this study has no such axis";
     Err(StudyError::refused(Some(&place), found, allowed))
 }

@@ -1,7 +1,7 @@
 //! The error of this crate: the place, what was found there, and what is allowed.
 
 use asperity_data::text_table::TextFault;
-use asperity_data::{OutOfMemory, ReadError, shown};
+use asperity_data::{OutOfMemory, ReadError, Remedied, Remedy, shown};
 use std::fmt;
 use std::path::Path;
 use thiserror::Error;
@@ -71,9 +71,11 @@ impl Place {
 /// the file only if the place is a [`Place::FileOf`].
 ///
 /// ```
+/// use asperity_data::{Remedied, Remedy};
+///
 /// let options = asperity_surface::ReadOptions { unit: Some("m".parse()?), ..Default::default() };
 /// let error = asperity_surface::parse(b"0 1\n1 bad\n2 3\n", &options).unwrap_err();
-/// assert!(error.line() == Some(2) && error.to_string().contains("allowed: --interpolate"));
+/// assert!(error.line() == Some(2) && error.remedies() == [Remedy::Interpolate]);
 /// # Ok::<(), asperity_surface::SurfaceError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -86,9 +88,58 @@ pub enum SurfaceError {
         place: Place,
         /// What was found there, in words.
         found: String,
-        /// What is allowed there, in words, and where possible an option with which the file can be
-        /// read.
+        /// What is allowed there, in words.
         allowed: String,
+        /// Steps with which the file can be read; none if no option helps.
+        remedies: Vec<Remedy>,
+    },
+    /// The format of a file is known, but not read.
+    #[error("{place}{format} is not read; allowed: {allowed}")]
+    UnreadFormat {
+        /// The file.
+        place: Place,
+        /// Name of the format.
+        format: &'static str,
+        /// What is read in its place, in words.
+        allowed: &'static str,
+    },
+    /// Points of a surface have no height.
+    #[error(
+        "{place}{missing} of {points} points are missing ({:.2} %), the first here; allowed: points that are filled from their \
+         neighbours",
+        100.0 * *missing as f64 / *points as f64
+    )]
+    MissingPoints {
+        /// Place of the first missing point.
+        place: Place,
+        /// Number of missing points.
+        missing: usize,
+        /// Number of all points.
+        points: usize,
+    },
+    /// Neither the file nor the options state the unit of a quantity.
+    #[error("{place}no unit of {quantity} is stated; allowed: a unit in the file or beside it")]
+    NoUnit {
+        /// The file.
+        place: Place,
+        /// Name of the quantity: positions, distances or heights.
+        quantity: &'static str,
+        /// Unit that the file states for the positions alone.
+        unit_of_positions: Option<String>,
+    },
+    /// The file has no channel or surface that is meant, or several of them.
+    #[error("{place}{fault}: {}; allowed: {allowed}", channels.join(", "))]
+    Channel {
+        /// The file.
+        place: Place,
+        /// What is wrong, in words.
+        fault: String,
+        /// Descriptions of the channels or surfaces of the file.
+        channels: Vec<String>,
+        /// What is allowed, in words.
+        allowed: &'static str,
+        /// How one of them is chosen: by its name or by its number.
+        remedy: Remedy,
     },
     /// The operating system cannot read a file.
     #[error("{place}{reason}")]
@@ -116,6 +167,10 @@ impl SurfaceError {
     pub fn place(&self) -> &Place {
         match self {
             SurfaceError::Refused { place, .. }
+            | SurfaceError::UnreadFormat { place, .. }
+            | SurfaceError::MissingPoints { place, .. }
+            | SurfaceError::NoUnit { place, .. }
+            | SurfaceError::Channel { place, .. }
             | SurfaceError::Unreadable { place, .. }
             | SurfaceError::OutOfMemory { place, .. } => place,
             SurfaceError::Transform(_) => &Place::File,
@@ -162,10 +217,22 @@ impl SurfaceError {
         })
     }
 
+    /// Returns the same error with a further step that helps.
+    pub fn with(mut self, remedy: Remedy) -> Self {
+        if let SurfaceError::Refused { remedies, .. } = &mut self {
+            remedies.push(remedy);
+        }
+        self
+    }
+
     /// Returns the same error with a longer place, which `outer` makes from the present place.
     pub fn within(mut self, outer: impl FnOnce(Box<Place>) -> Place) -> Self {
         match &mut self {
             SurfaceError::Refused { place, .. }
+            | SurfaceError::UnreadFormat { place, .. }
+            | SurfaceError::MissingPoints { place, .. }
+            | SurfaceError::NoUnit { place, .. }
+            | SurfaceError::Channel { place, .. }
             | SurfaceError::Unreadable { place, .. }
             | SurfaceError::OutOfMemory { place, .. } => {
                 *place = outer(Box::new(std::mem::take(place)))
@@ -186,6 +253,31 @@ impl SurfaceError {
         SurfaceError::OutOfMemory {
             place: Place::Field("numerics.points"),
             error,
+        }
+    }
+}
+
+impl Remedied for SurfaceError {
+    fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            SurfaceError::Refused { remedies, .. } => remedies.clone(),
+            SurfaceError::MissingPoints { .. } => vec![Remedy::Interpolate],
+            SurfaceError::NoUnit {
+                unit_of_positions: Some(unit),
+                ..
+            } => {
+                let of_heights = Remedy::HeightUnit("nm".to_owned());
+                vec![Remedy::Unit(unit.clone()), of_heights]
+            }
+            SurfaceError::NoUnit {
+                unit_of_positions: None,
+                ..
+            } => vec![Remedy::Unit("um".to_owned())],
+            SurfaceError::Channel { remedy, .. } => vec![remedy.clone()],
+            SurfaceError::UnreadFormat { .. }
+            | SurfaceError::Unreadable { .. }
+            | SurfaceError::Transform(_)
+            | SurfaceError::OutOfMemory { .. } => Vec::new(),
         }
     }
 }
@@ -236,5 +328,6 @@ pub fn refused(place: Place, found: impl ToString, allowed: impl ToString) -> Su
         place,
         found: found.to_string(),
         allowed: allowed.to_string(),
+        remedies: Vec::new(),
     }
 }

@@ -1,5 +1,6 @@
 //! `asperity sweep plot`: draws figures of a merged study.
 
+use crate::cli::advice;
 use crate::cli::error::CliError;
 use crate::cli::output::OutputArguments;
 use asperity_report::{Format, study_curves, study_figure, study_map};
@@ -46,10 +47,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     };
     let format = arguments.output.format(FORMATS, usual)?;
     let study = Results::open(&arguments.folder)?;
-    let selected = arguments
-        .selection
-        .of(&study)
-        .map_err(|error| CliError::message(error.to_string()))?;
+    let selected = arguments.selection.of(&study).map_err(CliError::from)?;
     let Selected {
         grid,
         quantities,
@@ -57,7 +55,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         note,
     } = selected;
     // The figure is drawn even if standard error is closed.
-    let _ = note.map(|note| writeln!(io::stderr(), "{note}"));
+    let _ = note.map(|note| writeln!(io::stderr(), "{}", advice::note(&note)));
     // By request there is one scale alone.
     let scales = if arguments.selection.scale.is_some() {
         1

@@ -3,12 +3,13 @@
 use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
 use crate::explorer::app::App;
+use crate::explorer::command_line::{command_line, curve_arguments};
 use crate::explorer::measured::Measured;
 use crate::explorer::prompt::Purpose;
 use asperity_data::is_control;
 use asperity_report::{Format, check_extension};
 use asperity_scene::Document;
-use asperity_scene::text::{command_line, quoted};
+use asperity_scene::text::quoted;
 use std::path::{Path, PathBuf};
 
 pub fn ask_save(app: &mut App, then_quit: bool) {
@@ -115,7 +116,9 @@ pub fn ask_quit(app: &mut App) {
 /// Copies the command that opens the scene, with its changes and the measured curve beside it.
 pub fn copy_command(app: &mut App) {
     let measured = match &app.edit.measured {
-        Some(Measured { path, options, .. }) => format!(" --measured={}{options}", quoted(path)),
+        Some(Measured { path, options, .. }) => {
+            format!(" --measured={}{}", quoted(path), curve_arguments(options))
+        }
         None => String::new(),
     };
     let document = &app.edit.document;

@@ -3,6 +3,7 @@
 
 use super::edit;
 use crate::explorer::action::{CurveRequest, Task};
+use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::curve_options::{CurveOptionRow, OPTIONS};
 use crate::explorer::editor::Edited;
@@ -10,6 +11,7 @@ use crate::explorer::measured::{Fitting, Measured, fitted};
 use crate::explorer::parameters::Setting;
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
+use asperity_data::Remedied;
 use asperity_data::{Control, format_rounded, one_unit};
 use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
 use std::convert::Infallible;
@@ -41,7 +43,9 @@ pub fn study(app: &App) -> Option<Study> {
                 };
                 let fit = free.iter().copied().fold(Fit::of(&document), Fit::free);
                 let found = fit.run(&curve, control_of_fit.reporting_to(&mut count));
-                let found = found.map(Arc::new).map_err(|error| error.to_string());
+                let found = found
+                    .map(Arc::new)
+                    .map_err(|error| error.in_words(advice::row));
                 Ok::<_, Infallible>(Fitting {
                     free: free.clone(),
                     evaluations: 0,
@@ -185,7 +189,7 @@ pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured
         Ok(edited) => {
             edit::adopt_all(app, edited);
             if let Some(measured) = &app.edit.measured {
-                app.set_done(measured.curve.statements.join(" "));
+                app.set_done(measured.statements());
             }
         }
         Err(why) => match &wanted.typed {

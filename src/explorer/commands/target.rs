@@ -2,11 +2,13 @@
 
 use super::edit;
 use crate::explorer::action::Task;
+use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::parameters::{Parameter, Setting};
 use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use asperity_contact::Move;
+use asperity_data::Remedied;
 use asperity_report::found_in_words;
 use asperity_scene::text::ron_float;
 use asperity_study::{Ensemble, Found, Question};
@@ -99,7 +101,7 @@ pub fn study(app: &App) -> Option<Study> {
                 .and_then(|question| Found::of(question, simulation, control.of_part()));
             Ok::<_, Infallible>(Sought {
                 key,
-                found: found.map_err(|error| error.to_string()),
+                found: found.map_err(|error| error.in_words(advice::row)),
             })
         },
     ))

@@ -2,8 +2,10 @@
 //! manual loading.
 
 use super::row::{Exported, PaneRow, outcome};
+use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::caption::caption;
+use crate::explorer::command_line::curve_arguments;
 use crate::explorer::ghost::Ghost;
 use crate::explorer::measured::{Measured, fitted};
 use crate::explorer::panel::{Body, Panel, meaning};
@@ -49,6 +51,7 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
         title: name,
         curve,
         fit: fitted(&app.studies).filter(|_| app.is_current())?,
+        wording: advice::row,
     })
 }
 
@@ -85,8 +88,9 @@ fn fit(app: &App) -> Exported<'_> {
         .map(|fitted| fitted.parameter.name())
         .collect();
     let command = format!(
-        "asperity fit {}{options} --free={}",
+        "asperity fit {}{} --free={}",
         quoted(report.title),
+        curve_arguments(options),
         names.join(",")
     );
     Some((command.into(), Box::new(report)))

@@ -382,7 +382,7 @@ fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
 /// What was done to the measured curve when it was read.
 fn statements(app: &App) -> String {
     match &app.edit.measured {
-        Some(measured) => measured.curve.statements.join(" "),
+        Some(measured) => measured.statements(),
         None => String::new(),
     }
 }

@@ -1,5 +1,6 @@
 //! The properties of a pane, as one row of the table of panes.
 
+use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::panel::Panel;
 use crate::explorer::snapshot::SolvedScene;
@@ -70,6 +71,7 @@ pub fn outcome(app: &App) -> Exported<'_> {
         estimate: app.studies.value(),
         ensemble: app.studies.value(),
         deviation: measured.and_then(MeasuredAdhesion::fit_deviation),
+        wording: advice::row,
     };
     Some(("asperity run".into(), Box::new(report)))
 }

@@ -2,6 +2,7 @@
 //! the errors by their sources, and what other theories say of the same surface.
 
 use super::row::{Exported, PaneRow};
+use crate::explorer::advice;
 use crate::explorer::app::App;
 use crate::explorer::panel::{Panel, entries};
 use crate::explorer::snapshot::SolvedScene;
@@ -220,6 +221,7 @@ fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
         &budget,
         ensemble,
         reference,
+        advice::row,
     )
 }
 

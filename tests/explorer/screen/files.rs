@@ -2,8 +2,8 @@
 
 use super::*;
 use asperity::explorer::action::{Content, OutputFile};
+use asperity::explorer::command_line::command_line;
 use asperity::explorer::theme::Marker;
-use asperity::scene::text::command_line;
 use asperity_report::RunReport;
 use asperity_report::scene_provenance;
 use asperity_report::{Format, write};
@@ -104,6 +104,7 @@ fn the_curve_and_the_figures_are_those_of_the_command_line() {
         estimate,
         ensemble: None,
         deviation: None,
+        wording: asperity::explorer::advice::row,
     };
     let (mut curve, mut figures) = (Vec::new(), Vec::new());
     write(&mut curve, &report, Format::Csv, &provenance).unwrap();

@@ -3,6 +3,7 @@
 use super::*;
 use asperity::contact::Move;
 use asperity::experiment::{CurveOptions, Drift, FitResult};
+use asperity::explorer::command_line::curve_arguments;
 use asperity::explorer::measured::Fitting;
 use asperity::explorer::measured::Measured;
 use std::fmt::Write;
@@ -243,7 +244,7 @@ fn options_of_reading_are_rows_that_an_undo_restores() {
             "{row}: {shown} {:?}",
             driver.refusal()
         );
-        let read = measured.options.to_string();
+        let read = curve_arguments(&measured.options);
         assert!(read.contains(argument), "{row}: {read}");
         let others = measured.options != options();
         assert!(others && is_up_to_date(&driver.app), "{row}");

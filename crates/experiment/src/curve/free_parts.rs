@@ -4,7 +4,6 @@ use crate::curve::numerics::{Baseline, Extent, correlated, growing};
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::CurveOptions;
-use asperity_data::format_quantity;
 use std::ops::Range;
 
 /// Smallest number of points without contact.
@@ -180,10 +179,13 @@ impl FreeParts {
             Err(reason) => return refuse(reason, points, approach, least_noise),
         };
         if !(FEWEST..most).contains(&free) {
-            let place = if needs_approach { "before" } else { "without" };
-            let found = format!("no part {place} contact: {free} of {most} points");
-            let allowed = format!("at least {FEWEST}, found or by --free-points");
-            return refused(found, allowed);
+            let part = if needs_approach { "before" } else { "without" };
+            return Err(ExperimentError::NoFreePart {
+                part,
+                found: free,
+                points: most,
+                least: FEWEST,
+            });
         }
         Ok(FreeParts {
             before: before.ok(),
@@ -278,35 +280,16 @@ fn refuse<T>(
             "no part without contact after the retraction",
             "a retraction that ends without contact",
         ),
-        NoFreePart::Few => refused(
-            format!(
-                "{} points in the approach are too few to find the contact",
-                approach.len()
-            ),
-            format!("at least {}, or --free-points COUNT", 2 * FEWEST),
-        ),
+        NoFreePart::Few => Err(ExperimentError::ShortApproach {
+            found: approach.len(),
+            least: 2 * FEWEST,
+        }),
         NoFreePart::InContact if is_retraction_first(points, approach, least_noise) => refused(
             "the first segment begins in contact and ends without it: a retraction",
             "an approach first, in the order of time",
         ),
-        NoFreePart::InContact => refused(
-            "no part before contact: the force changes from the first point on",
-            "an approach that begins farther away; --free-points COUNT; --segments 2 for the retraction alone",
-        ),
-        NoFreePart::Straight { range, noise } if range > 20.0 * noise => refused(
-            format!(
-                "no contact, or contact from the first point on: the force changes by {} along one straight line",
-                format_quantity(range, "N")
-            ),
-            "a part before contact, then another slope; --free-points COUNT for a weak contact",
-        ),
-        NoFreePart::Straight { noise, .. } => refused(
-            format!(
-                "no contact: in the approach the force stays within its noise of {}",
-                format_quantity(noise, "N")
-            ),
-            "a change by more than the noise; --free-points COUNT for a weak contact",
-        ),
+        NoFreePart::InContact => Err(ExperimentError::BeginsInContact),
+        NoFreePart::Straight { range, noise } => Err(ExperimentError::NoContact { range, noise }),
     }
 }
 

@@ -11,11 +11,11 @@ use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
 use crate::curve::numerics::{Extent, right_angled};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
-use crate::error::{ExperimentError, refused};
+use crate::error::{ExperimentError, Part, refused, refused_with};
 use crate::read;
 use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
 use crate::read::points::Columns;
-use asperity_data::{format_quantity, grouped, mean};
+use asperity_data::{Note, Remedy, format_quantity, grouped, mean};
 use asperity_surface::files::content;
 use std::path::Path;
 
@@ -70,7 +70,7 @@ pub struct MeasuredCurve {
     pub(crate) of_body: Option<String>,
     /// Sentences on the assumptions and changes made when the curve was read, such as the columns
     /// and units.
-    pub statements: Vec<String>,
+    pub statements: Vec<Note>,
 }
 
 impl MeasuredCurve {
@@ -107,7 +107,7 @@ impl MeasuredCurve {
     ///     &CurveOptions::default(),
     /// )?;
     /// assert_eq!(curve.points().last(), Some((-99e-9, 0.0)));
-    /// assert!(curve.statements[0].contains("2 segments"));
+    /// assert!(curve.statements[0].to_string().contains("2 segments"));
     /// # Ok::<(), asperity_experiment::ExperimentError>(())
     /// ```
     pub fn parse(
@@ -166,15 +166,16 @@ impl MeasuredCurve {
         let mut points =
             Points::averaged(&columns.displacement, &columns.force, &segments, averaged);
 
-        let mut statements = columns.statements;
-        statements.extend(recognise_retraction(&mut points, options, least_noise)?);
+        let mut statements: Vec<Note> = columns.statements.into_iter().map(Note::new).collect();
+        let retraction = recognise_retraction(&mut points, options, least_noise)?;
+        statements.extend(retraction.map(Note::new));
         let negate = points.reverse(options.negate)?;
         let stated_stiffness = columns.stiffness.as_ref().map(|(_, stiffness)| *stiffness);
         let mut of_body = columns.of_body;
         if let Some(name) = &of_body
             && let Some(stiffness) = options.instrument.or(stated_stiffness)
         {
-            statements.push(points.add_deflection(name, stiffness));
+            statements.push(points.add_deflection(name, stiffness).into());
             of_body = None;
         }
 
@@ -193,9 +194,9 @@ impl MeasuredCurve {
         assumed.extend(counted(&points, &kept, &free, options));
         assumed.extend(left_out);
         assumed.extend(means_in_words(&points, averaged));
-        statements.insert(0, format!("{}.", assumed.join("; ")));
+        statements.insert(0, format!("{}.", assumed.join("; ")).into());
         let noise_statement = noise_in_words(noise, options, &free);
-        statements.push(format!("{} {noise_statement}", subtracted.statement));
+        statements.push(subtracted.statement.then(&noise_statement.into()));
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
             displacement: values_of(&points.displacement),
@@ -296,8 +297,11 @@ fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
 fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentError> {
     let count = columns.displacement.len();
     if count < FEWEST_POINTS {
-        let found = format!("{count} points with displacement and force");
-        return refused(found, format!("at least {FEWEST_POINTS}"));
+        return Err(ExperimentError::TooFewPoints {
+            part: Part::Curve,
+            found: count,
+            least: FEWEST_POINTS,
+        });
     }
     if let Some(noise) = options.noise
         && !(noise > 0.0 && noise.is_finite())
@@ -307,9 +311,8 @@ fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentErro
     }
     if are_shuffled(&columns.displacement) {
         let found = "the displacement goes to and fro from point to point";
-        let allowed =
-            "points in the order of time, and the column of the displacement by --columns";
-        return refused(found, allowed);
+        let allowed = "points in the order of time, and the column of the displacement";
+        return refused_with(found, allowed, [Remedy::Columns]);
     }
     Ok(())
 }
@@ -342,9 +345,7 @@ fn recognise_retraction(
     if options.segments == [1] {
         return Ok(None);
     }
-    let allowed = "an approach and a retraction, of several files joined in one; a retraction alone that ends without \
-                   contact; --segments 1 for an approach alone";
-    refused("the displacement does not turn: one segment", allowed)
+    Err(ExperimentError::OneSegment)
 }
 
 /// Brings approach and retraction into the order of time, and says in words what was done. Columns
@@ -416,9 +417,10 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
     let numbers = points.segment[0] + 1..=points.last_segment() + 1;
     for number in &options.segments {
         if !numbers.contains(number) {
-            let found = format!("--segments {number}: the curve has no such segment");
-            let allowed: Vec<String> = numbers.map(|number| number.to_string()).collect();
-            return refused(found, allowed.join(", "));
+            return Err(ExperimentError::NoSuchSegment {
+                wanted: *number,
+                segments: numbers,
+            });
         }
     }
     let mut kept = Vec::with_capacity(points.force.len());
@@ -429,11 +431,11 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
         }
     }
     if kept.len() < 2 * FEWEST {
-        let found = format!(
-            "{} points in the segments that are used, without pauses",
-            kept.len()
-        );
-        return refused(found, format!("at least {}", 2 * FEWEST));
+        return Err(ExperimentError::TooFewPoints {
+            part: Part::ChosenSegments,
+            found: kept.len(),
+            least: 2 * FEWEST,
+        });
     }
     Ok(kept)
 }
@@ -504,10 +506,10 @@ fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(),
     } else {
         "beginning of the retraction"
     };
-    let force = format_quantity(pressed, "N");
-    let found = format!("the force is negative where the body presses: {force} at the {place}");
-    let allowed = "--negate force where tension counts as positive, --negate none for a body that is pulled there";
-    refused(found, allowed)
+    Err(ExperimentError::NegativeWherePressed {
+        force: pressed,
+        place,
+    })
 }
 
 #[cfg(test)]
@@ -531,7 +533,7 @@ mod tests {
         );
         let said = "2 left out since a value is missing; means of 25 points each, 4 000 of them.";
         assert!(
-            curve.statements[0].ends_with(said),
+            curve.statements[0].to_string().ends_with(said),
             "{:?}",
             curve.statements
         );
@@ -691,7 +693,7 @@ mod tests {
                     segments: vec![3],
                     ..with()
                 },
-                "--segments 3: the curve has no such segment",
+                "segment 3: the curve has no such segment",
             ),
         ] {
             let error = from_text(&plain, &options).expect_err(said);

@@ -2,9 +2,9 @@
 
 use crate::curve::numerics::Extent;
 use crate::curve::segments::Segments;
-use crate::error::{ExperimentError, refused};
+use crate::error::{ExperimentError, refused_with};
 use crate::read::options::Negate;
-use asperity_data::{format_quantity, mean};
+use asperity_data::{Remedy, format_quantity, mean};
 use std::ops::Range;
 
 /// Points in the order of time. If there are many, each is the mean of several points of the file.
@@ -93,11 +93,11 @@ impl Points {
             } else {
                 "closer"
             };
-            let found =
-                format!("the body moves {direction} in the first segment with --negate {negate}");
-            let allowed =
-                "an approach first; --negate displacement for a distance between the bodies";
-            return refused(found, allowed);
+            let found = format!(
+                "the body moves {direction} in the first segment where the sign of {negate} is reversed"
+            );
+            let allowed = "an approach first; the reversed sign of a distance between the bodies";
+            return refused_with(found, allowed, [Remedy::NegateDisplacement]);
         }
         if negates_displacement {
             reverse_signs(&mut self.displacement);

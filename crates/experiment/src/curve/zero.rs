@@ -7,7 +7,7 @@ use crate::curve::numerics::{
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::{CurveOptions, Drift, Tilt};
-use asperity_data::{format_quantity, mean};
+use asperity_data::{Note, Remedy, format_quantity, mean};
 
 /// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
 const REMAINS: f64 = 5.0;
@@ -136,7 +136,7 @@ pub(crate) struct Subtracted {
     /// Drift, tilt and step that remain, N; 0 for each that was not found.
     pub remaining: [f64; 3],
     /// Sentences on all of them.
-    pub statement: String,
+    pub statement: Note,
 }
 
 impl FreeParts {
@@ -261,7 +261,7 @@ impl<'a> Lines<'a> {
         };
         let Some(slopes) = Slopes::through(&points, terms) else {
             let found = "drift and tilt are one line in the part before contact, and there is none after it";
-            return refused(found, "one of --drift remove and --tilt remove");
+            return refused(found, "the removal of one of them");
         };
         lines.slopes = slopes;
         lines.stated = lines.separable(&points);
@@ -342,7 +342,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Returns sentences on the zero, on all slopes and on those that remain.
-    fn statement(&self, zero: f64) -> String {
+    fn statement(&self, zero: f64) -> Note {
         let mut text = format!("Zero of the force at {}. ", newton(zero));
         text += &self.slopes_in_words();
         if self.with_step.is_some() {
@@ -351,21 +351,26 @@ impl<'a> Lines<'a> {
                 " Beside these lines the force after contact differs by {step} from that before."
             );
         }
+        let mut note = Note::new(text);
         if self.free.has_both() {
             if self.keeps_drift() {
-                text += " A drift remains: --drift remove takes it off.";
+                note = note.then(&Note::new("A drift remains.").with(Remedy::RemoveDrift));
             }
             if self.keeps_tilt() {
-                text += " A tilt remains: --tilt remove takes it off.";
+                note = note.then(&Note::new("A tilt remains.").with(Remedy::RemoveTilt));
             }
         } else if self.keeps_drift() && !self.removed.tilt && known_drift(self.options).is_none() {
-            text += " A line remains: --drift remove takes it off if it is over time, --tilt remove if it is over the displacement.";
+            let line =
+                "A line remains, which is over time (drift) or over the displacement (tilt).";
+            let remains = Note::new(line).with(Remedy::RemoveDrift);
+            note = note.then(&remains.with(Remedy::RemoveTilt));
         }
         if !self.is_straight && self.remaining() == [0.0; 3] {
-            text +=
-                " The parts without contact are no straight lines, as by interference of light.";
+            let curved =
+                "The parts without contact are no straight lines, as by interference of light.";
+            note = note.then(&Note::new(curved));
         }
-        text
+        note
     }
 
     /// Returns the sentences on drift and tilt with their errors, and what was done to them.
@@ -492,7 +497,11 @@ mod tests {
                 .map(|(d, f)| (d, f + 2.0 * (0.1 * d).sin())),
         );
         assert_eq!(keep(&waves), [0.0; 3]);
-        let stated = |text: &str, drift, tilt| read(text, drift, tilt).statements.concat();
+        let words = |_: &Remedy| "taken off".to_owned();
+        let stated = |text: &str, drift, tilt| -> String {
+            let notes = read(text, drift, tilt).statements;
+            notes.iter().map(|note| note.in_words(words)).collect()
+        };
         let is_curved =
             |text: &str| stated(text, Drift::Keep, Tilt::Keep).contains("no straight lines");
         assert!(is_curved(&waves) && !is_curved(&made(0.0, 0.0, 0.0)));
@@ -505,8 +514,7 @@ mod tests {
         let tilted = made(0.0, 3.0, 0.0);
         let kept = stated(&tilted, Drift::Keep, Tilt::Keep);
         assert!(
-            kept.contains("A tilt remains: --tilt remove takes it off.")
-                && !kept.contains("--drift"),
+            kept.contains("A tilt remains: taken off.") && !kept.contains("drift remains"),
             "{kept}"
         );
         assert!(!stated(&tilted, Drift::Keep, Tilt::Remove).contains("remains"));

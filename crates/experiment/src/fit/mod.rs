@@ -26,7 +26,7 @@ use crate::fit::result::FitResult;
 use crate::fit::scene::{with_values, wrong};
 use crate::fit::search::{MISFIT, Search, SearchResult};
 use crate::fit::space::Space;
-use asperity_data::{Control, format_rounded};
+use asperity_data::{Control, Note, Remedy, format_rounded};
 use asperity_scene::{Document, Simulation};
 
 /// Number of points that are enough for a curve whose residuals are more than noise.
@@ -174,12 +174,8 @@ fn find(
 }
 
 /// Returns what the fit takes for granted, in sentences.
-fn assumptions(
-    curve: &MeasuredCurve,
-    instrument: Option<String>,
-    free: &[Parameter],
-) -> Vec<String> {
-    let mut assumptions = Vec::from_iter(instrument);
+fn assumptions(curve: &MeasuredCurve, instrument: Option<String>, free: &[Parameter]) -> Vec<Note> {
+    let mut assumptions = Vec::from_iter(instrument.map(Note::new));
     if !free.contains(&Parameter::Offset) {
         assumptions.push(fixed_contact_point(curve));
     }
@@ -189,7 +185,7 @@ fn assumptions(
 /// Returns the sentence on the first touch, which a fit takes from the curve if it does not search
 /// the offset. A displacement that is off by half the distance of two points shifts the modulus by
 /// more than its interval if the noise is small.
-fn fixed_contact_point(curve: &MeasuredCurve) -> String {
+fn fixed_contact_point(curve: &MeasuredCurve) -> Note {
     let mut next = f64::INFINITY;
     for displacement in &curve.displacement {
         let distance = (displacement - curve.touch).abs();
@@ -199,11 +195,11 @@ fn fixed_contact_point(curve: &MeasuredCurve) -> String {
     }
     let contact_point = format_rounded(curve.touch, 3, "m");
     let next = format_rounded(next, 3, "m");
-    format!(
+    let text = format!(
         "First touch was taken at the point at {contact_point}, and the next point is {next} away. The offset was not fitted, so the \
-         intervals leave out this uncertainty: --free {} fits it.",
-        Parameter::Offset.name()
-    )
+         intervals leave out this uncertainty."
+    );
+    Note::new(text).with(Remedy::Free(Parameter::Offset.name().to_owned()))
 }
 
 /// Result of a search, compared with all points of the curve.
@@ -375,9 +371,8 @@ mod tests {
             free.parameters
         );
         let of_offset = |fit: &FitResult| {
-            fit.assumptions
-                .iter()
-                .any(|text| text.contains("--free offset"))
+            let mut remedies = fit.assumptions.iter().flat_map(Note::remedies);
+            remedies.any(|remedy| *remedy == Remedy::Free("offset".to_owned()))
         };
         assert!(
             of_offset(&fixed) && !of_offset(&free),

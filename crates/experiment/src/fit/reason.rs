@@ -5,7 +5,7 @@ use crate::curve::numerics::{Extent, dot, least_squares, right_angled, subtract_
 use crate::error::ExperimentError;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Parameter, Values};
-use asperity_data::{Warning, format_quantity, median};
+use asperity_data::{Note, Remedy, Warning, format_quantity, median};
 use asperity_scene::{CheckedScene, Simulation};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
@@ -32,8 +32,7 @@ const LEAPS: f64 = 0.02;
 const CUT: f64 = 5.0;
 
 /// Reason why a model does not describe a measured curve. `Display` writes a reason as one
-/// sentence. If an option of `asperity fit` or a field of the scene can remove the cause, the
-/// sentence names it.
+/// sentence, with the field of the scene that removes the cause if there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
@@ -53,22 +52,17 @@ pub enum Reason {
     )]
     Rigid(f64),
     /// The measured force without contact changes along a straight line over time.
-    #[error("The force drifts over time where nothing touches: --drift remove takes it off.")]
+    #[error("The force drifts over time where nothing touches.")]
     Drift,
     /// The measured force without contact changes along a straight line over the displacement.
-    #[error(
-        "The force has a slope over the displacement where nothing touches: --tilt remove takes it off."
-    )]
+    #[error("The force has a slope over the displacement where nothing touches.")]
     Tilt,
     /// The measured force without contact changes over time and also over the displacement.
-    #[error(
-        "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
-    )]
+    #[error("The force has slopes over time and displacement where nothing touches.")]
     DriftAndTilt,
     /// The measured forces before and after contact differ by this value in N.
     #[error(
-        "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
-         alone.",
+        "The force differs by {} before and after contact, by drag of a fluid or the like.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
@@ -79,16 +73,14 @@ pub enum Reason {
     /// The profile of the scene is one of many random profiles, and the specimen has another
     /// profile.
     #[error(
-        "The profile of the scene is one of many random ones, and the specimen has another one: --profiles compares the curve with \
-         many of them."
+        "The profile of the scene is one of many random ones, and the specimen has another one."
     )]
     OtherProfile,
     /// Approach and retraction differ more than in an elastic contact with a single work of
     /// adhesion.
     #[error(
-        "Approach and retraction differ as those of an elastic body do not: it relaxes (viscoelasticity), or adheres less on \
-         closing. --free {} tries the second, --segments 2 fits the retraction alone.",
-        Parameter::ClosingWork.name()
+        "Approach and retraction differ as those of an elastic body do not, because it relaxes (viscoelasticity) or adheres less \
+         on closing."
     )]
     Branches,
     /// The measured force rises over the displacement with this slope in N/m, which is larger than
@@ -101,13 +93,46 @@ pub enum Reason {
     /// Approach and retraction deviate from the model in the same way. The stiffness of the
     /// instrument, the form or the profile of the scene is likely to be wrong.
     #[error(
-        "Approach and retraction deviate alike: the instrument has another stiffness (--free stiffness tries that), or the body \
-         another form or profile."
+        "Approach and retraction deviate alike, because the body has another form or profile, or the instrument another \
+         stiffness."
     )]
     StiffnessOrForm,
     /// No other reason was found. The form or the profile of the scene is likely to be wrong.
     #[error("Another form or profile than that of the scene is likely.")]
     Form,
+}
+
+impl Reason {
+    /// Returns the sentence with the steps that remove the cause.
+    pub fn note(&self) -> Note {
+        let mut note = Note::new(self.to_string());
+        for remedy in self.remedies() {
+            note = note.with(remedy);
+        }
+        note
+    }
+
+    fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Reason::Drift => vec![Remedy::RemoveDrift],
+            Reason::Tilt => vec![Remedy::RemoveTilt],
+            Reason::DriftAndTilt => vec![Remedy::RemoveDrift, Remedy::RemoveTilt],
+            Reason::Step(_) => vec![Remedy::Segment(2)],
+            Reason::OtherProfile => vec![Remedy::ManyProfiles],
+            Reason::Branches => vec![free(Parameter::ClosingWork), Remedy::Segment(2)],
+            Reason::StiffnessOrForm => vec![free(Parameter::Stiffness)],
+            Reason::ShortProfile(_)
+            | Reason::CoarseProfile(_)
+            | Reason::Rigid(_)
+            | Reason::TaborNumber(_)
+            | Reason::Stiffness(_)
+            | Reason::Form => Vec::new(),
+        }
+    }
+}
+
+fn free(parameter: Parameter) -> Remedy {
+    Remedy::Free(parameter.name().to_owned())
 }
 
 impl Serialize for Reason {

@@ -4,7 +4,7 @@
 use crate::fit::parameter::Parameter;
 use crate::fit::reason::Reason;
 use crate::fit::search::MISFIT;
-use asperity_data::{Warning, format_within};
+use asperity_data::{Note, Warning, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -90,7 +90,7 @@ pub struct FitResult {
     /// Sentences about values that the fit took from the file or the points of the curve and did
     /// not search, such as the stiffness of the instrument.
     #[serde(skip)]
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Note>,
     /// Number of force curves that the fit computed.
     pub evaluations: usize,
     /// Computed force in N at each point of the measured curve. The force includes the fitted force

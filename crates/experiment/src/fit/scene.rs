@@ -198,6 +198,7 @@ pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
     ExperimentError::Refused {
         found,
         allowed: error.allowed.clone(),
+        remedies: Vec::new(),
     }
 }
 

@@ -12,12 +12,13 @@
 //! no member, because a start close to the result would be copied to the whole population.
 
 use crate::curve::numerics::{Extent, dot};
-use crate::error::{ExperimentError, refused};
+use crate::error::{ExperimentError, refused_with};
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
 use crate::fit::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
 use crate::fit::space::Space;
 use asperity_contact::ContactError;
+use asperity_data::Remedy;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -304,9 +305,8 @@ impl Search<'_> {
                 "the search ends at {} values of the parameters",
                 population.distinct()
             );
-            let allowed =
-                "more; other ranges of the parameters by --free NAME=A..B, or a larger --noise";
-            return refused(found, allowed);
+            let allowed = "more; other ranges of the parameters, or a larger noise";
+            return refused_with(found, allowed, [Remedy::FreeRange, Remedy::Noise]);
         }
         let without_adhesion = self.without_adhesion(&population, &samples)?;
         let residuals = self.refined(&population.best.residuals, WRONG_SIDE * noise);

@@ -8,17 +8,17 @@ use crate::read::names::{
 };
 use crate::read::options::CurveOptions;
 use asperity_data::text_table::{TextColumn, is_one_of};
-use asperity_data::{format_quantity, parse_quantity, shown};
+use asperity_data::{Remedy, format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
 /// Displacement per row in m, used before the rows have displacements.
 const OF_ROW: f64 = 1e-9;
-/// Option that helps if the columns are not recognised.
-const COLUMNS: &str = "--columns DISPLACEMENT,FORCE by names or numbers, such as --columns 1,3, or four where a retraction is \
-    beside its approach, such as --columns 1,2,1,3";
-/// Options that a file without names and units needs in addition to `--columns`.
-const UNITS: &str = "; with it --units, such as --units nm,nN, since the file states no units";
+/// What is allowed if the columns are not recognised.
+const COLUMNS: &str = "displacement and force by names or numbers of their columns, or four where a retraction is beside its \
+    approach";
+/// What a file without names and units needs in addition.
+const UNITS: &str = ", with their units, since the file states none";
 
 /// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
 #[derive(Clone, Copy, Debug)]
@@ -147,8 +147,10 @@ impl<'a> Table<'a> {
         }
         let ramp = self.options.ramp.or(self.stated.metadata.ramp);
         if ramp.is_none() {
-            let allowed = "a column of displacements too, or --ramp 500nm for forces of an approach and a retraction over 500 nm";
-            return Err(refused(Place::File, "one column of numbers", allowed));
+            let allowed = "a column of displacements too, or the travel of an approach and a retraction over which the forces \
+                are spaced";
+            let error = refused(Place::File, "one column of numbers", allowed);
+            return Err(error.with(Remedy::Ramp));
         }
         Ok(ramp)
     }
@@ -182,7 +184,7 @@ impl<'a> Table<'a> {
                     segment: None,
                 })
             }
-            other => Err(self.wrong(format!("--columns with {}", other.len()))),
+            other => Err(self.wrong(format!("{} stated columns", other.len()))),
         }
     }
 
@@ -262,7 +264,7 @@ impl<'a> Table<'a> {
         format!("{count} columns {}", names.join(", "))
     }
 
-    /// Returns the sentence on columns that `--columns` chooses against their names.
+    /// Returns the sentence on columns that the options choose against their names.
     fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
         if self.options.columns.is_empty() {
             return None;
@@ -273,7 +275,7 @@ impl<'a> Table<'a> {
         }
         let [displacement, force] = by_name[0].map(|place| self.name(place));
         Some(format!(
-            "Columns by --columns; by the names of the file they are {displacement} and {force}."
+            "Columns as stated beside the file; by its names they are {displacement} and {force}."
         ))
     }
 
@@ -292,11 +294,11 @@ impl<'a> Table<'a> {
     fn wrong(&self, found: String) -> SurfaceError {
         let has_units = !self.options.units.is_empty()
             || self.columns.iter().any(|column| column.unit.is_some());
-        let mut allowed = COLUMNS.to_owned();
         if self.is_unnamed() && !has_units {
-            allowed += UNITS;
+            let error = refused(Place::File, found, format!("{COLUMNS}{UNITS}"));
+            return error.with(Remedy::Columns).with(Remedy::Units);
         }
-        refused(Place::File, found, allowed)
+        refused(Place::File, found, COLUMNS).with(Remedy::Columns)
     }
 
     /// Returns the unit of a column of a quantity. The options have precedence over the file. A
@@ -316,8 +318,8 @@ impl<'a> Table<'a> {
 
         let Some(text) = option.or(stated) else {
             let found = format!("no unit of the {term} is stated");
-            let allowed = "--units nm,nN for displacement and force";
-            return Err(refused(Place::File, found, allowed));
+            let allowed = "units of displacement and force";
+            return Err(refused(Place::File, found, allowed).with(Remedy::Units));
         };
         if quantity == FORCE
             && option.is_none()
@@ -328,17 +330,15 @@ impl<'a> Table<'a> {
 
         let Some(value) = unit_value(text, si_unit, option.is_some()) else {
             let found = format!("{:?} is not a unit of the {term}", shown(text));
-            let allowed = format!(
-                "{unit_example} and the like, or the value of 1, such as --units nm,3.01nN"
-            );
-            return Err(refused(Place::File, found, allowed));
+            let allowed = format!("{unit_example} and the like, or the value of 1");
+            return Err(refused(Place::File, found, allowed).with(Remedy::ForceOfOne));
         };
         let mut statement = None;
         if let (Some(option), Some(stated)) = (option, stated)
             && unit(stated, si_unit) != Some(value)
         {
             statement = Some(format!(
-                "Unit of the {term} by --units: {}; the file states {}.",
+                "Unit of the {term} as stated beside the file: {}; the file states {}.",
                 shown(option),
                 shown(stated)
             ));
@@ -390,8 +390,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, Surface
 fn no_force(unit: &str, missing: &str) -> SurfaceError {
     let unit = shown(unit);
     let found = format!("the force is a deflection in {unit}, and the file states no {missing}");
-    let allowed = "the force of 1 in the column, such as --units nm,3.01nN";
-    refused(Place::File, found, allowed)
+    refused(Place::File, found, "the force of 1 in the column").with(Remedy::ForceOfOne)
 }
 
 /// Quantity and unit that follow from the name of a column.

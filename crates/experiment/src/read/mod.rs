@@ -273,12 +273,14 @@ pub(crate) mod tests {
                 (turn / 5e-8 - 1.0).abs() < 0.01 && (force / 1e-7 - 1.0).abs() < 0.01,
                 "{turn:e} {force:e}"
             );
-            let of_force = format!("Unit of the force by --units: {unit}nN; the file states nm.");
-            assert_eq!(
-                curve.statements[1],
-                "Unit of the displacement by --units: um; the file states nm."
+            let of_force = format!(
+                "Unit of the force as stated beside the file: {unit}nN; the file states nm."
             );
-            assert_eq!(curve.statements[2], of_force);
+            assert_eq!(
+                curve.statements[1].to_string(),
+                "Unit of the displacement as stated beside the file: um; the file states nm."
+            );
+            assert_eq!(curve.statements[2].to_string(), of_force);
         }
     }
 
@@ -341,7 +343,7 @@ pub(crate) mod tests {
             );
             // A file without names and units needs both options.
             assert!(
-                error.contains("; with it --units") == error.contains("without names"),
+                error.contains(", with their units") == error.contains("without names"),
                 "{error}"
             );
         }

@@ -1,8 +1,6 @@
 //! Options for reading and preparing a measured curve, which are arguments of the command line too.
 
 use asperity_data::parse_quantity;
-use asperity_scene::text::quoted;
-use std::fmt;
 use std::str::FromStr;
 
 /// Quantities whose signs are reversed on reading, so that the displacement grows on pressing and
@@ -179,51 +177,4 @@ pub struct CurveOptions {
     /// Number of points before contact; default: found from the force
     #[cfg_attr(feature = "clap", arg(long, value_name = "COUNT"))]
     pub free_points: Option<usize>,
-}
-
-/// ```
-/// use asperity_experiment::{CurveOptions, Tilt};
-///
-/// let options = CurveOptions { segments: vec![2], tilt: Tilt::Remove, ..CurveOptions::default() };
-/// assert_eq!(options.to_string(), " --segments=2 --tilt=remove");
-/// ```
-impl fmt::Display for CurveOptions {
-    /// Writes the options as arguments of the command line, each with a blank before it.
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let segments: Vec<String> = self.segments.iter().map(ToString::to_string).collect();
-        write_list(out, "columns", &self.columns)?;
-        write_list(out, "units", &self.units)?;
-        write_list(out, "segments", &segments)?;
-        if let Some(ramp) = self.ramp {
-            write!(out, " --ramp={ramp:?}m")?;
-        }
-        if let Some(negate) = self.negate {
-            write!(out, " --negate={negate}")?;
-        }
-        if let Some(zero) = self.zero {
-            write!(out, " --zero={zero:?}N")?;
-        }
-        match self.drift {
-            Drift::Keep => {}
-            Drift::Remove => write!(out, " --drift=remove")?,
-            Drift::Known(force) => write!(out, " --drift={force:?}N")?,
-        }
-        if self.tilt == Tilt::Remove {
-            write!(out, " --tilt=remove")?;
-        }
-        if let Some(noise) = self.noise {
-            write!(out, " --noise={noise:?}N")?;
-        }
-        if let Some(count) = self.free_points {
-            write!(out, " --free-points={count}")?;
-        }
-        Ok(())
-    }
-}
-
-fn write_list(out: &mut fmt::Formatter<'_>, name: &str, values: &[String]) -> fmt::Result {
-    if values.is_empty() {
-        return Ok(());
-    }
-    write!(out, " --{name}={}", quoted(values.join(",")))
 }

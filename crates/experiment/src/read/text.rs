@@ -539,7 +539,7 @@ mod tests {
             let is_merged = said.starts_with("first, ");
             let said = said.trim_start_matches("first, ");
             assert!(
-                found.statements[0].contains(said),
+                found.statements[0].to_string().contains(said),
                 "{said}: {:?}",
                 found.statements
             );
@@ -617,6 +617,7 @@ mod tests {
             );
             assert!(
                 curve.statements[1]
+                    .to_string()
                     .ends_with("the deflection of an instrument of 4 N/m was added.")
             );
         }
@@ -651,7 +652,9 @@ mod tests {
         let found = read(&paused);
         assert_same(&found, &plain, "pause");
         assert!(
-            found.statements[0].ends_with("200 before contact; 200 of pauses left out."),
+            found.statements[0]
+                .to_string()
+                .ends_with("200 before contact; 200 of pauses left out."),
             "{:?}",
             found.statements
         );
@@ -667,7 +670,7 @@ mod tests {
         assert_same(&found, &plain, "repeated");
         let said = "; 500 left out since they repeat the point before, first line 103.";
         assert!(
-            found.statements[0].ends_with(said),
+            found.statements[0].to_string().ends_with(said),
             "{:?}",
             found.statements
         );
@@ -698,6 +701,7 @@ mod tests {
             );
             assert!(
                 curve.statements[0]
+                    .to_string()
                     .contains("none of the displacement (150 nm there and back), Force (nN)")
             );
         }

@@ -1,28 +1,6 @@
-//! Shell command that opens a scene.
+//! Words of shell commands.
 
 use std::ffi::OsStr;
-
-/// Returns the command for a POSIX shell that opens the scene `name` in `program` and changes its
-/// fields by `--set`. Each override is the path of a field and its new value.
-///
-/// ```
-/// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
-/// let command = asperity_scene::text::command_line("asperity", "jkr-sphere", &overrides);
-/// assert_eq!(command, "asperity jkr-sphere --set 'form=Cone(angle: 0.1)'");
-/// ```
-pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -> String {
-    let mut sets = String::new();
-    for (path, value) in overrides {
-        let set = format!("{path}={value}");
-        sets += &format!(" --set {}", quoted(set));
-    }
-    // A name that looks like an option comes after all options.
-    if name.starts_with('-') {
-        format!("{program}{sets} -- {}", quoted(name))
-    } else {
-        format!("{program} {}{sets}", quoted(name))
-    }
-}
 
 /// Returns `word` as it must be written for a POSIX shell to read it as one word: in quotes if it
 /// needs them.
@@ -59,17 +37,6 @@ mod tests {
         ] {
             assert_eq!(quoted(word), expected);
         }
-        let sets = [("form", "None"), ("title", "\"it's\"")]
-            .map(|(path, value)| (path.into(), value.into()));
-        let command = command_line("asperity", "a.ron", &sets);
-        assert_eq!(
-            command,
-            r#"asperity a.ron --set form=None --set 'title="it'\''s"'"#
-        );
-        assert_eq!(
-            command_line("asperity", "-a.ron", &sets[..1]),
-            "asperity --set form=None -- -a.ron"
-        );
     }
 
     #[cfg(unix)]

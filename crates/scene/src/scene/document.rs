@@ -517,13 +517,13 @@ mod tests {
         assert_eq!(
             refused(&[("length", "2.0e-4"), ("roughness.hurst", "1.4")]),
             [
-                "--set roughness.hurst=1.4: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
+                "roughness.hurst=1.4: roughness.hurst = 1.4: allowed: above 0 and below 1 (Hurst exponent)"
             ]
         );
         assert_eq!(
             refused(&[("length", "2.0e-4"), ("numerics.points", "64")]),
             [
-                "--set length=2.0e-4 --set numerics.points=64: roughness.modes = (1, 512): allowed: last mode at most \
+                "length=2.0e-4, numerics.points=64: roughness.modes = (1, 512): allowed: last mode at most \
                  points/2 = 32 (64 springs carry no shorter wave)"
             ]
         );
@@ -533,10 +533,8 @@ mod tests {
             ("nothing", "1"),
         ]);
         assert_eq!(errors.len(), 2);
-        assert!(errors[0].starts_with("--set nothing=1: no such field"));
-        assert!(
-            errors[1].starts_with("--set length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m")
-        );
+        assert!(errors[0].starts_with("nothing=1: no such field"));
+        assert!(errors[1].starts_with("length=\"x\": length = \"x\": allowed: from 1e-9 to 10 m"));
     }
 
     #[test]

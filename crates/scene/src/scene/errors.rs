@@ -40,11 +40,8 @@ impl fmt::Display for Origin {
             Origin::File { name, place: None } if name.is_empty() => f.write_str("\"\": "),
             Origin::File { name, place: None } => write!(f, "{}: ", shown(name)),
             Origin::Overrides(overrides) => {
-                let options: Vec<String> = overrides
-                    .iter()
-                    .map(|set| format!("--set {}", shown(set)))
-                    .collect();
-                write!(f, "{}: ", options.join(" "))
+                let overrides: Vec<String> = overrides.iter().map(|set| shown(set)).collect();
+                write!(f, "{}: ", overrides.join(", "))
             }
             Origin::Scene => Ok(()),
         }

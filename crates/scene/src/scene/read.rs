@@ -16,7 +16,7 @@ const MOST_REPEATED: usize = 60;
 
 /// Message for a text that does not begin as a scene, such as a table of an instrument.
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
-                        is the roughness of a scene by --set roughness=FILE";
+                        is the roughness of a scene as Measured(file: \"FILE\")";
 
 /// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of
 /// the text.

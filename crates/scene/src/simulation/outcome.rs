@@ -6,7 +6,7 @@ use crate::analysis::instrument::InstrumentFigures;
 use crate::analysis::regime::Regime;
 use crate::scene::errors::SceneErrors;
 use asperity_contact::{ContactError, Figures, History, Patch};
-use asperity_data::{Warning, format_quantity, rounded_up};
+use asperity_data::{Remedied, Remedy, Warning, format_quantity, rounded_up};
 use asperity_surface::SurfaceError;
 use asperity_surface::lines::Histogram;
 use serde::Serialize;
@@ -180,6 +180,15 @@ pub enum RunError {
     /// The contact could not be computed.
     #[error(transparent)]
     Contact(#[from] ContactError),
+}
+
+impl Remedied for RunError {
+    fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            RunError::Surface(error) => error.remedies(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 impl RunError {

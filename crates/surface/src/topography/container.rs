@@ -6,7 +6,7 @@ use super::reading::Reading;
 use super::surface::Detrend;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::shown;
+use asperity_data::{Note, Remedy, shown};
 use serde::Deserialize;
 
 /// Names of the index, in JSON and in YAML.
@@ -123,10 +123,12 @@ fn chosen(
         .iter()
         .map(|surface| format!("{:?}", shown(&surface.name)))
         .collect();
-    let undecided = |fault: String| {
-        let found = format!("{fault} in the container: {}", names.join(", "));
-        let allowed = "--channel with one of them or of their measurements, in a scene roughness.surface_name";
-        refused(Place::File, found, allowed)
+    let undecided = |fault: String| SurfaceError::Channel {
+        place: Place::File,
+        fault: format!("{fault} in the container"),
+        channels: names.clone(),
+        allowed: "the name of one of them or of their measurements",
+        remedy: Remedy::SurfaceName,
     };
     let Some(name) = name else {
         if surfaces.len() == 1 {
@@ -162,14 +164,13 @@ impl Measurement {
     }
 
     /// Returns a message about the radius of the tip that the index states.
-    pub fn tip_radius(&self) -> Option<String> {
+    pub fn tip_radius(&self) -> Option<Note> {
         let parameters = self.instrument.as_ref()?.parameters.as_ref()?;
         let radius = parameters.tip_radius.as_ref()?;
         let value = radius.value;
         let unit = radius.unit.parse::<Unit>().ok()?;
-        Some(format!(
-            "the radius of the tip is {value} {unit}, which --tip-radius {value}{unit} uses"
-        ))
+        let text = format!("the radius of the tip is {value} {unit}");
+        Some(Note::new(text).with(Remedy::TipRadius(format!("{value}{unit}"))))
     }
 
     /// Returns true if the file holds the heights as measured, before scaling.
@@ -333,9 +334,12 @@ mod tests {
         assert_eq!(
             found[0].warnings,
             [
-                "the radius of the tip is 10 nm, which --tip-radius 10nm uses",
-                "another measurement is left out: scan: AL3D of Alicona is not read; allowed: the same saved as GWY or X3P in \
-                 Gwyddion"
+                Note::new("the radius of the tip is 10 nm")
+                    .with(Remedy::TipRadius("10nm".to_owned())),
+                Note::new(
+                    "another measurement is left out: scan: AL3D of Alicona is not read; allowed: the same saved as GWY or \
+                     X3P in Gwyddion"
+                )
             ]
         );
         // What an option supplies is asked for.
@@ -362,7 +366,7 @@ mod tests {
                 "",
                 "",
                 None,
-                "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: --channel",
+                "2 surfaces in the container: \"first: \u{e9}\", \"second\"; allowed: the name of one",
             ),
             (
                 "",
@@ -416,7 +420,7 @@ mod tests {
         ];
         let error = parse(&archive(&files), &both).unwrap_err().to_string();
         assert!(
-            error.starts_with("2 measurements of a surface; allowed: one: --channel"),
+            error.starts_with("2 measurements of a surface; allowed: one"),
             "{error}"
         );
         // Aliases of aliases expand to nothing large.

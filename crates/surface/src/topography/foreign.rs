@@ -129,8 +129,11 @@ fn is_plu(bytes: &[u8]) -> bool {
 }
 
 fn unread(format: &Foreign) -> SurfaceError {
-    let found = format!("{} is not read", format.name);
-    refused(Place::File, found, format.allowed)
+    SurfaceError::UnreadFormat {
+        place: Place::File,
+        format: format.name,
+        allowed: format.allowed,
+    }
 }
 
 /// Returns the error for an archive with files of these names, none of which is an index.

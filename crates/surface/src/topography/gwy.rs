@@ -6,7 +6,7 @@ use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::shown;
+use asperity_data::{Remedy, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
@@ -34,12 +34,17 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
         None => "no channel in a unit of length; channels".to_owned(),
     };
     let allowed = if chosen.len() > 1 {
-        "--channel with the number of one"
+        "the number of one"
     } else {
         "a channel of heights"
     };
-    let found = format!("{fault}: {}", shown(&names));
-    Err(refused(Place::File, found, allowed))
+    Err(SurfaceError::Channel {
+        place: Place::File,
+        fault,
+        channels: vec![shown(&names)],
+        allowed,
+        remedy: Remedy::Channel,
+    })
 }
 
 /// Reads all channels that have a data field.
@@ -284,10 +289,7 @@ mod tests {
         };
         assert_eq!(height(&[""], Some("nm")), Ok(4e-9));
         let error = height(&[""], None).unwrap_err();
-        assert!(
-            error.starts_with("no unit of heights is stated") && error.contains("--unit"),
-            "{error}"
-        );
+        assert!(error.starts_with("no unit of heights is stated"), "{error}");
         assert_eq!(height(&["nm"], None), Ok(4e-9));
         assert_eq!(height(&["deg", "", "um"], None), Ok(4e-6));
         for (units, expected) in [
@@ -297,11 +299,11 @@ mod tests {
             ),
             (
                 &["m", "nm"],
-                "several channels of heights; all channels: 0 (m), 1 (nm); allowed: --channel",
+                "several channels of heights; all channels: 0 (m), 1 (nm); allowed: the number of one",
             ),
             (
                 &["", ""],
-                "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: --channel",
+                "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: the number of one",
             ),
         ] {
             let error = height(units, Some("m")).unwrap_err();

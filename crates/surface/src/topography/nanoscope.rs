@@ -6,7 +6,7 @@ use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{gathered, shown};
+use asperity_data::{Note, Remedy, gathered, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
@@ -61,17 +61,21 @@ pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, Surfac
         ),
         ([], None) => (
             "no channel of heights".to_owned(),
-            "a channel of heights, or --channel with the number of one",
+            "a channel of heights, or the number of one",
         ),
         (several, _) => (
             format!("{} channels of heights", several.len()),
-            "--channel with the number of one, in a scene roughness.channel",
+            "the number of one",
         ),
     };
-    let names = images.iter().take(MOST_LISTED).map(Image::description);
-    let names = names.collect::<Vec<_>>().join(", ");
-    let found = format!("{fault}; channels: {names}");
-    Err(refused(Place::File, found, allowed))
+    let listed = images.iter().take(MOST_LISTED);
+    Err(SurfaceError::Channel {
+        place: Place::File,
+        fault: format!("{fault}; channels"),
+        channels: listed.map(Image::description).collect(),
+        allowed,
+        remedy: Remedy::Channel,
+    })
 }
 
 /// Returns the text of the header, without the line that follows it.
@@ -279,11 +283,12 @@ impl Image<'_> {
                 width,
                 height,
             } = size;
-            reading.warnings.push(format!(
+            let text = format!(
                 "points are {along:.4} {unit} apart along rows and {between:.4} {unit} between \
                  rows, by the size of the scan, {width} × {height} {unit}: a scan that was \
                  stopped early is smaller"
-            ));
+            );
+            reading.warnings.push(Note::new(text));
         }
         Ok(reading)
     }
@@ -400,7 +405,7 @@ mod tests {
     }
 
     /// Heights in nm, distances and warnings.
-    type Found = (Vec<f64>, Option<[f64; 2]>, Vec<String>);
+    type Found = (Vec<f64>, Option<[f64; 2]>, Vec<Note>);
 
     fn heights(bytes: &[u8]) -> Result<Found, String> {
         let found = read(bytes, None).map_err(|error| error.to_string())?;
@@ -462,7 +467,9 @@ mod tests {
         let (_, distances, warnings) = heights(&with("3 2 ~m", "3 ~m")).unwrap();
         assert_eq!(distances, Some([1.0, 1.5]));
         assert!(
-            warnings[0].starts_with("points are 1.0000 µm apart along rows and 1.5000 µm between"),
+            warnings[0]
+                .to_string()
+                .starts_with("points are 1.0000 µm apart along rows and 1.5000 µm between"),
             "{warnings:?}"
         );
         // Four bytes, though the header states two.
@@ -487,7 +494,7 @@ mod tests {
         assert_eq!(
             heights(&both).unwrap_err(),
             "2 channels of heights; channels: 0 \"Height Sensor\" trace, 1 \"Height Sensor\" retrace, 2 \"Amplitude\" trace; \
-             allowed: --channel with the number of one, in a scene roughness.channel"
+             allowed: the number of one"
         );
         assert!(read(&both, Some(2)).is_ok());
         for (bytes, channel, expected) in [

@@ -8,7 +8,7 @@ use super::reading::Reading;
 use super::surface::Topography;
 use super::{foreign, gsf, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{ReadError, read_limited, read_regular};
+use asperity_data::{Note, ReadError, Remedy, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::path::Path;
@@ -97,8 +97,7 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
         return Ok(surfaces.swap_remove(0));
     }
     let found = format!("{} measurements of a surface", surfaces.len());
-    let allowed = "one: --channel with its name, in a scene roughness.surface_name";
-    Err(refused(Place::File, found, allowed))
+    Err(refused(Place::File, found, "one").with(Remedy::SurfaceName))
 }
 
 /// Reads a surface from the content of a file. From a container it reads all measurements of a
@@ -109,8 +108,8 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     }
     if options.surface_name.is_some() {
         let found = "a file of one surface, without a name";
-        let allowed = "a container of surfaces, or no --channel, in a scene roughness.surface_name";
-        return Err(refused(Place::File, found, allowed));
+        let allowed = "a container of surfaces, or no name of one";
+        return Err(refused(Place::File, found, allowed).with(Remedy::NoSurfaceName));
     }
     let surface = reading(bytes, options)?.resolve_part(options)?;
     Ok(vec![surface])
@@ -169,7 +168,7 @@ fn parse_measurements(
     };
     for error in unreadable {
         let warning = format!("another measurement is left out: {error}");
-        first.warnings.push(warning);
+        first.warnings.push(Note::new(warning));
     }
     Ok(surfaces)
 }
@@ -220,6 +219,7 @@ mod tests {
     use super::*;
     use crate::topography::cut::Cut;
     use crate::topography::unit::Unit;
+    use asperity_data::Remedied;
     use flate2::Compression;
     use flate2::write::GzEncoder;
     use std::fmt::Write as _;
@@ -469,17 +469,18 @@ mod tests {
     #[test]
     fn units_and_distances_are_never_guessed() {
         let none = ReadOptions::default();
-        let error = parse(b"0 1\n1 2\n", &none).unwrap_err().to_string();
+        let error = parse(b"0 1\n1 2\n", &none).unwrap_err();
         assert_eq!(
-            error,
-            "no unit of heights is stated; allowed: a unit in the file or beside it: --unit um, in a scene roughness.unit"
+            error.to_string(),
+            "no unit of heights is stated; allowed: a unit in the file or beside it"
         );
-        let error = parse(b"1\n2\n", &metres()).unwrap_err().to_string();
+        assert_eq!(error.remedies(), [Remedy::Unit("um".to_owned())]);
+        let error = parse(b"1\n2\n", &metres()).unwrap_err();
         assert_eq!(
-            error,
-            "text columns without a distance between points; allowed: a distance beside the file: --spacing 0.5um, in a \
-             scene roughness.spacing"
+            error.to_string(),
+            "text columns without a distance between points; allowed: a distance beside the file"
         );
+        assert_eq!(error.remedies(), [Remedy::Spacing]);
         let error = parse(b"x [nm] z [nm]\n0 1\n1 2\n", &metres())
             .unwrap_err()
             .to_string();
@@ -497,12 +498,12 @@ mod tests {
     #[test]
     fn missing_points_are_refused_or_filled() {
         let text = b"0 1\n1 bad\n2 3\n3 4\n";
-        let error = parse(text, &metres()).unwrap_err().to_string();
+        let error = parse(text, &metres()).unwrap_err();
         assert_eq!(
-            error,
-            "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: --interpolate, in a scene \
-             roughness.interpolate, which fills them from their neighbours"
+            error.to_string(),
+            "line 2: 1 of 4 points are missing (25.00 %), the first here; allowed: points that are filled from their neighbours"
         );
+        assert_eq!(error.remedies(), [Remedy::Interpolate]);
         let options = ReadOptions {
             interpolate: true,
             ..metres()

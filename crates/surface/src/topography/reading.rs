@@ -2,6 +2,7 @@
 
 use super::stated_units::StatedUnits;
 use crate::error::Place;
+use asperity_data::Note;
 
 /// Numbers of a file before conversion, in the units of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +20,7 @@ pub(super) struct Reading {
     /// Place of the first missing point, if the reader can name it better than by its number.
     pub first_missing: Option<Place>,
     /// Messages about oddities of the file.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Note>,
 }
 
 impl Reading {

@@ -9,6 +9,7 @@ use super::stated_units::Units;
 use super::surface::{Cropped, Layout, Topography};
 use super::{levels, missing, outliers};
 use crate::error::{Place, SurfaceError, refused};
+use asperity_data::{Note, Remedy};
 use std::ops::Range;
 
 /// Largest number of points of a surface: 2 GiB of heights.
@@ -42,7 +43,7 @@ impl Reading {
         let cropped = self.crop();
         let is_missing = self.has_missing(&cropped, options)?;
         let warning = levels::warning(&self.heights, self.columns);
-        self.warnings.extend(warning);
+        self.warnings.extend(warning.map(Note::new));
         let layout = self.layout(&units, options)?;
 
         let mut heights = self.heights;
@@ -127,17 +128,13 @@ impl Reading {
         let Some(first) = first else {
             return Ok(true);
         };
-        let share = 100.0 * missing as f64 / points as f64;
-        let found =
-            format!("{missing} of {points} points are missing ({share:.2} %), the first here");
-        let allowed = "--interpolate, in a scene roughness.interpolate, which fills them from their neighbours";
         let number = cropped.place_in_file(first, self.columns) + 1;
         let place = self.first_missing.clone();
-        Err(refused(
-            place.unwrap_or(Place::Point(number)),
-            found,
-            allowed,
-        ))
+        Err(SurfaceError::MissingPoints {
+            place: place.unwrap_or(Place::Point(number)),
+            missing,
+            points,
+        })
     }
 
     /// Returns true for a point of the row or column that is read.
@@ -183,8 +180,7 @@ impl Reading {
             return check_spacing(spacing);
         }
         let found = format!("{} without a distance between points", self.format);
-        let allowed = "a distance beside the file: --spacing 0.5um, in a scene roughness.spacing";
-        Err(refused(Place::File, found, allowed))
+        Err(refused(Place::File, found, "a distance beside the file").with(Remedy::Spacing))
     }
 }
 

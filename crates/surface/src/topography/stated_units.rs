@@ -88,7 +88,7 @@ impl<'a> Units<'a> {
         self.lateral("distances", stated[axis])
     }
 
-    fn lateral(&self, name: &str, stated: Option<Unit>) -> Result<Unit, SurfaceError> {
+    fn lateral(&self, name: &'static str, stated: Option<Unit>) -> Result<Unit, SurfaceError> {
         let option = match stated {
             Some(_) => self.option_of_positions,
             None => self.options.unit,
@@ -119,14 +119,10 @@ impl<'a> Units<'a> {
 
 /// Returns the error of a quantity without a unit. `of_positions` is a unit that the file states
 /// for the positions alone.
-fn no_unit(name: &str, of_positions: Option<Unit>) -> SurfaceError {
-    let found = format!("no unit of {name} is stated");
-    let ways = match of_positions {
-        Some(unit) => format!(
-            "--unit {unit} or --height-unit nm, in a scene roughness.unit or roughness.height_unit"
-        ),
-        None => "--unit um, in a scene roughness.unit".to_owned(),
-    };
-    let allowed = format!("a unit in the file or beside it: {ways}");
-    refused(Place::File, found, allowed)
+fn no_unit(quantity: &'static str, of_positions: Option<Unit>) -> SurfaceError {
+    SurfaceError::NoUnit {
+        place: Place::File,
+        quantity,
+        unit_of_positions: of_positions.map(|unit| unit.to_string()),
+    }
 }

@@ -3,7 +3,7 @@
 use super::missing;
 use super::positions::{LARGEST, UNEVEN, first_uneven, interpolated, mean_distance};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
+use asperity_data::{Note, Remedy, gathered};
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
@@ -68,7 +68,7 @@ pub struct Topography {
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
     /// Messages for the user, each about something unusual in the file.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Note>,
 }
 
 impl Topography {
@@ -244,10 +244,8 @@ impl Topography {
         let found = format!(
             "x = {x:e} m is off the even grid by {off:.1e} of the mean distance {mean:e} m"
         );
-        let allowed = format!(
-            "at most {UNEVEN}, or --resample, in a scene roughness.resample, which interpolates linearly"
-        );
-        Err(refused(Place::Point(index + 1), found, allowed))
+        let allowed = format!("at most {UNEVEN}, or linear interpolation");
+        Err(refused(Place::Point(index + 1), found, allowed).with(Remedy::Resample))
     }
 
     /// Resamples the profile at its mean spacing by linear interpolation. An equally spaced profile
@@ -295,6 +293,7 @@ mod tests {
     use super::super::reading::Reading;
     use super::super::stated_units::StatedUnits;
     use super::*;
+    use asperity_data::Remedied;
 
     const METRES: StatedUnits = StatedUnits::METRES;
 
@@ -313,11 +312,12 @@ mod tests {
     #[test]
     fn uneven_points_are_named_and_resampled() {
         let uneven = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 2.0, 5.0, 6.0]);
-        let error = uneven.spacing().unwrap_err().to_string();
+        let error = uneven.spacing().unwrap_err();
         assert!(
-            error.starts_with("point 3: x = 2.5e0 m is off") && error.contains("--resample"),
+            error.to_string().starts_with("point 3: x = 2.5e0 m is off"),
             "{error}"
         );
+        assert_eq!(error.remedies(), [Remedy::Resample]);
         let even = uneven.resampled().unwrap();
         assert_eq!(
             (even.spacing(), &even.heights[..]),

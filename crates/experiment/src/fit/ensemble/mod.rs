@@ -17,11 +17,11 @@ use self::posterior::{CurveOfEnsemble, IntervalEstimate, MODULUS, Posterior, Pre
 use self::summary::Measurement;
 use self::table::{Axis, End, Place, Specimen, Table, Workers, placed, seed_of};
 use crate::curve::MeasuredCurve;
-use crate::error::{ExperimentError, refused};
+use crate::error::{ExperimentError, refused, refused_with};
 use crate::fit::reason::{Reason, of_profile};
 use crate::fit::scene::wrong;
 use asperity_contact::Move;
-use asperity_data::{Control, format_quantity, mean};
+use asperity_data::{Control, Remedy, format_quantity, mean};
 use asperity_scene::{
     Adhesion, CheckedScene, Document, Material, Roughness, Scene, Simulation, Solver, Strength,
 };
@@ -548,27 +548,27 @@ fn check(
         return refused("no curve", "one or more curves");
     }
     if scene.seed().is_none() {
-        let found = "--profiles: the profile of the scene is not random";
-        let allowed =
-            "a scene with random roughness; without --profiles a scene whose profile is known";
-        return refused(found, allowed);
+        let found = "a comparison with random profiles, and the profile of the scene is not random";
+        let allowed = "a scene with random roughness, or a fit of the profile of the scene";
+        return refused_with(found, allowed, [Remedy::NoProfiles]);
     }
     if scene.numerics.solver != Solver::Exact {
         let found =
             "numerics.solver = Stepwise: a comparison with random profiles needs the exact solver";
         return refused(found, "numerics.solver = Exact");
     }
-    check_error("--height-error", options.height_error)?;
-    check_error("--hurst-error", options.hurst_error)?;
+    check_error("error of the rms height", options.height_error)?;
+    check_error("error of the Hurst exponent", options.hurst_error)?;
     let states_errors = options.height_error.or(options.hurst_error).is_some();
     if states_errors && !matches!(scene.roughness, Some(Roughness::SelfAffine { .. })) {
         let found = "errors of the roughness, which is measured";
-        let allowed = "roughness: SelfAffine(…), or no --height-error and --hurst-error";
-        return refused(found, allowed);
+        let allowed = "roughness: SelfAffine(…), or no errors";
+        return refused_with(found, allowed, [Remedy::NoRoughnessErrors]);
     }
     if options.lines < FEWEST_LINES {
-        let found = format!("--profiles {}", options.lines);
-        return refused(found, format!("at least {FEWEST_LINES}"));
+        let found = format!("{} profiles", options.lines);
+        let allowed = format!("at least {FEWEST_LINES}");
+        return refused_with(found, allowed, [Remedy::Profiles(FEWEST_LINES)]);
     }
     for (index, (name, curve)) in curves.iter().enumerate() {
         for (other_name, other) in &curves[..index] {
@@ -582,14 +582,11 @@ fn check(
 }
 
 /// Returns an error for a standard error of the roughness that is out of range.
-fn check_error(option: &str, error: Option<f64>) -> Result<(), ExperimentError> {
+fn check_error(name: &str, error: Option<f64>) -> Result<(), ExperimentError> {
     if let Some(error) = error
         && !(0.0..=MOST_ERROR).contains(&error)
     {
-        return refused(
-            format!("{option} {error}"),
-            format!("from 0 to {MOST_ERROR}"),
-        );
+        return refused(format!("{name} {error}"), format!("from 0 to {MOST_ERROR}"));
     }
     Ok(())
 }
@@ -785,7 +782,7 @@ mod tests {
                 "the profile of the scene is not random",
             ),
             (found(&[], &scene, OPTIONS), "no curve"),
-            (found(&all, &scene, few), "--profiles 8"),
+            (found(&all, &scene, few), "8 profiles"),
             (
                 found(&twice, &scene, OPTIONS),
                 "again: the same curve as place 0",

@@ -412,11 +412,11 @@ fn branches_of(name: &str, curve: &MeasuredCurve) -> Result<Branches, Experiment
 /// Returns the error with the name of a curve in front.
 fn named(error: ExperimentError, name: &str) -> ExperimentError {
     match error {
-        ExperimentError::Refused { found, allowed } => ExperimentError::Refused {
-            found: format!("{name}: {found}"),
-            allowed,
+        ExperimentError::File(_) | ExperimentError::Run(_) => error,
+        error => ExperimentError::InCurve {
+            name: name.to_owned(),
+            error: Box::new(error),
         },
-        other => other,
     }
 }
 

@@ -4,7 +4,7 @@ use super::super::grid::Map;
 use super::super::positions::first_uneven;
 use super::super::printed::{Digits, Grid, move_to_printed_grid};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::gathered;
+use asperity_data::{Remedy, gathered};
 
 /// Smallest number of evenly spaced numbers that count as positions, if the numbers along the other
 /// axis are not evenly spaced.
@@ -139,9 +139,9 @@ fn single_positions(place: Place, name: &str, grid: Grid) -> SurfaceError {
     let found = format!(
         "the first {name} runs from {first:e} in even steps of {distance:e} beside uneven numbers: positions, no heights"
     );
-    let allowed =
-        "heights alone, with --spacing, or positions in the first row and the first column";
-    refused(place, found, allowed)
+    let allowed = "positions in the first row and the first column, or heights alone and the \
+                   distance of their points";
+    refused(place, found, allowed).with(Remedy::Spacing)
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use super::reading::Reading;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::text_table::{COMMENT, each_line};
-use asperity_data::{PROVENANCE, shown};
+use asperity_data::{PROVENANCE, Remedy, shown};
 use header::{TextHeader, Z};
 use std::ops::Range;
 use table::{NumberedLine, Table, is_header};
@@ -204,9 +204,13 @@ fn undecided(parts: &[Part], channels: &[Channel], number: Option<u32>) -> Surfa
         None => String::new(),
     };
     let count = channels.len();
-    let found = format!("{missing}{count} channels: {}", listed.join(", "));
-    let allowed = "--channel with the number of one, in a scene roughness.channel";
-    refused(Place::File, found, allowed)
+    SurfaceError::Channel {
+        place: Place::File,
+        fault: format!("{missing}{count} channels"),
+        channels: listed,
+        allowed: "the number of one",
+        remedy: Remedy::Channel,
+    }
 }
 
 /// Describes a channel by its number, its name, its unit and its first line.
@@ -372,8 +376,7 @@ mod tests {
         );
         assert_eq!(
             text(&two).unwrap_err(),
-            "2 channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: --channel with the number \
-             of one, in a scene roughness.channel"
+            "2 channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: the number of one"
         );
         let chosen = |text: &str, channel| {
             read(text.as_bytes(), Some(channel)).map_err(|error| error.to_string())
@@ -392,9 +395,9 @@ mod tests {
         // Without headers, and profiles.
         let rows = "1 2 3 4\n5 6 7 9\n\n11 2 3 4\n5 6 7 9\n";
         assert!(
-            text(rows)
-                .unwrap_err()
-                .starts_with("2 channels: 0 from line 1, 1 from line 4; allowed: --channel")
+            text(rows).unwrap_err().starts_with(
+                "2 channels: 0 from line 1, 1 from line 4; allowed: the number of one"
+            )
         );
         assert_eq!(chosen(rows, 1).unwrap().heights[0], 11.0);
         assert_eq!(
@@ -576,13 +579,17 @@ mod tests {
         assert_eq!((cut(0), cut(1)), (vec![], vec![]));
         let warnings = cut(4);
         assert!(
-            warnings[0].starts_with("line 50: the last number, 2e0, is far from all others"),
+            warnings[0]
+                .to_string()
+                .starts_with("line 50: the last number, 2e0, is far from all others"),
             "{warnings:?}"
         );
         let fill = rows.replacen("1e-9", "-9999", 1);
         let warnings = text(&fill).unwrap().warnings;
         assert!(
-            warnings[0].starts_with("line 1: the height -9.999e3 is "),
+            warnings[0]
+                .to_string()
+                .starts_with("line 1: the height -9.999e3 is "),
             "{warnings:?}"
         );
     }

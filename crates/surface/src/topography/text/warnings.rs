@@ -2,7 +2,7 @@
 //! that were cut off.
 
 use crate::error::Place;
-use asperity_data::median;
+use asperity_data::{Note, Remedy, median};
 
 /// Distance of a height from the median, over the median of all such distances, from which on the
 /// height is an error of the file.
@@ -24,7 +24,7 @@ pub(super) fn of_heights(
     heights: &[f64],
     is_open: bool,
     place: impl Fn(usize) -> Place,
-) -> Vec<String> {
+) -> Vec<Note> {
     let Some(spread) = Spread::new(heights) else {
         return Vec::new();
     };
@@ -35,33 +35,36 @@ pub(super) fn of_heights(
     } = spread.farthest(heights);
     let last = heights.len() - 1;
     if is_open && index == last && next > 0.0 && largest > ALONE_AT_OPEN_END * next {
-        return vec![format!(
+        let text = format!(
             "{}the last number, {:e}, is far from all others, and its line has no end: the file \
              may be cut off",
             place(last),
             heights[last]
-        )];
+        );
+        return vec![Note::new(text)];
     }
     if next > 0.0 && largest > ALONE * next {
-        return vec![format!(
+        let text = format!(
             "{}the height {:e} is {:.0e} times as far from the median as all others: a spike, a \
-             mark of a missing point, or a number that is cut off; --robust replaces it",
+             mark of a missing point, or a number that is cut off",
             place(index),
             heights[index],
             largest / next
-        )];
+        );
+        return vec![Note::new(text).with(Remedy::Robust)];
     }
     let mut far = (0..heights.len()).filter(|index| spread.is_far(heights[*index]));
     let Some(first) = far.next() else {
         return Vec::new();
     };
-    vec![format!(
+    let text = format!(
         "{}the height {:e} and {} others are more than {FAR:e} times as far from the median as \
          heights usually are: marks of missing points, or other units",
         place(first),
         heights[first],
         far.count()
-    )]
+    );
+    vec![Note::new(text)]
 }
 
 /// Median of the heights and of their distances from it.
@@ -138,8 +141,10 @@ mod tests {
         let mut heights: Vec<f64> = (0..100)
             .map(|i| 1e-8 * (0.7 * f64::from(i * i)).sin())
             .collect();
-        let warnings =
-            |heights: &[f64], is_open| of_heights(heights, is_open, |index| Place::Line(index + 3));
+        let warnings = |heights: &[f64], is_open| -> Vec<String> {
+            let notes = of_heights(heights, is_open, |index| Place::Line(index + 3));
+            notes.iter().map(Note::to_string).collect()
+        };
         assert_eq!(warnings(&heights, true), [""; 0]);
         heights[99] = -2e-7;
         assert_eq!(warnings(&heights, false), [""; 0]);

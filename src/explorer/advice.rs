@@ -1,0 +1,55 @@
+//! The rows and keys of the explorer that help where a message has a remedy.
+
+use asperity_data::Remedy;
+
+/// Returns the words for a remedy in the explorer: the row of the list of parameters, or what the
+/// command line does where the explorer has no row.
+pub fn row(remedy: &Remedy) -> String {
+    let words = match remedy {
+        Remedy::SurfaceName => "the row roughness.surface_name",
+        Remedy::NoSurfaceName => "no roughness.surface_name",
+        Remedy::Channel => "the row roughness.channel",
+        Remedy::Unit(unit) => return format!("{unit} on the row roughness.unit"),
+        Remedy::HeightUnit(unit) => return format!("{unit} on the row roughness.height_unit"),
+        Remedy::Spacing => "0.5um on the row roughness.spacing",
+        Remedy::Interpolate => "the row roughness.interpolate",
+        Remedy::Resample => "the row roughness.resample",
+        Remedy::Robust => "the row roughness.robust replaces it",
+        Remedy::TipRadius(radius) => {
+            return format!("asperity surface --tip-radius {radius} uses it");
+        }
+        Remedy::Columns => "1,3 or height,force on the row columns",
+        Remedy::Units => "nm,nN on the row units",
+        Remedy::ForceOfOne => "nm,3.01nN on the row units",
+        Remedy::Ramp => "500nm on the row ramp",
+        Remedy::NegateDisplacement => "displacement on the row negate",
+        Remedy::NegateForce => "force on the row negate where tension counts as positive",
+        Remedy::NegateNone => "none on the row negate for a body that is pulled there",
+        Remedy::FreePoints => "a number on the row free points",
+        Remedy::Segment(1) => "1 on the row segments for an approach alone",
+        Remedy::Segment(2) => "2 on the row segments for the retraction alone",
+        Remedy::Segment(number) => return format!("{number} on the row segments"),
+        Remedy::RemoveDrift => "remove on the row drift takes it off",
+        Remedy::RemoveTilt => "remove on the row tilt takes it off",
+        Remedy::Noise => "a force on the row noise",
+        Remedy::Free(parameter) => return format!("a fit of {parameter} too"),
+        Remedy::FreeRange => "another range by asperity fit",
+        Remedy::ManyProfiles => "asperity fit compares the curve with many of them",
+        Remedy::Profiles(count) => return format!("{count} profiles"),
+        Remedy::MoreProfiles => "asperity run --profiles",
+        Remedy::NoProfiles => "a fit of the profile of the scene",
+        Remedy::RoughnessErrors => "asperity fit takes them into account",
+        Remedy::NoRoughnessErrors => "no errors of the roughness",
+        Remedy::Grid(cells) => return format!("{cells} cells"),
+        Remedy::FinerGrid => "asperity reference refines the squares",
+        Remedy::Maps => "asperity reference takes more of them",
+        Remedy::Tolerance => "the key %",
+        Remedy::Preload => "a loading that presses before",
+        Remedy::Range => "a range by asperity find",
+        Remedy::FigureAxes => "two axes of the study",
+        Remedy::FixAxis(value) => return format!("{value} fixes one"),
+        Remedy::OtherValue(path) => return format!("another value of {path}"),
+        Remedy::FewerThreads => "fewer threads",
+    };
+    words.to_owned()
+}
