@@ -43,7 +43,7 @@ const PRESETS: &[Preset] = built_in!["":
     "profile-hurst-075",
     "fragment-closeup",
     "jkr-sphere",
-    "afm-tip",
+    "rounded-cone",
     "two-spheres",
     "kendall-punch",
     "rough-sphere",
