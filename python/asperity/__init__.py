@@ -27,6 +27,7 @@ from ._functions import (
     punch,
     reference,
     reversals,
+    rounded_cone,
     run,
     scene,
     self_affine,
@@ -34,6 +35,7 @@ from ._functions import (
     study,
     surface,
     table,
+    two_spheres,
     wavy_sphere,
 )
 from ._loop import Loop
@@ -95,6 +97,7 @@ __all__ = [
     "quantity",
     "reference",
     "reversals",
+    "rounded_cone",
     "run",
     "scene",
     "self_affine",
@@ -102,5 +105,6 @@ __all__ = [
     "study",
     "surface",
     "table",
+    "two_spheres",
     "wavy_sphere",
 ]

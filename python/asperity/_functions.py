@@ -49,7 +49,7 @@ AnyScene: TypeAlias = str | os.PathLike[str] | Scene | Profile
 _PLAIN = "(version: 1, material: (effective_modulus: 1.0e6), length: 1.0e-4)"
 _EDGES = {"sub_cell": "SubCell", "grid": "Grid"}
 _DETRENDS = {"none": "Nothing", "nothing": "Nothing", "mean": "Mean", "tilt": "Tilt", "curvature": "Curvature"}
-_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "Punch", "Table")
+_FORMS = ("Paraboloid", "Cone", "Power", "WavySphere", "RoundedCone", "Punch", "TwoSpheres", "Table")
 _ROUGHNESS = ("SelfAffine", "Measured")
 #: Arguments of all functions of scenes that are those of `load`.
 _CONTACT = ("modulus", "work", "closing_work", "stages")
@@ -189,6 +189,32 @@ def wavy_sphere(radius: Quantity, amplitude: Quantity, wavelength: Quantity) -> 
         radius=field_number(radius, "form.radius", "WavySphere", "radius"),
         amplitude=field_number(amplitude, "form.amplitude", "WavySphere", "amplitude"),
         wavelength=field_number(wavelength, "form.wavelength", "WavySphere", "wavelength"),
+    )
+
+
+def rounded_cone(radius: Quantity, angle: Quantity) -> Form:
+    """Returns a cone with a rounded apex, such as the tip of an AFM probe.
+
+    `radius` is the radius of curvature of the apex in m, and `angle` the angle between the flank and the surface in rad.
+    For a pyramid, give the angle of the cone with the same cross section.
+    """
+    return Form(
+        "RoundedCone",
+        radius=field_number(radius, "form.radius", "RoundedCone", "radius"),
+        angle=field_number(angle, "form.angle", "RoundedCone", "angle"),
+    )
+
+
+def two_spheres(radius: Quantity, second_radius: Quantity, behind: Quantity) -> Form:
+    """Returns two spheres side by side on one probe, each above a half of the length of the profile.
+
+    The radii are in m. `behind` is the depth in m of the apex of the second sphere below the apex of the first one.
+    """
+    return Form(
+        "TwoSpheres",
+        radius=field_number(radius, "form.radius", "TwoSpheres", "radius"),
+        second_radius=field_number(second_radius, "form.second_radius", "TwoSpheres", "second_radius"),
+        behind=field_number(behind, "form.behind", "TwoSpheres", "behind"),
     )
 
 

@@ -4,6 +4,7 @@
 use asperity::scene::Regime;
 use asperity::scene::discretisation::Target;
 use asperity::scene::estimate;
+use asperity::scene::instrument::DisplacementCurve;
 use asperity::scene::{Document, Roughness, open, presets};
 use asperity::scene::{Outcome, Simulation};
 use asperity::surface::Form;
@@ -193,6 +194,42 @@ fn smooth_bodies_keep_their_pull_off_force() {
         [picojoules(&outcomes[0]), picojoules(&outcomes[1])],
         [16.0, 12.0]
     );
+}
+
+#[test]
+fn probes_with_a_flank_or_a_second_contact_differ_from_a_sphere() {
+    let claim =
+        "the pull-off force is 532 pN, 2.8 times that of a sphere with the radius of the apex";
+    let tip = scene(
+        "rounded-cone",
+        &["The flank of this tip adheres as well", claim],
+    );
+    let sphere = with(&tip, &[("form", "Paraboloid(radius: 2.0e-7)")]);
+    let forces = [force(&run(&tip)), force(&run(&sphere))];
+    assert_eq!((1e12 * forces[0]).round(), 532.0);
+    assert_eq!((10.0 * forces[0] / forces[1]).round(), 28.0);
+
+    let claim = "the force jumps four times, where a single sphere jumps twice";
+    let probe = scene("two-spheres", &[claim]);
+    let sphere = with(&probe, &[("form", "Paraboloid(radius: 5.4e-6)")]);
+    assert_eq!([jumps(&probe), jumps(&sphere)], [4, 2]);
+}
+
+/// Returns how often the force of a scene with an instrument jumps by more than 5 % of the pull-off
+/// force while the drive does not move.
+fn jumps(scene: &Document) -> usize {
+    let outcome = run(scene);
+    let stiffness = scene.scene().loading_stiffness.unwrap();
+    let pull_off = force(&outcome);
+    let mut count = 0;
+    for leg in &outcome.history.legs {
+        let curve = DisplacementCurve::new(leg.direction, &leg.curve, stiffness);
+        for ends in curve.jumps() {
+            let change = (ends[1].force - ends[0].force).abs();
+            count += usize::from(change > 0.05 * pull_off);
+        }
+    }
+    count
 }
 
 #[test]

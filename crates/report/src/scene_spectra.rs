@@ -6,7 +6,7 @@ use asperity_data::check_room;
 use asperity_scene::{CheckedScene, Outcome, RunError, Scene, Simulation};
 use asperity_surface::lines::{Line, read_faces};
 use asperity_surface::spectra::line_spectrum;
-use asperity_surface::{Analysis, EquivalentLine, Form, LineMoments};
+use asperity_surface::{Analysis, EquivalentLine, LineMoments};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -142,12 +142,10 @@ fn power_of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, St
             "not enough memory for the spectrum of {springs} springs"
         ));
     }
-    let axis = Form::spring_on_axis(line.points as u64) as f64;
     let mut heights = Vec::with_capacity(line.points);
     for (spring, height) in line.heights().enumerate() {
-        let distance = (spring as f64 - axis) * line.spacing;
         let depth = match &scene.form {
-            Some(form) => form.mdr_profile(distance),
+            Some(form) => form.depth_of_spring(spring, line.points, line.spacing),
             None => 0.0,
         };
         heights.push(height + depth);

@@ -226,9 +226,10 @@ impl Body {
         if let Some(form) = &self.form {
             let at = |index: usize| ((index as f64 + 0.5) / cells as f64 - 0.5) * self.side;
             for (index, height) in heights.iter_mut().enumerate() {
-                let radius = at(index % cells).hypot(at(index / cells));
+                let x = at(index % cells);
+                let y = at(index / cells);
                 // Beside a punch the body is out of reach of any contact.
-                *height -= form.depth(radius).unwrap_or(self.side);
+                *height -= form.depth_in_square(x, y, self.side).unwrap_or(self.side);
             }
         }
         Ok(heights)

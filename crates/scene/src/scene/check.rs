@@ -310,7 +310,7 @@ impl Found<'_> {
     fn check_depth(&mut self, form: &Form) {
         let scene = self.scene;
         let half = scene.length / 2.0;
-        let depth = form.without_waves().mdr_profile(half);
+        let depth = form.depth_within(scene.length);
         let wave_depth = form.wave_depth(half);
         // The first number of a form is its size; waves may be higher than their sphere.
         let is_size = |field: &&Field| {

@@ -53,7 +53,9 @@ const FORMS: Range = Choice(&[
     "Cone(angle: 0.1)",
     "Power(coefficient: 1.0e7, exponent: 3.0)",
     "WavySphere(radius: 1.0e-3, amplitude: 1.0e-8, wavelength: 1.0e-5)",
+    "RoundedCone(radius: 2.0e-8, angle: 0.35)",
     "Punch(radius: 2.0e-5)",
+    "TwoSpheres(radius: 5.0e-6, second_radius: 3.0e-6, behind: 2.0e-7)",
     "Table(file: \"tip.csv\")",
 ]);
 const ROUGHNESS: Range = Choice(&[
@@ -179,6 +181,22 @@ pub const FIELDS: &[Field] = &[
     row("form.wavelength", form!(WavySphere, wavelength), Range::above(0.0, 1e9))
         .quantity("wavelength", "λ", "m")
         .meaning("distance λ between crests, at least four springs"),
+    row("form.radius", form!(RoundedCone, radius), Range::above(0.0, 1e9))
+        .quantity("apex radius", "R", "m")
+        .meaning("radius of curvature of the rounded apex, which is tangent to the cone"),
+    row("form.angle", form!(RoundedCone, angle), Range::between(0.0, FRAC_PI_2))
+        .quantity("flank angle of the rounded cone", "θ", "rad").step(Linear(0.01, 0.1))
+        .meaning("angle between flank and surface; of a pyramid that of the cone with the same \
+                  cross section"),
+    row("form.radius", form!(TwoSpheres, radius), Range::above(0.0, 1e9))
+        .quantity("radius of the first sphere", "R", "m")
+        .meaning("radius of curvature of the sphere that is ahead, above one half of the length"),
+    row("form.second_radius", form!(TwoSpheres, second_radius), Range::above(0.0, 1e9))
+        .quantity("radius of the second sphere", "R₂", "m")
+        .meaning("radius of curvature of the sphere behind, above the other half of the length"),
+    row("form.behind", form!(TwoSpheres, behind), Range::closed(0.0, 1e6))
+        .quantity("distance of the second sphere behind the first", "b", "m")
+        .meaning("depth of the second apex below the first one; 0 if both touch at once"),
     row("form.radius", form!(Punch, radius), Range::above(0.0, 5.0))
         .quantity("punch radius", "a", "m")
         .meaning("radius of the flat end; no contact outside"),

@@ -43,6 +43,8 @@ const PRESETS: &[Preset] = built_in!["":
     "profile-hurst-075",
     "fragment-closeup",
     "jkr-sphere",
+    "rounded-cone",
+    "two-spheres",
     "kendall-punch",
     "rough-sphere",
     "million-springs",

@@ -220,6 +220,7 @@ fn smooth_bodies_converge_to_their_closed_forms() {
         coefficient,
         exponent,
     };
+    let apex = |radius| Form::RoundedCone { radius, angle: 1.2 };
     for (name, form, length, modulus, works, deepest) in [
         ("sphere", sphere(), 12.0, 1.0, [1.0; 2], 1.5),
         (
@@ -233,6 +234,10 @@ fn smooth_bodies_converge_to_their_closed_forms() {
         ("sphere, γ₁ = 0", sphere(), 12.0, 1.0, [0.0, 1.0], 4.0),
         ("sphere, γ₁ = γ/4", sphere(), 12.0, 1.0, [0.25, 1.0], 4.0),
         ("sphere, γ₁ = 0.9 γ", sphere(), 12.0, 1.0, [0.9, 1.0], 4.0),
+        // Pull-off on the flank, near the edge of the apex, and inside the apex.
+        ("apex 0.6", apex(0.6), 14.0, 1.0, [1.0; 2], 4.0),
+        ("apex 1.5", apex(1.5), 14.0, 1.0, [1.0; 2], 2.0),
+        ("apex 6", apex(6.0), 30.0, 1.0, [1.0; 2], 1.5),
         ("n = 1.2", power(0.8, 1.2), 14.0, 1.0, [1.0; 2], 1.5),
         ("n = 1.5", power(0.5, 1.5), 12.0, 2.0, [1.5; 2], 1.0),
         ("n = 3", power(0.3, 3.0), 8.0, 2.0, [1.5; 2], 1.0),

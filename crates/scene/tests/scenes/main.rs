@@ -15,3 +15,4 @@ mod scene;
 mod simulation;
 mod smooth;
 mod table;
+mod two_spheres;

@@ -41,7 +41,18 @@ fn a_thousand_rows_are_their_closed_form() {
     let folder = tempfile::tempdir().unwrap();
     let reach = 5e-5;
     type Depth = Box<dyn Fn(f64) -> f64>;
-    let forms: [(&str, Depth); 5] = [
+    let forms: [(&str, Depth); 6] = [
+        (
+            "RoundedCone(radius: 2e-5, angle: 0.2)",
+            Box::new(|r| {
+                let edge = 2e-5 * 0.2_f64.tan();
+                if r <= edge {
+                    r * r / 4e-5
+                } else {
+                    (r - 0.5 * edge) * 0.2_f64.tan()
+                }
+            }),
+        ),
         ("Paraboloid(radius: 1e-4)", Box::new(|r| r * r / 2e-4)),
         ("Cone(angle: 0.2)", Box::new(|r| r * 0.2_f64.tan())),
         (

@@ -42,10 +42,28 @@ pub enum Form {
         /// Wavelength λ in m.
         wavelength: f64,
     },
+    /// Cone with a rounded apex: depth r²/2R up to the radius b = R tan θ, and r tan θ − b tan θ/2
+    /// beyond it, where the cone is tangent to the paraboloid.
+    RoundedCone {
+        /// Radius of curvature R of the apex in m.
+        radius: f64,
+        /// Angle θ between flank and surface plane in rad.
+        angle: f64,
+    },
     /// Cylinder with a flat end. Only the flat end can touch.
     Punch {
         /// Radius a of the flat end in m.
         radius: f64,
+    },
+    /// Two spheres side by side on one probe, each above a half of the length of the profile. Their
+    /// contacts do not act on each other, but they carry the force together.
+    TwoSpheres {
+        /// Radius of curvature R of the first sphere in m. Its apex is the apex of the form.
+        radius: f64,
+        /// Radius of curvature R₂ of the second sphere in m.
+        second_radius: f64,
+        /// Depth b of the apex of the second sphere below the apex of the first one, in m.
+        behind: f64,
     },
     /// Body of revolution whose radii and depths are in a file.
     Table {
@@ -101,8 +119,9 @@ impl Form {
         }
     }
 
-    /// Returns the index ⌊N/2⌋ of the spring on the axis of the form, for N = `points` springs. For
-    /// a punch the axis is in the middle of the length instead.
+    /// Returns the index ⌊N/2⌋ of the spring on the axis of a body of revolution, for N = `points`
+    /// springs. For a punch the axis is in the middle of the length instead. Each of two spheres
+    /// has an axis of its own.
     pub fn spring_on_axis(points: u64) -> u64 {
         // With the axis between two springs no spring would be at the tip, and errors would be
         // proportional to Δx.
@@ -154,12 +173,14 @@ impl Form {
         }
     }
 
-    /// Returns the radius of a sphere or a punch in m as a mutable reference; `None` for other
-    /// forms.
+    /// Returns the radius in m of a sphere, of the first of two spheres, of a rounded apex or of a
+    /// punch as a mutable reference; `None` for other forms.
     pub fn radius_mut(&mut self) -> Option<&mut f64> {
         match self {
             Form::Paraboloid { radius }
             | Form::WavySphere { radius, .. }
+            | Form::RoundedCone { radius, .. }
+            | Form::TwoSpheres { radius, .. }
             | Form::Punch { radius } => Some(radius),
             _ => None,
         }
@@ -175,11 +196,17 @@ impl Form {
         }
     }
 
-    /// Returns the curvature at the summit in 1/m. Returns `None` for a cone, for a power law, and
-    /// for a table that has not been read or has no finite curvature at the tip.
+    /// Returns the curvature at the summit in 1/m, of two spheres the larger one. Returns `None`
+    /// for a cone, for a power law, and for a table that has not been read or has no finite
+    /// curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
-            Form::Paraboloid { radius } => Some(1.0 / radius),
+            Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
+            Form::TwoSpheres {
+                radius,
+                second_radius,
+                ..
+            } => Some(1.0 / radius.min(second_radius)),
             Form::WavySphere {
                 radius,
                 amplitude,
@@ -191,8 +218,67 @@ impl Form {
         }
     }
 
+    /// Returns the depth in m of the equivalent profile below its apex, at the spring of the index
+    /// `spring` of N = `points` springs at the distance `spacing` in m. Springs count from the left
+    /// end of the profile.
+    ///
+    /// ```
+    /// use asperity_surface::Form;
+    ///
+    /// let spheres = Form::TwoSpheres { radius: 1.0, second_radius: 0.5, behind: 0.1 };
+    /// let depths: Vec<f64> =
+    ///     (0..8).map(|spring| spheres.depth_of_spring(spring, 8, 0.1)).collect();
+    /// assert_eq!((depths[2], depths[6]), (0.0, 0.1));
+    /// ```
+    pub fn depth_of_spring(&self, spring: usize, points: usize, spacing: f64) -> f64 {
+        // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+        let distance = |axis: usize| spring.abs_diff(axis) as f64 * spacing;
+        let &Form::TwoSpheres {
+            radius,
+            second_radius,
+            behind,
+        } = self
+        else {
+            let axis = Form::spring_on_axis(points as u64) as usize;
+            return self.mdr_profile(distance(axis));
+        };
+        let first_points = points / 2;
+        if spring < first_points {
+            let sphere = Form::Paraboloid { radius };
+            sphere.mdr_profile(distance(first_points / 2))
+        } else {
+            let sphere = Form::Paraboloid {
+                radius: second_radius,
+            };
+            let axis = first_points + (points - first_points) / 2;
+            behind + sphere.mdr_profile(distance(axis))
+        }
+    }
+
+    /// Returns the largest depth in m of the equivalent profile on a length in m, without the waves
+    /// of a [`Form::WavySphere`].
+    pub fn depth_within(&self, length: f64) -> f64 {
+        match *self {
+            Form::TwoSpheres {
+                radius,
+                second_radius,
+                behind,
+            } => {
+                let half_width = 0.25 * length;
+                let first = Form::Paraboloid { radius };
+                let second = Form::Paraboloid {
+                    radius: second_radius,
+                };
+                let second_depth = behind + second.mdr_profile(half_width);
+                first.mdr_profile(half_width).max(second_depth)
+            }
+            _ => self.without_waves().mdr_profile(0.5 * length),
+        }
+    }
+
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from
-    /// the axis in m. For a punch it is 0.
+    /// the axis in m. For a punch it is 0. For two spheres it is the depth of the first one alone;
+    /// [`Form::depth_of_spring`] has both.
     ///
     /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
     /// [`Form::depth`].
@@ -205,7 +291,18 @@ impl Form {
     pub fn mdr_profile(&self, distance: f64) -> f64 {
         let x = distance.abs();
         match *self {
-            Form::Paraboloid { radius } => x * x / radius,
+            Form::Paraboloid { radius } | Form::TwoSpheres { radius, .. } => x * x / radius,
+            Form::RoundedCone { radius, angle } => {
+                let slope = angle.tan();
+                let rounded = radius * slope;
+                if x <= rounded {
+                    return x * x / radius;
+                }
+                // The published form (x − √(x² − b²))/b, without its cancellation (Popov, Heß and
+                // Willert, Handbook of Contact Mechanics, 2019, cone with a rounded tip).
+                let root = ((x - rounded) * (x + rounded)).sqrt();
+                x * slope * (rounded / (x + root) + (rounded / x).acos())
+            }
             Form::Cone { angle } => FRAC_PI_2 * x * angle.tan(),
             Form::Power {
                 coefficient,
@@ -224,8 +321,30 @@ impl Form {
         }
     }
 
+    /// Returns the depth in m of the body below its apex, at the place (x, y) in m from the middle
+    /// of a square with this side in m. The axes of two spheres are at x = ∓ a quarter of the side.
+    /// Returns `None` beside a punch, where there is no body.
+    pub fn depth_in_square(&self, x: f64, y: f64, side: f64) -> Option<f64> {
+        let &Form::TwoSpheres {
+            radius,
+            second_radius,
+            behind,
+        } = self
+        else {
+            return self.depth(x.hypot(y));
+        };
+        let depth = |radius: f64, axis: f64| {
+            let distance = (x - axis).hypot(y);
+            Form::Paraboloid { radius }.depth(distance)
+        };
+        let first = depth(radius, -0.25 * side)?;
+        let second = behind + depth(second_radius, 0.25 * side)?;
+        Some(first.min(second))
+    }
+
     /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m.
-    /// Returns `None` for a punch at a distance above its radius, where there is no body.
+    /// Returns `None` for a punch at a distance above its radius, where there is no body. For two
+    /// spheres it is the depth of the first one alone; [`Form::depth_in_square`] has both.
     ///
     /// ```
     /// assert_eq!(
@@ -235,7 +354,22 @@ impl Form {
     /// ```
     pub fn depth(&self, radius: f64) -> Option<f64> {
         Some(match *self {
-            Form::Paraboloid { radius: curvature } => radius * radius / (2.0 * curvature),
+            Form::Paraboloid { radius: curvature }
+            | Form::TwoSpheres {
+                radius: curvature, ..
+            } => radius * radius / (2.0 * curvature),
+            Form::RoundedCone {
+                radius: curvature,
+                angle,
+            } => {
+                let slope = angle.tan();
+                let rounded = curvature * slope;
+                if radius <= rounded {
+                    radius * radius / (2.0 * curvature)
+                } else {
+                    (radius - 0.5 * rounded) * slope
+                }
+            }
             Form::Cone { angle } => radius * angle.tan(),
             Form::Power {
                 coefficient,
@@ -255,8 +389,7 @@ impl Form {
     }
 
     /// Returns the coefficient c in m^(1−n) and the exponent n of a form with the equivalent
-    /// profile g(x) = c |x|ⁿ. Returns `None` for a [`Form::Punch`], a [`Form::WavySphere`] and a
-    /// [`Form::Table`].
+    /// profile g(x) = c |x|ⁿ. Returns `None` for all other forms.
     ///
     /// ```
     /// assert_eq!(
@@ -276,7 +409,11 @@ impl Form {
                 coefficient,
                 exponent,
             } => Some((power_law_factor(exponent) * coefficient, exponent)),
-            Form::WavySphere { .. } | Form::Punch { .. } | Form::Table { .. } => None,
+            Form::WavySphere { .. }
+            | Form::RoundedCone { .. }
+            | Form::Punch { .. }
+            | Form::TwoSpheres { .. }
+            | Form::Table { .. } => None,
         }
     }
 
@@ -362,7 +499,18 @@ mod tests {
             wavelength: 0.3,
         };
         let wave = 2.0 * PI / 0.3;
-        let cases: [(Form, Slope); 5] = [
+        // The rounded apex ends at R tan θ, within x and beyond it.
+        let apex = |radius: f64| -> (Form, Slope) {
+            let rounded = radius * angle.tan();
+            let slope = move |r: f64| {
+                if r < rounded { r / radius } else { angle.tan() }
+            };
+            (Form::RoundedCone { radius, angle }, Box::new(slope))
+        };
+        let cases: [(Form, Slope); 8] = [
+            apex(0.1),
+            apex(1.0),
+            apex(2.5),
             (Form::Paraboloid { radius }, Box::new(move |r| r / radius)),
             (Form::Cone { angle }, Box::new(move |_| angle.tan())),
             (
@@ -395,6 +543,62 @@ mod tests {
         // The special cases of the power law: n = 1 is the cone, n = 2 doubles.
         assert!((power_law_factor(1.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
         assert!((power_law_factor(2.0) - 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_rounded_cone_is_a_sphere_inside_and_nearly_a_cone_far_outside() {
+        let angle = 0.4_f64;
+        let form = Form::RoundedCone { radius: 0.5, angle };
+        let sphere = Form::Paraboloid { radius: 0.5 };
+        let rounded = 0.5 * angle.tan();
+        for share in [0.0, 0.1, 0.999, 1.0] {
+            let x = share * rounded;
+            assert_eq!(form.mdr_profile(x), sphere.mdr_profile(x));
+            assert_eq!(form.depth(x), sphere.depth(x));
+        }
+        // Both sides of the edge of the apex agree, also in the slope.
+        let step = 1e-6 * rounded;
+        let beyond = form.mdr_profile(rounded + step) - form.mdr_profile(rounded);
+        assert!(beyond > 0.0 && beyond < 3.0 * step * rounded / 0.5);
+        // Far outside the apex is missing from the cone: f = r tan θ − b tan θ/2.
+        let cone = Form::Cone { angle };
+        let far = 1e6 * rounded;
+        let missing = cone.depth(far).unwrap() - form.depth(far).unwrap();
+        assert!((missing / (0.5 * rounded * angle.tan()) - 1.0).abs() < 1e-6);
+        assert!((form.mdr_profile(far) / cone.mdr_profile(far) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn two_spheres_stand_above_a_half_of_the_length_each() {
+        let form = Form::TwoSpheres {
+            radius: 2.0,
+            second_radius: 3.0,
+            behind: 0.25,
+        };
+        for points in [1, 2, 3, 4, 5, 16, 101] {
+            let spacing = 1.0 / points as f64;
+            let depths: Vec<f64> = (0..points)
+                .map(|spring| form.depth_of_spring(spring, points, spacing))
+                .collect();
+            let half = points / 2;
+            for (spring, &depth) in depths.iter().enumerate() {
+                let (begin, count, radius, behind) = if spring < half {
+                    (0, half, 2.0, 0.0)
+                } else {
+                    (half, points - half, 3.0, 0.25)
+                };
+                let distance = (spring - begin).abs_diff(count / 2) as f64 * spacing;
+                assert_eq!(depth, behind + distance * distance / radius);
+            }
+            let deepest = depths.iter().copied().fold(0.0, f64::max);
+            // Halves of an odd number of springs differ by a spring.
+            let wider = (1.0 + 2.0 * spacing).powi(2);
+            assert!(deepest <= form.depth_within(1.0) * wider);
+        }
+        // In a square the axes are a half of its side apart, and the nearer sphere counts.
+        let square = |x, y| form.depth_in_square(x, y, 1.0).unwrap();
+        assert_eq!([square(-0.25, 0.0), square(0.25, 0.0)], [0.0, 0.0625]);
+        assert!((square(0.25, 1.0) - 0.3125).abs() < 1e-15);
     }
 
     #[test]

@@ -160,12 +160,7 @@ impl<'a> Depths<'a> {
     fn depth(&self, index: usize) -> f64 {
         match &self.of_table {
             Some(depths) => depths[index.abs_diff(self.points / 2)],
-            None => {
-                // Whole cells from the axis: exact, so that the profile is as symmetric as its
-                // form.
-                let axis = Form::spring_on_axis(self.points as u64) as f64;
-                self.form.mdr_profile((index as f64 - axis) * self.spacing)
-            }
+            None => self.form.depth_of_spring(index, self.points, self.spacing),
         }
     }
 }

@@ -73,7 +73,24 @@ impl OnePiece {
                     area + scale * a * (2.0 / PI - derivative),
                 ]
             }
-            Form::Punch { .. } | Form::Table { .. } => {
+            Form::RoundedCone { radius, angle } => {
+                let slope = angle.tan();
+                let b = radius * slope;
+                if a <= b {
+                    return power(1.0 / radius, 2.0);
+                }
+                // The four terms are the integrals of x², x √(x² − b²) and x arccos(b/x).
+                let root = (a * a - b * b).sqrt();
+                let arc = (b / a).acos();
+                let squares = (a.powi(3) - b.powi(3) - root.powi(3)) / (3.0 * b);
+                let arcs = 0.5 * (a * a * arc - b * root);
+                [
+                    a * slope * ((a - root) / b + arc),
+                    slope * (2.0 * (a - root) / b + arc),
+                    b.powi(3) / (3.0 * radius) + slope * (squares + arcs),
+                ]
+            }
+            Form::Punch { .. } | Form::TwoSpheres { .. } | Form::Table { .. } => {
                 unreachable!("not in one piece with a smooth edge")
             }
         }
