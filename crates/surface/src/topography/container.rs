@@ -204,6 +204,8 @@ impl Measurement {
         Ok(ReadOptions {
             convention: stated.or(options.convention),
             channel,
+            // The name has chosen the surface or the measurement.
+            surface_name: None,
             interpolate: options.interpolate || is_filled,
             ..options.clone()
         })

@@ -31,7 +31,7 @@ const fn starting(start: &'static [u8], name: &'static str, allowed: &'static st
     }
 }
 
-const KNOWN_STARTS: [KnownStart; 30] = [
+const KNOWN_STARTS: [KnownStart; 29] = [
     starting(
         b"\\*Force file list",
         "a file of force curves of Nanoscope",
@@ -60,7 +60,6 @@ const KNOWN_STARTS: [KnownStart; 30] = [
     starting(b"FRTM_GL", "FRT of FormFactor", GWYDDION),
     starting(b"fileType      Image", "MI of Agilent", GWYDDION),
     starting(b"[DataSet]", "NID of Nanosurf", GWYDDION),
-    starting(b"WSxM file", "STP or TOP of WSxM", GWYDDION),
     starting(b"Binary TrueMap", "TMD of TrueMap", GWYDDION),
     starting(b":NANONIS_VERSION:", "SXM of Nanonis", GWYDDION),
     starting(b"\x01\xb0\x93\xff", "MDT of NT-MDT", GWYDDION),
@@ -101,6 +100,17 @@ const KNOWN_ARCHIVES: [KnownArchive; 5] = [
     archive_with("header.properties", "an archive of JPK", CURVE),
 ];
 
+const WSXM: Foreign = Foreign {
+    name: "STP or TOP of WSxM",
+    allowed: GWYDDION,
+};
+
+/// First words of all files of WSxM, also of its texts.
+const WSXM_START: &[u8] = b"WSxM file";
+
+/// Second line of the images of WSxM that are no text.
+const WSXM_IMAGE: &[u8] = b"SxM Image file";
+
 const PLU: Foreign = Foreign {
     name: "PLU of Sensofar",
     allowed: GWYDDION,
@@ -117,7 +127,17 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     if is_plu(bytes) {
         return Err(unread(&PLU));
     }
+    if is_wsxm_image(bytes) {
+        return Err(unread(&WSXM));
+    }
     Ok(())
+}
+
+/// Returns true for an image of WSxM in binary numbers.
+fn is_wsxm_image(bytes: &[u8]) -> bool {
+    let second_line = bytes.split(|byte| *byte == b'\n').nth(1);
+    let has_image = second_line.is_some_and(|line| line.starts_with(WSXM_IMAGE));
+    bytes.starts_with(WSXM_START) && (has_image || bytes.contains(&0))
 }
 
 /// Returns true for a date of 24 letters, then a zero.

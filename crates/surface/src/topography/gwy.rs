@@ -1,50 +1,28 @@
 //! The format of Gwyddion, GWY: nested objects of named components, of which only data fields are
 //! read.
 
-use super::bytes::{Bytes, Number, Order};
+use super::bytes::{Bytes, Number, Order, decoded};
+use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{Remedy, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the channel with number N. Without a number, reads the only
-/// channel whose heights are in a unit of length, or if there is none, the only channel without a
-/// unit.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
-    let channels = channels(bytes)?;
-    let names = channels.iter().map(Channel::name).collect::<Vec<_>>();
-    let names = names.join(", ");
+/// Reads the data field `/N/data` of the channel that is wanted. Without a number or a name, reads
+/// the only channel whose heights are in a unit of length, or if there is none, the only channel
+/// without a unit.
+pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
+    let mut channels = channels(bytes)?;
     let has_length = channels.iter().any(Channel::is_length);
-    let mut chosen = channels;
-    chosen.retain(|candidate| match channel {
-        Some(number) => candidate.number == number,
-        None if has_length => candidate.is_length(),
-        None => candidate.field.unit_z.is_empty(),
-    });
-    if chosen.len() == 1 {
-        return chosen.swap_remove(0).into_reading();
-    }
-    let fault = match channel {
-        _ if chosen.len() > 1 => "several channels of heights; all channels".to_owned(),
-        Some(channel) => format!("no channel {channel}; channels"),
-        None => "no channel in a unit of length; channels".to_owned(),
-    };
-    let allowed = if chosen.len() > 1 {
-        "the number of one"
-    } else {
-        "a channel of heights"
-    };
-    Err(SurfaceError::Channel {
-        place: Place::File,
-        fault,
-        channels: vec![shown(&names)],
-        allowed,
-        remedy: Remedy::Channel,
-    })
+    let labels: Vec<Label> = channels
+        .iter()
+        .map(|channel| channel.label(has_length))
+        .collect();
+    let index = channel::chosen(&labels, "channel", wanted)?;
+    channels.swap_remove(index).into_reading()
 }
 
 /// Reads all channels that have a data field.
@@ -53,28 +31,54 @@ fn channels(bytes: &[u8]) -> Result<Vec<Channel<'_>>, SurfaceError> {
     file.take(SIGNATURE.len())?;
     let mut content = object(&mut file)?;
     let mut channels = Vec::new();
+    let mut titles = Vec::new();
     while let Some(component) = component(&mut content)? {
-        if let (Some(number), Value::Object(content)) =
-            (channel_number(&component.name), component.value)
-        {
-            let field = Field::parse(content)?;
-            channels.push(Channel { number, field });
+        let name = &*component.name;
+        match component.value {
+            Value::Object(content) => {
+                if let Some(number) = channel_number(name, "/data") {
+                    let field = Field::parse(content)?;
+                    let title = "".into();
+                    channels.push(Channel {
+                        number,
+                        title,
+                        field,
+                    });
+                }
+            }
+            Value::Text(text) => {
+                if let Some(number) = channel_number(name, "/data/title") {
+                    titles.push(Title { number, text });
+                }
+            }
+            _ => {}
+        }
+    }
+    for channel in &mut channels {
+        if let Some(title) = titles.iter().find(|title| title.number == channel.number) {
+            channel.title = title.text.clone();
         }
     }
     Ok(channels)
 }
 
-/// Returns N of a component `/N/data`.
-fn channel_number(name: &str) -> Option<u32> {
+/// Title of the channel with this number.
+struct Title<'a> {
+    number: u32,
+    text: Cow<'a, str>,
+}
+
+/// Returns N of a component `/N/data` or `/N/data/title`, which has this end.
+fn channel_number(name: &str, end: &str) -> Option<u32> {
     let name = name.strip_prefix('/')?;
-    name.strip_suffix("/data")?.parse().ok()
+    name.strip_suffix(end)?.parse().ok()
 }
 
 /// Value of a component; types that are not needed are skipped.
 enum Value<'a> {
     Object(Bytes<'a>),
     Number(f64),
-    Text(&'a str),
+    Text(Cow<'a, str>),
     Doubles(Bytes<'a>),
     Other,
 }
@@ -110,7 +114,7 @@ fn component<'a>(content: &mut Bytes<'a>) -> Result<Option<Component<'a>>, Surfa
         b'q' | b'Q' => skipped(content, count, 8)?,
         b'i' => Value::Number(content.number(Number::I32)?),
         b'd' => Value::Number(content.number(Number::F64)?),
-        b's' => Value::Text(str::from_utf8(content.text()?).unwrap_or("\u{fffd}")),
+        b's' => Value::Text(decoded(content.text()?)),
         b'o' => Value::Object(object(content)?),
         b'D' => Value::Doubles(content.part(count.saturating_mul(8))?),
         b'S' => {
@@ -146,6 +150,8 @@ fn skipped<'a>(
 
 struct Channel<'a> {
     number: u32,
+    /// Name of the channel; empty if it has none.
+    title: Cow<'a, str>,
     field: Field<'a>,
 }
 
@@ -154,8 +160,8 @@ struct Field<'a> {
     columns: f64,
     rows: f64,
     sizes: [f64; 2],
-    unit_xy: &'a str,
-    unit_z: &'a str,
+    unit_xy: Cow<'a, str>,
+    unit_z: Cow<'a, str>,
     heights: Option<Bytes<'a>>,
 }
 
@@ -180,14 +186,22 @@ impl<'a> Field<'a> {
 
 impl Channel<'_> {
     fn is_length(&self) -> bool {
-        Unit::is_name(self.field.unit_z)
+        Unit::is_name(&self.field.unit_z)
     }
 
-    /// Returns the number of the channel and the unit of its heights.
-    fn name(&self) -> String {
-        match self.field.unit_z {
-            "" => format!("{} (no unit)", self.number),
-            unit => format!("{} ({unit})", self.number),
+    /// Describes the channel. `has_length` is true if any channel of the file is a length.
+    fn label(&self, has_length: bool) -> Label {
+        let unit = &self.field.unit_z;
+        Label {
+            number: self.number,
+            name: self.title.to_string(),
+            unit: Some(unit.to_string()),
+            has_heights: if has_length {
+                self.is_length()
+            } else {
+                unit.is_empty()
+            },
+            ..Label::default()
         }
     }
 
@@ -210,15 +224,15 @@ impl Channel<'_> {
         }
         let [width, height] = field.sizes;
         let spacing = Some([width / columns as f64, height / rows as f64]);
-        let lateral = Unit::stated(field.unit_xy, place.clone())?;
-        let units = StatedUnits::new(lateral, Unit::stated(field.unit_z, place)?);
+        let lateral = Unit::stated(&field.unit_xy, place.clone())?;
+        let units = StatedUnits::new(lateral, Unit::stated(&field.unit_z, place)?);
         let heights = values.numbers(count, Number::F64)?;
         Ok(Reading::even("GWY", heights, columns, spacing, units))
     }
 }
 
-fn unit_text<'a>(mut content: Bytes<'a>) -> Result<&'a str, SurfaceError> {
-    let mut unit = "";
+fn unit_text<'a>(mut content: Bytes<'a>) -> Result<Cow<'a, str>, SurfaceError> {
+    let mut unit = "".into();
     while let Some(Component { name, value }) = component(&mut content)? {
         if let ("unitstr", Value::Text(text)) = (&*name, value) {
             unit = text;
@@ -277,13 +291,39 @@ mod tests {
     }
 
     #[test]
+    fn channels_have_titles_and_units_of_older_programs() {
+        let title = component("/1/data/title", b's', b"Retrace\0");
+        let titled = |bytes: Vec<u8>| {
+            // The container begins after the signature, its name and its size.
+            let start = SIGNATURE.len() + "GwyContainer".len() + 1 + 4;
+            let content = [&bytes[start..], &title].concat();
+            [SIGNATURE, &object("GwyContainer", &content)].concat()
+        };
+        let both = titled(file(&["m", "m"]));
+        let error = read(&both, Wanted::Heights).unwrap_err().to_string();
+        assert!(
+            error.starts_with("2 channels of heights; channels: 0 in m, 1 \"Retrace\" in m;"),
+            "{error}"
+        );
+        let named = read(&both, Wanted::Name("retrace")).unwrap();
+        assert_eq!(named, read(&both, Wanted::Number(1)).unwrap());
+        // µ in Windows-1252.
+        let mut latin = file(&["\u{7f}m"]);
+        let place = latin.iter().position(|byte| *byte == 0x7f).unwrap();
+        latin[place] = 0xb5;
+        let found = read(&latin, Wanted::Heights).unwrap();
+        assert_eq!(found.units.heights.map(Unit::name), Some("µm"));
+    }
+
+    #[test]
     fn heights_without_a_unit_are_those_of_the_channel_whose_unit_is_asked_for() {
         let height = |units: &[&str], unit: Option<&str>| {
             let options = ReadOptions {
                 height_unit: unit.map(|unit| unit.parse().unwrap()),
                 ..ReadOptions::default()
             };
-            let read = read(&file(units), None).and_then(|reading| reading.resolve(&options));
+            let read =
+                read(&file(units), Wanted::Heights).and_then(|reading| reading.resolve(&options));
             read.map(|surface| surface.heights[3])
                 .map_err(|error: SurfaceError| error.to_string())
         };
@@ -295,15 +335,15 @@ mod tests {
         for (units, expected) in [
             (
                 &["deg", "V"][..],
-                "no channel in a unit of length; channels: 0 (deg), 1 (V); allowed: ",
+                "no channel of heights; channels: 0 in deg, 1 in V; allowed: ",
             ),
             (
                 &["m", "nm"],
-                "several channels of heights; all channels: 0 (m), 1 (nm); allowed: the number of one",
+                "2 channels of heights; channels: 0 in m, 1 in nm; allowed: the number or the name of one",
             ),
             (
                 &["", ""],
-                "several channels of heights; all channels: 0 (no unit), 1 (no unit); allowed: the number of one",
+                "2 channels of heights; channels: 0 without unit, 1 without unit; allowed: the number or the name of one",
             ),
         ] {
             let error = height(units, Some("m")).unwrap_err();

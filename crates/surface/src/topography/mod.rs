@@ -9,6 +9,7 @@
 mod archive;
 mod arrays;
 mod bytes;
+mod channel;
 mod container;
 pub(crate) mod cut;
 mod foreign;

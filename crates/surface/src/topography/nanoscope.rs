@@ -2,28 +2,26 @@
 //! the integer heights of each channel, from the lowest row up.
 
 use super::bytes::{Bytes, Number, Order, decoded};
+use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{Note, Remedy, gathered, shown};
+use asperity_data::{Note, gathered, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
-/// Line that follows the header.
-const END: &[u8] = b"\\*File list end";
+/// Signature of scans in liquid at a controlled electrode potential.
+pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
+
+/// Last words of the line that follows the header.
+const END: &[u8] = b"File list end";
 
 /// Limit of the length of a header in bytes.
 const LONGEST_HEADER: usize = 1 << 18;
 
 const MOST_CHANNELS: usize = 256;
-
-/// Largest number of channels that a message lists.
-const MOST_LISTED: usize = 8;
-
-/// Words in the names of channels of heights; other lengths are deflections and amplitudes.
-const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
 /// Height of a step of the 2¹⁶ of files without a unit of heights, in m over the number in
 /// `Z magnify image`.
@@ -33,49 +31,25 @@ const PER_MAGNIFICATION: f64 = 1.0e-7;
 /// both.
 const DIFFERENT: f64 = 0.01;
 
-/// Reads the channel with this number, from 0. Without a number, reads the only channel of heights.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
+/// Reads the channel that is wanted; numbers count from 0. Without a number or a name, reads the
+/// only channel of heights.
+pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();
     let images: Vec<Image> = sections
         .iter()
         .filter(|section| is_image(section))
         .take(MOST_CHANNELS)
-        .enumerate()
-        .map(|(number, section)| Image {
+        .zip(0..)
+        .map(|(section, number)| Image {
             number,
             section,
             sections: &sections,
         })
         .collect();
-    let mut chosen: Vec<&Image> = images.iter().collect();
-    chosen.retain(|image| match channel {
-        Some(number) => image.number == number as usize,
-        None => image.has_heights(),
-    });
-    let (fault, allowed) = match (&chosen[..], channel) {
-        ([image], _) => return image.reading(bytes),
-        ([], Some(number)) => (
-            format!("no channel {number}"),
-            "the number of a channel, from 0",
-        ),
-        ([], None) => (
-            "no channel of heights".to_owned(),
-            "a channel of heights, or the number of one",
-        ),
-        (several, _) => (
-            format!("{} channels of heights", several.len()),
-            "the number of one",
-        ),
-    };
-    let listed = images.iter().take(MOST_LISTED);
-    Err(SurfaceError::Channel {
-        place: Place::File,
-        fault: format!("{fault}; channels"),
-        channels: listed.map(Image::description).collect(),
-        allowed,
-        remedy: Remedy::Channel,
-    })
+    let labels: Vec<Label> = images.iter().map(Image::label).collect();
+    let index = channel::chosen(&labels, "channel", wanted)?;
+    images[index].reading(bytes)
 }
 
 /// Returns the text of the header, without the line that follows it.
@@ -87,8 +61,7 @@ fn header(bytes: &[u8]) -> Result<Cow<'_, str>, SurfaceError> {
     match end {
         Some(end) => Ok(decoded(&head[..end])),
         None => {
-            let mark = END.escape_ascii();
-            let allowed = format!("\"{mark}\" in the first {LONGEST_HEADER} bytes");
+            let allowed = format!("\"\\*File list end\" in the first {LONGEST_HEADER} bytes");
             Err(refused(Place::File, "a header without an end", allowed))
         }
     }
@@ -201,27 +174,22 @@ struct ScanSize {
 
 /// A channel of the file.
 struct Image<'a> {
-    number: usize,
+    number: u32,
     section: &'a str,
     /// Sections of the whole header, some of which have the scales of channels.
     sections: &'a [&'a str],
 }
 
 impl Image<'_> {
-    /// Returns true for heights; other lengths are deflections and amplitudes.
-    fn has_heights(&self) -> bool {
-        let name = title(self.section).to_lowercase();
-        self.height_range().is_some() && HEIGHTS.iter().any(|word| name.contains(word))
-    }
-
-    fn description(&self) -> String {
-        let name = shown(title(self.section));
-        match entry(self.section, "Line direction") {
-            Some(direction) => {
-                let direction = shown(direction).to_lowercase();
-                format!("{} {name:?} {direction}", self.number)
-            }
-            None => format!("{} {name:?}", self.number),
+    /// Describes the channel. It has heights if they are lengths and if its name says so.
+    fn label(&self) -> Label {
+        let name = title(self.section);
+        Label {
+            number: self.number,
+            name: name.to_owned(),
+            direction: entry(self.section, "Line direction").map(str::to_lowercase),
+            has_heights: self.height_range().is_some() && channel::names_heights(name),
+            ..Label::default()
         }
     }
 
@@ -272,12 +240,14 @@ impl Image<'_> {
         let size = self.scan_size()?;
         let along = size.width / columns as f64;
         let between = size.height / rows as f64;
+        // Scans at one place, and of lost settings, state a size of 0.
+        let has_size = along > 0.0 && between > 0.0;
         let steps = 2.0_f64.powi(8 * number.size() as i32);
         let units = StatedUnits::new(Some(size.unit), Some(heights.unit));
-        let spacing = Some([along, between]);
+        let spacing = has_size.then_some([along, between]);
         let mut reading = Reading::even("Nanoscope", numbers, columns, spacing, units)
             .scaled(|_| false, heights.range / steps);
-        if rows > 1 && (along / between - 1.0).abs() > DIFFERENT {
+        if has_size && rows > 1 && (along / between - 1.0).abs() > DIFFERENT {
             let ScanSize {
                 unit,
                 width,
@@ -320,7 +290,7 @@ impl Image<'_> {
             return Err(self.wrong("Scan size", allowed));
         };
         // A second size is the one of a square, unless it differs.
-        if size.height == size.width {
+        if size.height == size.width || size.height == 0.0 {
             size.height = size.width / self.aspect_ratio().unwrap_or(1.0);
         }
         Ok(size)
@@ -372,6 +342,7 @@ fn finite(text: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::ReadOptions;
     use super::*;
 
     /// A file with the entries of a scan and of its images; each image has the integers of two rows
@@ -408,7 +379,7 @@ mod tests {
     type Found = (Vec<f64>, Option<[f64; 2]>, Vec<Note>);
 
     fn heights(bytes: &[u8]) -> Result<Found, String> {
-        let found = read(bytes, None).map_err(|error| error.to_string())?;
+        let found = read(bytes, Wanted::Heights).map_err(|error| error.to_string())?;
         let unit = found.units.heights.unwrap_or(Unit::METRE);
         let rounded = |height: &f64| (unit.to_metres(*height) * 1e15).round() / 1e6;
         Ok((
@@ -484,6 +455,37 @@ mod tests {
     }
 
     #[test]
+    fn scans_in_liquid_and_without_a_size_are_read() {
+        let plain = file(SCAN, &[HEIGHT], &short());
+        let head = plain.strip_prefix(SIGNATURE).unwrap();
+        let mut in_liquid = [SIGNATURE_OF_ELECTROCHEMISTRY, head].concat();
+        // The offset of the heights stays.
+        in_liquid.drain(1_000..1_003);
+        assert_eq!(heights(&in_liquid), heights(&plain));
+
+        let no_size = file(SCAN, &[&HEIGHT.replace("3 2 ~m", "0 0 ~m")], &short());
+        let found = heights(&no_size).unwrap();
+        assert_eq!((&found.0, found.1), (&heights(&plain).unwrap().0, None));
+        let read = |spacing: Option<f64>| {
+            let options = ReadOptions {
+                spacing,
+                ..ReadOptions::default()
+            };
+            let surface = read(&no_size, Wanted::Heights).unwrap().resolve(&options);
+            let spacing = surface.map(|surface| surface.spacing().unwrap());
+            spacing.map_err(|error| error.to_string())
+        };
+        assert_eq!(read(Some(5e-8)), Ok([5e-8; 2]));
+        let error = read(None).unwrap_err();
+        assert!(
+            error.contains(
+                "without a distance between points; allowed: a distance beside the file"
+            ),
+            "{error}"
+        );
+    }
+
+    #[test]
     fn channels_are_chosen_by_number_or_as_the_only_heights() {
         let retrace = HEIGHT.replace("Trace", "Retrace");
         let amplitude = HEIGHT
@@ -494,28 +496,36 @@ mod tests {
         assert_eq!(
             heights(&both).unwrap_err(),
             "2 channels of heights; channels: 0 \"Height Sensor\" trace, 1 \"Height Sensor\" retrace, 2 \"Amplitude\" trace; \
-             allowed: the number of one"
+             allowed: the number or the name of one"
         );
-        assert!(read(&both, Some(2)).is_ok());
+        assert!(read(&both, Wanted::Number(2)).is_ok());
+        for (name, index) in [("retrace", 1), ("height sensor TRACE", 0), ("Amplitude", 2)] {
+            let found = read(&both, Wanted::Name(name)).unwrap();
+            assert_eq!(found, read(&both, Wanted::Number(index)).unwrap(), "{name}");
+        }
         for (bytes, channel, expected) in [
-            (&both[..], Some(3), "no channel 3; channels: 0 \"Height"),
+            (
+                &both[..],
+                Wanted::Number(3),
+                "no channel 3; channels: 0 \"Height",
+            ),
             (
                 &file(SCAN, &[&amplitude], &short()),
-                None,
+                Wanted::Heights,
                 "no channel of heights; channels: 0 \"Amplitude\" trace",
             ),
             (
                 &file("", &[HEIGHT], &short()),
-                Some(0),
+                Wanted::Number(0),
                 "channel 0: Z scale = \"V [Sens. Zsens]",
             ),
             (
                 &file(SCAN, &[&HEIGHT.replace("~m", "V")], &short()),
-                None,
+                Wanted::Heights,
                 "channel 0: Scan size = \"3 2 V\"",
             ),
-            (&both[..2080], Some(2), "byte "),
-            (&both[..400], None, "a header without an end"),
+            (&both[..2080], Wanted::Number(2), "byte "),
+            (&both[..400], Wanted::Heights, "a header without an end"),
         ] {
             let error = read(bytes, channel).unwrap_err().to_string();
             assert!(

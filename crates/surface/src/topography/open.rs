@@ -2,6 +2,7 @@
 
 use super::archive::{Archive, ZIP};
 use super::bytes::{MOST_BYTES, MOST_EXPANSION, most_expanded};
+use super::channel::Wanted;
 use super::container::{self, Measurement};
 use super::options::ReadOptions;
 use super::reading::Reading;
@@ -18,39 +19,55 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// A binary format that is known by its first bytes.
 struct BinaryFormat {
     signature: &'static [u8],
-    read: fn(&[u8], &ReadOptions) -> Result<Reading, SurfaceError>,
+    reader: Reader,
+}
+
+/// Reader of a format.
+enum Reader {
+    /// Of a format with one surface, without a name.
+    Single(fn(&[u8]) -> Result<Reading, SurfaceError>),
+    /// Of a format with channels.
+    Channels(fn(&[u8], Wanted<'_>) -> Result<Reading, SurfaceError>),
+}
+
+impl Reader {
+    fn read(&self, bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError> {
+        match self {
+            Reader::Single(read) => {
+                check_unnamed(options)?;
+                read(bytes)
+            }
+            Reader::Channels(read) => read(bytes, Wanted::new(options)?),
+        }
+    }
+}
+
+const fn single(
+    signature: &'static [u8],
+    read: fn(&[u8]) -> Result<Reading, SurfaceError>,
+) -> BinaryFormat {
+    let reader = Reader::Single(read);
+    BinaryFormat { signature, reader }
+}
+
+const fn with_channels(
+    signature: &'static [u8],
+    read: fn(&[u8], Wanted<'_>) -> Result<Reading, SurfaceError>,
+) -> BinaryFormat {
+    let reader = Reader::Channels(read);
+    BinaryFormat { signature, reader }
 }
 
 /// All other formats except SDF and archives are text.
-const BINARY_FORMATS: [BinaryFormat; 7] = [
-    BinaryFormat {
-        signature: asperity_data::SIGNATURE,
-        read: |bytes, _| npy::read(bytes),
-    },
-    BinaryFormat {
-        signature: gsf::SIGNATURE,
-        read: |bytes, _| gsf::read(bytes),
-    },
-    BinaryFormat {
-        signature: netcdf::SIGNATURE,
-        read: |bytes, _| netcdf::read(bytes),
-    },
-    BinaryFormat {
-        signature: gwy::SIGNATURE,
-        read: |bytes, options| gwy::read(bytes, options.channel),
-    },
-    BinaryFormat {
-        signature: nanoscope::SIGNATURE,
-        read: |bytes, options| nanoscope::read(bytes, options.channel),
-    },
-    BinaryFormat {
-        signature: sur::PLAIN,
-        read: |bytes, _| sur::read(bytes),
-    },
-    BinaryFormat {
-        signature: sur::COMPRESSED,
-        read: |bytes, _| sur::read(bytes),
-    },
+const BINARY_FORMATS: [BinaryFormat; 8] = [
+    single(asperity_data::SIGNATURE, npy::read),
+    single(gsf::SIGNATURE, gsf::read),
+    single(netcdf::SIGNATURE, netcdf::read),
+    with_channels(gwy::SIGNATURE, gwy::read),
+    with_channels(nanoscope::SIGNATURE, nanoscope::read),
+    with_channels(nanoscope::SIGNATURE_OF_ELECTROCHEMISTRY, nanoscope::read),
+    single(sur::PLAIN, sur::read),
+    single(sur::COMPRESSED, sur::read),
 ];
 
 /// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with
@@ -106,11 +123,6 @@ pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     if bytes.starts_with(ZIP) {
         return parse_archive(bytes, options);
     }
-    if options.surface_name.is_some() {
-        let found = "a file of one surface, without a name";
-        let allowed = "a container of surfaces, or no name of one";
-        return Err(refused(Place::File, found, allowed).with(Remedy::NoSurfaceName));
-    }
     let surface = reading(bytes, options)?.resolve_part(options)?;
     Ok(vec![surface])
 }
@@ -124,6 +136,7 @@ fn parse_archive(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
         return Err(foreign::archive(archive.names(), indices));
     };
     if index == x3p::INDEX {
+        check_unnamed(options)?;
         let surface = x3p::read(archive)?.resolve_part(options)?;
         return Ok(vec![surface]);
     }
@@ -177,20 +190,32 @@ fn parse_measurements(
 fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError> {
     let content = unpacked(bytes)?;
     if content.starts_with(ZIP) {
+        check_unnamed(options)?;
         let mut archive = Archive::new(&content)?;
         archive.index(&[x3p::INDEX])?;
         return x3p::read(archive);
     }
     if sdf::is_sdf(&content) {
+        check_unnamed(options)?;
         return sdf::read(&content);
     }
     foreign::check(&content)?;
     for format in &BINARY_FORMATS {
         if content.starts_with(format.signature) {
-            return (format.read)(&content, options);
+            return format.reader.read(&content, options);
         }
     }
-    text::read(&content, options.channel)
+    text::read(&content, Wanted::new(options)?)
+}
+
+/// Returns an error if the options name a channel, for a format whose surface has no name.
+fn check_unnamed(options: &ReadOptions) -> Result<(), SurfaceError> {
+    if options.surface_name.is_none() {
+        return Ok(());
+    }
+    let found = "a file of one surface, without a name";
+    let allowed = "a file of several channels or surfaces, or no name of one";
+    Err(refused(Place::File, found, allowed).with(Remedy::NoSurfaceName))
 }
 
 /// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is
@@ -344,7 +369,7 @@ mod tests {
             .to_string();
         assert_eq!(
             error,
-            "no channel 4; channels: 0 (m); allowed: a channel of heights"
+            "no channel 4; channels: 0 \"Height\" in m; allowed: the number or the name of one"
         );
     }
 
@@ -420,6 +445,40 @@ mod tests {
                 assert!(error.starts_with("byte "), "{name}, {end}: {error}");
             }
         }
+    }
+
+    #[test]
+    fn a_name_is_refused_where_surfaces_have_none() {
+        let named = |name: &str| ReadOptions {
+            surface_name: Some("Height".to_owned()),
+            ..bare(name)
+        };
+        for name in [
+            "text.sdf",
+            "field.gsf",
+            "map.npy",
+            "listed.x3p",
+            "plain.sur",
+            "map.nc",
+        ] {
+            let error = parse(&file(name, b"", b""), &named(name)).unwrap_err();
+            let error = error.to_string();
+            assert!(
+                error.starts_with("a file of one surface, without a name"),
+                "{name}: {error}"
+            );
+        }
+        assert!(parse(&file("map.gwy", b"", b""), &named("map.gwy")).is_ok());
+        let both = ReadOptions {
+            channel: Some(0),
+            ..named("map.gwy")
+        };
+        let error = parse(&file("map.gwy", b"", b""), &both).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .starts_with("channel 0 and channel \"Height\"; allowed: one")
+        );
     }
 
     #[test]

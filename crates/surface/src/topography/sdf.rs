@@ -61,34 +61,64 @@ enum Version {
     Iso2,
 }
 
+/// Largest number of letters of the name of an institute.
+const LONGEST_NAME: usize = 8;
+
 /// Returns true for the first bytes of SDF: `a` for text or `b` for binary, and the name of a
 /// version.
 pub(super) fn is_sdf(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
-    let [form, family @ ..] = bytes else {
+    let [form, version @ ..] = bytes else {
         return false;
     };
-    b"aAbB".contains(form) && (family.starts_with(b"ISO-") || family.starts_with(b"BCR-"))
+    let is_known = version.starts_with(b"ISO-") || version.starts_with(b"BCR-");
+    b"aAbB".contains(form) && (is_known || is_of_institute(version))
+}
+
+/// Returns true for the name of an institute and a version, as in `NIST-1.0` and `NPL-V1.0`.
+/// Institutes write the version of BCR under names of their own.
+fn is_of_institute(version: &[u8]) -> bool {
+    let head = &version[..version.len().min(LONGEST_NAME + 1)];
+    let Some(letters) = head.iter().position(|byte| *byte == b'-') else {
+        return false;
+    };
+    let number = &version[letters + 1..];
+    let number = number.strip_prefix(b"V").unwrap_or(number);
+    let is_number = match number {
+        [before, b'.', after, end @ ..] => {
+            let ends = end.first().is_none_or(|byte| !byte.is_ascii_alphanumeric());
+            before.is_ascii_digit() && after.is_ascii_digit() && ends
+        }
+        _ => false,
+    };
+    letters >= 2 && head[..letters].iter().all(u8::is_ascii_uppercase) && is_number
 }
 
 /// Reads the text or the binary form of any version.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let bytes = bytes.strip_prefix(UTF_8_MARK).unwrap_or(bytes);
-    let version = match bytes.get(1..8) {
-        Some(b"BCR-1.0") => Version::Bcr,
-        Some(b"ISO-1.0") => Version::Iso1,
-        Some(b"ISO-2.0") => Version::Iso2,
-        _ => {
-            let name = String::from_utf8_lossy(&bytes[1..bytes.len().min(8)]);
-            let found = format!("version {:?} of SDF", shown(&name));
-            let allowed = "BCR-1.0, ISO-1.0 and ISO-2.0";
-            return Err(refused(Place::Byte(1), found, allowed));
-        }
-    };
+    let version = version(bytes.get(1..).unwrap_or_default())?;
     if bytes[0].eq_ignore_ascii_case(&b'a') {
         read_text(bytes, version)
     } else {
         read_binary(bytes, version)
+    }
+}
+
+/// Returns the version that follows the first letter of a file.
+fn version(name: &[u8]) -> Result<Version, SurfaceError> {
+    let is_known = name.starts_with(b"ISO-") || name.starts_with(b"BCR-");
+    match name.get(..7) {
+        Some(b"BCR-1.0") => Ok(Version::Bcr),
+        Some(b"ISO-1.0") => Ok(Version::Iso1),
+        Some(b"ISO-2.0") => Ok(Version::Iso2),
+        _ if !is_known && is_of_institute(name) => Ok(Version::Bcr),
+        _ => {
+            let name = String::from_utf8_lossy(&name[..name.len().min(7)]);
+            let found = format!("version {:?} of SDF", shown(&name));
+            let allowed = "BCR-1.0, ISO-1.0 and ISO-2.0, and versions of institutes, as NIST-1.0";
+            Err(refused(Place::Byte(1), found, allowed))
+        }
     }
 }
 
@@ -339,6 +369,34 @@ mod tests {
     }
 
     #[test]
+    fn institutes_write_the_version_of_bcr_under_their_names() {
+        let expected = found(text("BCR-1.0", "5", "1 2 3\n4 5 6").as_bytes()).unwrap();
+        for name in ["NIST-1.0", "NPL-V1.0", "BC-1.0"] {
+            let content = text(name, "5", "1 2 3\n4 5 6");
+            assert!(is_sdf(content.as_bytes()), "{name}");
+            assert_eq!(found(content.as_bytes()), Ok(expected.clone()), "{name}");
+        }
+        let heights = [1_i16, 2, 3, 4, 5, 6].map(i16::to_le_bytes).concat();
+        // The field of the version has 8 bytes.
+        for name in ["NPL-1.0", "BC-1.0 "] {
+            let content = binary(name, 5, &heights);
+            assert!(is_sdf(&content), "{name}");
+            assert_eq!(found(&content), Ok(expected.clone()), "{name}");
+        }
+        for other in [
+            "a",
+            "aB",
+            "aSCAN-12",
+            "absolute-1.0",
+            "aNIST-1.00",
+            "a-1.0",
+            "aLONGNAMES-1.0",
+        ] {
+            assert!(!is_sdf(other.as_bytes()), "{other}");
+        }
+    }
+
+    #[test]
     fn texts_of_programs_have_names_comments_marks_and_line_ends_of_their_own() {
         let plain = text("BCR-1.0", "5", "1 2 3\n4 5 32767");
         let expected = found(plain.as_bytes()).unwrap();
@@ -364,7 +422,7 @@ mod tests {
         for (content, expected) in [
             (
                 text("ISO-3.0", "5", ""),
-                "byte 1: version \"ISO-3.0\" of SDF; allowed: BCR-1.0, ISO-1.0 and ISO-2.0",
+                "byte 1: version \"ISO-3.0\" of SDF; allowed: BCR-1.0, ISO-1.0 and ISO-2.0, and versions of institutes, as NIST-1.0",
             ),
             (
                 text("BCR-1.0", "FLOATING", ""),

@@ -1,7 +1,8 @@
 //! Meaning of the columns of a table: heights alone, a profile, points of a map, or rows of a map.
 
+use super::super::channel::{self, Label, Wanted};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::shown;
+use asperity_data::{Remedy, shown};
 use asperity_data::text_table::{Role, TextColumn};
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless
@@ -21,14 +22,24 @@ pub(super) struct List {
     pub valid: Option<usize>,
 }
 
-/// Finds the columns of a list of points; `None` if the columns are rows of a map.
-pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceError> {
+/// Finds the columns of a list of points; `None` if the columns are rows of a map. If there may be
+/// several columns of heights, or other columns, `wanted` chooses the heights.
+pub(super) fn list_of(
+    columns: &[TextColumn],
+    wanted: Wanted<'_>,
+) -> Result<Option<List>, SurfaceError> {
     let named = NamedColumns::new(columns);
+    if let Wanted::Name(_) = wanted {
+        return named.list_with(wanted).map(Some);
+    }
     if let Some(list) = named.list() {
         return Ok(Some(list));
     }
     if named.are_rows_of_a_map() {
         return Ok(None);
+    }
+    if let Wanted::Number(_) = wanted {
+        return named.list_with(wanted).map(Some);
     }
     let names: Vec<String> = columns
         .iter()
@@ -36,7 +47,16 @@ pub(super) fn list_of(columns: &[TextColumn]) -> Result<Option<List>, SurfaceErr
         .map(|column| format!("{:?}", shown(&column.name)))
         .collect();
     let found = format!("{} columns {}", columns.len(), names.join(", "));
-    let allowed = "a height, x and a height, or x, y and a height, beside a number of the point and a column valid";
+    let mut allowed = "a height, x and a height, or x, y and a height, beside a number of the \
+                       point and a column valid"
+        .to_owned();
+    if let Some(example) = named.candidate() {
+        allowed += &format!(
+            ", or the name of the column of heights or its number from 0, such as {:?}",
+            shown(&example.name)
+        );
+        return Err(refused(Place::File, found, allowed).with(Remedy::Channel));
+    }
     Err(refused(Place::File, found, allowed))
 }
 
@@ -75,9 +95,71 @@ impl<'a> NamedColumns<'a> {
         match self.others[..] {
             [height] => Some(self.with(None, None, height)),
             [first, second] => Some(self.profile(first, second)),
-            [first, second, third] => self.points(first, second, third),
+            [first, second, third] if !self.has_several_heights() => {
+                self.points(first, second, third)
+            }
             _ => None,
         }
+    }
+
+    /// Returns true for positions along x and then several named columns, none of which is y, as in
+    /// a file of a profile before and after a filter.
+    fn has_several_heights(&self) -> bool {
+        let [first, heights @ ..] = &self.others[..] else {
+            return false;
+        };
+        self.x == Some(*first)
+            && heights.len() > 1
+            && heights.iter().all(|column| {
+                let column = &self.columns[*column];
+                !column.name.is_empty() && column.role != Role::Y
+            })
+    }
+
+    /// Returns the first column with a name that may be the heights.
+    fn candidate(&self) -> Option<&TextColumn> {
+        let is_position = |column: usize| Some(column) == self.x || Some(column) == self.y;
+        let mut heights = self.others.iter().filter(|column| !is_position(**column));
+        let first = &self.columns[*heights.next()?];
+        (!first.name.is_empty()).then_some(first)
+    }
+
+    /// Returns the list with the wanted column as heights. Its positions are the columns named x
+    /// and y; without any, the first column has the positions of a profile.
+    fn list_with(&self, wanted: Wanted<'_>) -> Result<List, SurfaceError> {
+        let height = self.wanted(wanted)?;
+        // Of the columns X and Y the second one is the height.
+        let y = self.y.filter(|_| self.others.len() > 2);
+        let is_position = Some(height) == self.x || Some(height) == y;
+        let x = match self.others.first() {
+            Some(first) if self.x.is_none() && *first != height => Some(*first),
+            _ => self.x,
+        };
+        if is_position || !self.others.contains(&height) {
+            let name = shown(&self.columns[height].name);
+            let found = format!("column {height} {name:?} has positions or numbers of points");
+            return Err(refused(
+                Place::File,
+                found,
+                "the name of a column of heights",
+            ));
+        }
+        Ok(self.with(x, y, height))
+    }
+
+    /// Returns the column with a name or number.
+    fn wanted(&self, wanted: Wanted<'_>) -> Result<usize, SurfaceError> {
+        let labels: Vec<Label> = self
+            .columns
+            .iter()
+            .zip(0..)
+            .map(|(column, number)| Label {
+                number,
+                name: column.name.clone(),
+                ..Label::default()
+            })
+            .collect();
+        channel::chosen(&labels, "column", wanted)
     }
 
     fn with(&self, x: Option<usize>, y: Option<usize>, height: usize) -> List {
@@ -131,7 +213,10 @@ impl<'a> NamedColumns<'a> {
     fn are_rows_of_a_map(&self) -> bool {
         let has_no_list_name = self.number.is_none() && self.valid.is_none();
         let has_positions = self.x.is_some() && (self.y.is_some() || self.height.is_some());
-        self.others.len() > MOST_NAMED && has_no_list_name && !has_positions
+        self.others.len() > MOST_NAMED
+            && has_no_list_name
+            && !has_positions
+            && !self.has_several_heights()
     }
 }
 
@@ -152,8 +237,11 @@ mod tests {
         let mut header = HeadLines::default();
         header.take(names);
         let (separator, count) = (Separator::of(names), names.split(',').count());
-        let found = list_of(&header.columns(count, count, separator, Unit::is_name))
-            .map_err(|error| error.to_string())?;
+        let found = list_of(
+            &header.columns(count, count, separator, Unit::is_name),
+            Wanted::Heights,
+        )
+        .map_err(|error| error.to_string())?;
         Ok(found.map(|list| [list.x, list.y, Some(list.height), list.valid]))
     }
 

@@ -26,19 +26,32 @@ const OF_HEIGHTS: &str = "z value values height heights data hodnot valore valor
 /// Words beside `unit` in a key of the unit of both positions.
 const OF_POSITIONS: &str = "xy lateral position positions distance";
 
-/// Words beside `unit` in a key of the unit of all lengths.
-const OF_ALL: &str = "length lengths de измерения";
+/// Words beside `unit` in a key that name no axis.
+const OF_ALL: &str = "length lengths axis de измерения";
 
 /// Keys of the distance between points of a map along both axes.
-const SPACING: [&str; 4] = [
+const SPACING: [&str; 8] = [
     "xy calibration",
     "pixel size",
     "sampling distance",
+    "sampling interval",
+    "sample spacing",
+    "point spacing",
+    "spacing",
     "pixel_size",
 ];
 
 /// Keys of the distances between points along each axis.
-const SPACING_OF_AXIS: [&str; 2] = ["scale x", "scale y"];
+const SPACING_OF_AXIS: [[&str; 4]; 2] = [
+    ["scale x", "dx", "delta x", "x spacing"],
+    ["scale y", "dy", "delta y", "y spacing"],
+];
+
+/// Keys of the sizes of a map in WSxM. The size in z has the unit of the heights.
+const AMPLITUDES: [&str; 3] = ["x amplitude", "y amplitude", "z amplitude"];
+
+/// Key of the unit of the heights of a profile in WSxM.
+const UNIT_OF_ORDINATE: &str = "y axis unit";
 
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
@@ -46,6 +59,9 @@ const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 /// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its
 /// second number, in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
+
+/// Number of the line of Zygo XYZ with the distance between points.
+const LINE_OF_DISTANCE: usize = 8;
 
 /// Unit of lengths in headers of SPIP.
 const NANOMETRE: &str = "nm";
@@ -79,6 +95,11 @@ impl Length {
 
     fn bare(value: f64) -> Self {
         Length { value, unit: None }
+    }
+
+    /// Reads a length with its unit, or a number alone.
+    fn with_or_without_unit(text: &str) -> Option<Self> {
+        Length::parse(text).or_else(|| number(text).map(Length::bare))
     }
 
     /// Reads a length and its unit from a text such as `10.5 µm`, `24µm`, `24 (µm)` or
@@ -124,6 +145,8 @@ pub struct TextHeader {
     is_data_scale_needed: bool,
     /// True if the rows of numbers run along y.
     pub is_along_y: bool,
+    /// True if the positions of points count columns and rows.
+    pub has_counted_positions: bool,
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
     /// Last lines of the header that have no key and may name columns.
@@ -158,6 +181,10 @@ impl TextHeader {
         let value = entry.value.as_str();
         if is_one_of(key, CHANNEL) {
             self.channel = Some(value.to_owned());
+        } else if let Some(axis) = AMPLITUDES.iter().position(|name| *name == key) {
+            self.take_amplitude(axis, value)?;
+        } else if key == UNIT_OF_ORDINATE {
+            self.take_unit(&[Z], value)?;
         } else if let Some(axes) = axes_of_unit(key) {
             self.take_unit(&axes, value)?;
         } else if let Some(axis) = [WIDTH, HEIGHT].iter().position(|keys| is_one_of(key, keys)) {
@@ -167,14 +194,38 @@ impl TextHeader {
                 Some(spacing) => self.spacing = [Some(spacing); 2],
                 None => self.take_wyko(key, value)?,
             }
-        } else if let Some(axis) = SPACING_OF_AXIS.iter().position(|name| *name == key) {
-            self.spacing[axis] = Some(Length::bare(number(value)?));
+        } else if let Some(axis) = SPACING_OF_AXIS.iter().position(|keys| keys.contains(&key)) {
+            self.spacing[axis] = Some(Length::with_or_without_unit(value)?);
         } else if let Some(axis) = COUNTS.iter().position(|keys| is_one_of(key, keys)) {
             self.counts[axis] = Some(value.parse().ok()?);
         } else if self.take_factor(key, value).is_none() {
             self.take_wyko(key, value)?;
         }
         Some(())
+    }
+
+    /// Reads the size of a map along x or y, or the unit of the heights beside their range.
+    fn take_amplitude(&mut self, axis: usize, value: &str) -> Option<()> {
+        if axis != Z {
+            self.sizes[axis] = Some(Length::parse(value)?);
+            return Some(());
+        }
+        let unit = value.trim_start_matches(|c: char| !c.is_alphabetic() || c == 'e' || c == 'E');
+        self.take_unit(&[Z], unit)
+    }
+
+    /// Reads a line of the header of Zygo XYZ, by its number in the file. The seventh number of the
+    /// eighth line is the distance in m between columns and between rows, or 0 if it is unknown.
+    pub fn take_zygo(&mut self, line_number: usize, line: &str) {
+        self.has_counted_positions = true;
+        if line_number != LINE_OF_DISTANCE {
+            return;
+        }
+        let distance = line.split_ascii_whitespace().nth(6).and_then(number);
+        if let Some(value) = distance.filter(|distance| *distance > 0.0) {
+            let unit = Some(Unit::METRE);
+            self.spacing = [Some(Length { value, unit }); 2];
+        }
     }
 
     /// Reads the unit of these axes; no axes mean all lengths.
@@ -244,6 +295,12 @@ impl TextHeader {
             _ => return None,
         }
         Some(())
+    }
+
+    /// Returns the distance in m between the points of a profile without positions.
+    pub fn distance(&self) -> Option<f64> {
+        let [along, _] = self.spacing;
+        self.metres(along?, X, None)
     }
 
     /// Returns the distances in m along and between the rows of a map with these numbers of columns

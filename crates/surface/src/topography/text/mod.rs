@@ -14,20 +14,28 @@ pub(crate) mod table;
 pub(crate) mod table_reading;
 pub(crate) mod warnings;
 
+use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::text_table::{COMMENT, each_line};
-use asperity_data::{PROVENANCE, Remedy, shown};
+use asperity_data::{PROVENANCE, shown};
 use header::{TextHeader, Z};
+use std::borrow::Cow;
 use std::ops::Range;
 use table::{NumberedLine, Table, is_header};
 
 /// Largest number of headers after which numbers follow.
 const MOST_PARTS: usize = 256;
 
-/// Largest number of channels that a message lists.
-const MOST_LISTED: usize = 8;
+/// First words of Zygo XYZ, whose header ends with a line of one sign.
+const ZYGO_XYZ: &str = "Zygo XYZ Data File";
+
+/// Last line of the header of Zygo XYZ.
+const ZYGO_END: &str = "#";
+
+/// Mark of a missing point in Zygo XYZ, in two words.
+const NO_DATA: &str = "no data";
 
 /// Numbers of a text, with the header before them.
 #[derive(Default)]
@@ -50,22 +58,24 @@ struct Text {
     /// Last line of the last header, if it is no comment.
     last_of_header: Option<(usize, String)>,
     last_line: usize,
+    /// True in the header of Zygo XYZ, which has lines of numbers.
+    is_in_zygo_header: bool,
 }
 
-/// Reads the channel with this number, from 0, of a text with several. Without a number, reads the
-/// only channel whose heights are lengths.
-pub(super) fn read(bytes: &[u8], channel: Option<u32>) -> Result<Reading, SurfaceError> {
+/// Reads the channel that is wanted of a text with several; numbers count from 0. Without a number
+/// or a name, reads the only channel whose heights are lengths.
+pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let text = Text::parse(bytes)?;
     let last_line = text.last_line;
     let mut parts = text.parts;
-    let Channel { part, rows } = chosen(&parts, channel)?;
-    let Part { header, table } = parts.swap_remove(part);
+    let Choice { channel, column } = chosen(&parts, wanted)?;
+    let Part { header, table } = parts.swap_remove(channel.part);
     let Some(table) = table else {
         return Err(no_numbers());
     };
     // After the last line end is an empty line.
-    let is_open = rows.end == table.rows() && table.last_line() == last_line;
-    table.reading(&header, rows, is_open)
+    let is_open = channel.rows.end == table.rows() && table.last_line() == last_line;
+    table.reading(&header, channel.rows, column, is_open)
 }
 
 impl Text {
@@ -80,9 +90,26 @@ impl Text {
             parts: vec![first],
             last_of_header: None,
             last_line: 0,
+            is_in_zygo_header: false,
         };
-        each_line(bytes, |number, line| text.take(number, line))?;
+        each_line(bytes, |number, line| {
+            text.take_special(number, &without_no_data(line))
+        })?;
         Ok(text)
+    }
+
+    /// Reads a line, which may be one of the header of Zygo XYZ.
+    fn take_special(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
+        self.is_in_zygo_header |= number == 1 && line.starts_with(ZYGO_XYZ);
+        if !self.is_in_zygo_header {
+            return self.take(number, line);
+        }
+        self.is_in_zygo_header = line != ZYGO_END;
+        self.last_line = number;
+        if let Some(part) = self.parts.last_mut() {
+            part.header.take_zygo(number, line);
+        }
+        Ok(())
     }
 
     fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
@@ -125,6 +152,24 @@ impl Text {
     }
 }
 
+/// Returns a line with one word in place of each mark of a missing point in two words.
+fn without_no_data(line: &str) -> Cow<'_, str> {
+    if !line.contains(['d', 'D']) || !line.is_ascii() {
+        return line.into();
+    }
+    let mut rest = line;
+    let mut text = String::new();
+    while let Some(place) = rest.to_ascii_lowercase().find(NO_DATA) {
+        text += &rest[..place];
+        text += "NaN";
+        rest = &rest[place + NO_DATA.len()..];
+    }
+    if text.is_empty() {
+        return line.into();
+    }
+    (text + rest).into()
+}
+
 /// Returns true for a line after numbers that begins another header: words, or a comment with the
 /// name of a channel.
 fn is_new_part(parts: &[Part], line: &str, is_comment: bool) -> bool {
@@ -144,35 +189,76 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", allowed)
 }
 
-/// Returns the channel with this number. Without a number, chooses the only channel, or the only
-/// one whose heights are lengths.
-fn chosen(parts: &[Part], number: Option<u32>) -> Result<Channel, SurfaceError> {
+/// A channel, and what the options ask for among its columns.
+struct Choice<'a> {
+    channel: Channel,
+    column: Wanted<'a>,
+}
+
+/// Returns the channel that is wanted. Of a text with one channel, a number or another name than
+/// that of the channel means a column.
+fn chosen<'a>(parts: &[Part], wanted: Wanted<'a>) -> Result<Choice<'a>, SurfaceError> {
     let channels = channels(parts);
     if channels.is_empty() {
         return Err(no_numbers());
     }
+    let labels = labels(parts, &channels);
     if let [only] = &channels[..] {
-        return Ok(only.clone());
+        let is_named = matches!(wanted, Wanted::Name(_))
+            && channel::chosen(&labels, "channel", wanted).is_ok();
+        return Ok(Choice {
+            channel: only.clone(),
+            column: if is_named { Wanted::Heights } else { wanted },
+        });
     }
-    let chosen = match number {
-        Some(number) => channels.get(number as usize).filter(|channel| {
-            // The numbers of a channel without any unit may be lengths.
-            parts[channel.part].header.other_unit.is_none()
-        }),
-        None => {
-            let is_length = |channel: &&Channel| parts[channel.part].header.unit(Z, None).is_some();
-            let mut lengths = channels.iter().filter(is_length);
-            let first = lengths.next();
-            if lengths.next().is_some() {
-                None
-            } else {
-                first
-            }
+    let channel = channels[channel::chosen(&labels, "channel", wanted)?].clone();
+    let header = &parts[channel.part].header;
+    if let Some(unit) = &header.other_unit
+        && header.unit(Z, None).is_none()
+    {
+        let found = format!(
+            "the channel is in {}; channels: {}",
+            shown(unit),
+            channel::listed(&labels).join(", ")
+        );
+        return Err(refused(Place::File, found, "a channel in a unit of length"));
+    }
+    Ok(Choice {
+        channel,
+        column: Wanted::Heights,
+    })
+}
+
+/// Describes the channels. Those in a unit of length are heights; if there are none, those without
+/// a unit.
+fn labels(parts: &[Part], channels: &[Channel]) -> Vec<Label> {
+    let numbered = channels.iter().zip(0..);
+    let mut labels: Vec<Label> = numbered
+        .map(|(channel, number)| label(number, &parts[channel.part], channel))
+        .collect();
+    if !labels.iter().any(|label| label.has_heights) {
+        for label in &mut labels {
+            label.has_heights = label.unit.is_none();
         }
-    };
-    match chosen {
-        Some(channel) => Ok(channel.clone()),
-        None => Err(undecided(parts, &channels, number)),
+    }
+    labels
+}
+
+/// Describes a channel by its number, its name, its unit and its first line.
+fn label(number: u32, part: &Part, channel: &Channel) -> Label {
+    let header = &part.header;
+    let unit = header.unit(Z, None).map(Unit::name);
+    let line = part
+        .table
+        .as_ref()
+        .map(|table| table.line(channel.rows.start));
+    Label {
+        number,
+        name: header.channel.clone().unwrap_or_default(),
+        unit: unit.or(header.other_unit.as_deref()).map(str::to_owned),
+        line,
+        has_heights: unit.is_some(),
+        ..Label::default()
     }
 }
 
@@ -188,56 +274,14 @@ fn channels(parts: &[Part]) -> Vec<Channel> {
     channels
 }
 
-/// Returns the error of a text in which none or several of the channels may be meant.
-fn undecided(parts: &[Part], channels: &[Channel], number: Option<u32>) -> SurfaceError {
-    let mut listed: Vec<String> = channels
-        .iter()
-        .enumerate()
-        .take(MOST_LISTED)
-        .map(|(number, channel)| description(number, &parts[channel.part], &channel.rows))
-        .collect();
-    if channels.len() > MOST_LISTED {
-        listed.push("…".to_owned());
-    }
-    let missing = match number {
-        Some(number) => format!("no lengths in channel {number} of "),
-        None => String::new(),
-    };
-    let count = channels.len();
-    SurfaceError::Channel {
-        place: Place::File,
-        fault: format!("{missing}{count} channels"),
-        channels: listed,
-        allowed: "the number of one",
-        remedy: Remedy::Channel,
-    }
-}
-
-/// Describes a channel by its number, its name, its unit and its first line.
-fn description(number: usize, part: &Part, rows: &Range<usize>) -> String {
-    let header = &part.header;
-    let mut description = number.to_string();
-    if let Some(name) = &header.channel {
-        description += &format!(" {:?}", shown(name));
-    }
-    let unit = header.unit(Z, None).map(Unit::name);
-    if let Some(unit) = unit.or(header.other_unit.as_deref()) {
-        description += &format!(" in {}", shown(unit));
-    }
-    let line = part
-        .table
-        .as_ref()
-        .map_or(0, |table| table.line(rows.start));
-    description + &format!(" from line {line}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::options::ReadOptions;
+    use super::super::stated_units::StatedUnits;
     use super::*;
 
     fn text(text: &str) -> Result<Reading, String> {
-        read(text.as_bytes(), None).map_err(|error| error.to_string())
+        read(text.as_bytes(), Wanted::Heights).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -317,7 +361,11 @@ mod tests {
 
     /// Units of positions and of heights by their names.
     fn units(reading: &Reading) -> [Option<&'static str>; 2] {
-        [reading.units.along, reading.units.heights].map(|unit| unit.map(Unit::name))
+        units_of(&reading.units)
+    }
+
+    fn units_of(units: &StatedUnits) -> [Option<&'static str>; 2] {
+        [units.along, units.heights].map(|unit| unit.map(Unit::name))
     }
 
     #[test]
@@ -376,29 +424,45 @@ mod tests {
         );
         assert_eq!(
             text(&two).unwrap_err(),
-            "2 channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: the number of one"
+            "2 channels of heights; channels: 0 \"Height\" in nm from line 5, 1 \"Retrace\" in nm from line 11; allowed: \
+             the number or the name of one"
         );
         let chosen = |text: &str, channel| {
-            read(text.as_bytes(), Some(channel)).map_err(|error| error.to_string())
+            read(text.as_bytes(), Wanted::Number(channel)).map_err(|error| error.to_string())
         };
         assert_eq!(chosen(&two, 1).unwrap().heights[0], 20.0);
+        let named = |text: &str, name| {
+            read(text.as_bytes(), Wanted::Name(name)).map_err(|error| error.to_string())
+        };
+        assert_eq!(named(&two, "retrace"), chosen(&two, 1));
+        assert!(
+            named(&two, "Trace")
+                .unwrap_err()
+                .starts_with("no channel \"Trace\"; channels: 0 \"Height\"")
+        );
+        // A text with one channel.
+        let one = channel("Height", "nm", 10.0);
+        assert_eq!(named(&one, "Height"), text(&one));
+        assert!(
+            named(&one, "Phase")
+                .unwrap_err()
+                .starts_with("no column \"Phase\"; columns: ")
+        );
         assert!(
             chosen(&two, 2)
                 .unwrap_err()
-                .starts_with("no lengths in channel 2 of 2 channels: 0 \"Height\"")
+                .starts_with("no channel 2; channels: 0 \"Height\"")
         );
         assert!(
             chosen(&both, 0)
                 .unwrap_err()
-                .starts_with("no lengths in channel 0 of 2 channels: 0 \"Phase\" in deg")
+                .starts_with("the channel is in deg; channels: 0 \"Phase\" in deg")
         );
         // Without headers, and profiles.
         let rows = "1 2 3 4\n5 6 7 9\n\n11 2 3 4\n5 6 7 9\n";
-        assert!(
-            text(rows).unwrap_err().starts_with(
-                "2 channels: 0 from line 1, 1 from line 4; allowed: the number of one"
-            )
-        );
+        assert!(text(rows).unwrap_err().starts_with(
+            "2 channels of heights; channels: 0 from line 1, 1 from line 4; allowed: the number or the name"
+        ));
         assert_eq!(chosen(rows, 1).unwrap().heights[0], 11.0);
         assert_eq!(
             text("1 2 3 4\n\n5 6 7 9\n\n1 2 3 4\n")
@@ -411,7 +475,7 @@ mod tests {
         assert!(
             text(profiles)
                 .unwrap_err()
-                .starts_with("2 channels: 0 from line 2, 1 from line 5")
+                .starts_with("2 channels of heights; channels: 0 from line 2, 1 from line 5")
         );
         assert_eq!(chosen(profiles, 1).unwrap().heights, [5.0, 6.0]);
         assert!(
@@ -424,6 +488,52 @@ mod tests {
             text(&many)
                 .unwrap_err()
                 .starts_with("line 512: more than 256 headers")
+        );
+    }
+
+    #[test]
+    fn a_column_of_several_is_chosen_by_its_name_or_number() {
+        let read = |text: &str, wanted: Wanted<'_>| {
+            let found = read(text.as_bytes(), wanted).map_err(|error| error.to_string())?;
+            Ok::<_, String>((found.positions, found.heights, units_of(&found.units)))
+        };
+        let profile = "x (um),raw (um),levelled (nm)\n0,7,1\n2,8,3\n4,9,2\n";
+        let error = read(profile, Wanted::Heights).unwrap_err();
+        assert_eq!(
+            error,
+            "3 columns \"x\", \"raw\", \"levelled\"; allowed: a height, x and a height, or x, y and a height, beside a \
+             number of the point and a column valid, or --channel with the name of the column of heights or its number from \
+             0, such as \"raw\", in a scene roughness.surface_name or roughness.channel"
+        );
+        let expected = (
+            Some(vec![0.0, 2.0, 4.0]),
+            vec![1.0, 3.0, 2.0],
+            [Some("µm"), Some("nm")],
+        );
+        assert_eq!(
+            read(profile, Wanted::Name("levelled")),
+            Ok(expected.clone())
+        );
+        assert_eq!(read(profile, Wanted::Number(2)), Ok(expected));
+        let error = read(profile, Wanted::Name("filtered")).unwrap_err();
+        assert!(
+            error.starts_with("no column \"filtered\"; columns: 0 \"x\", 1 \"raw\", 2"),
+            "{error}"
+        );
+        let error = read(profile, Wanted::Name("x")).unwrap_err();
+        assert!(error.starts_with("column 0 \"x\" has positions"), "{error}");
+
+        let four = "Position [mm]\tP [um]\tR [um]\tW [um]\n0\t7\t1\t5\n2\t8\t3\t6\n4\t9\t2\t5\n";
+        let error = read(four, Wanted::Heights).unwrap_err();
+        assert!(
+            error.starts_with("4 columns \"Position\", \"P\", \"R\", \"W\"; allowed: "),
+            "{error}"
+        );
+        assert_eq!(read(four, Wanted::Name("r")).unwrap().1, [1.0, 3.0, 2.0]);
+        let colours = "x [um] y [um] z [nm] red\n0 0 1 7\n1 0 2 7\n0 1 3 8\n1 1 5 8\n";
+        assert_eq!(
+            read(colours, Wanted::Name("z")).unwrap().1,
+            [1.0, 2.0, 3.0, 5.0]
         );
     }
 
@@ -510,7 +620,9 @@ mod tests {
                 unit: unit.parse().ok(),
                 ..ReadOptions::default()
             };
-            let found = read(keyence.as_bytes(), None).unwrap().resolve(&options);
+            let found = read(keyence.as_bytes(), Wanted::Heights)
+                .unwrap()
+                .resolve(&options);
             found
                 .map(|map| (map.heights[0], map.spacing().unwrap()))
                 .map_err(|error| error.to_string())
@@ -568,6 +680,95 @@ mod tests {
             (found.heights[80].to_string(), units(&found)),
             (rough(8).next_back().unwrap(), [Some("µm"), Some("nm")])
         );
+    }
+
+    #[test]
+    fn texts_of_wsxm_state_their_sizes_and_units() {
+        let points = "WSxM file copyright UAM\nWSxM ASCII XYZ file\nX[\u{b5}m]\t\tY[\u{b5}m]\t\tZ[nm]\n\n\
+                      0\t0\t1\n0.5\t0\t2\n0\t0.25\t3\n0.5\t0.25\t5\n";
+        let found = text(points).unwrap();
+        assert_eq!(
+            (found.columns, &found.heights[..]),
+            (2, &[1.0, 2.0, 3.0, 5.0][..])
+        );
+        assert_eq!(
+            (found.spacing, units(&found)),
+            (Some([0.5, 0.25]), [Some("µm"), Some("nm")])
+        );
+        let matrix = "WSxM file copyright Nanotec Electronica\nWSxM ASCII Matrix file\nX Amplitude: 2 \u{b5}m\n\
+                      Y Amplitude: 500 nm\nZ Amplitude: 1.2e+01 nm\n\n1\t2\t3\t4\n5\t6\t7\t9\n";
+        let found = text(matrix).unwrap();
+        assert_eq!((found.columns, found.spacing), (4, Some([5e-7, 2.5e-7])));
+        assert_eq!(
+            (found.heights[7], units(&found)),
+            (9.0, [Some("m"), Some("nm")])
+        );
+        let volts = matrix.replace("1.2e+01 nm", "3 V");
+        assert_eq!(units(&text(&volts).unwrap()), [Some("m"), None]);
+        let profile = "WSxM file copyright UAM\nWSxM profile\n[General Info]\n\n    Number of points: 3\n    X axis text: Length\n\
+                       \x20   X axis unit: nm\n    Y axis text: Height\n    Y axis unit: pm\n[Header end]\n0 5\n1 6\n2 8\n";
+        let found = text(profile).unwrap();
+        assert_eq!(
+            (&found.heights[..], units(&found)),
+            (&[5.0, 6.0, 8.0][..], [Some("nm"), Some("pm")])
+        );
+    }
+
+    #[test]
+    fn missing_points_and_positions_of_zygo_xyz_are_read() {
+        let plain = text("0 0 1\n1 0 No Data\n0 1 3\n1 1 no data\n").unwrap();
+        assert!(plain.heights[1].is_nan() && plain.heights[3].is_nan());
+        assert_eq!(plain.first_missing, Some(Place::Line(2)));
+        assert!(text("1,2,No Data,4\n5,6,7,8\n").unwrap().heights[2].is_nan());
+        let zygo = |distance: &str| {
+            let header = "Zygo XYZ Data File - Format 1\n1 9 1 2 \"Wed May 7\"\n0 0 640 480 1 255\n0 0 2 2\n\"a b\"\n\"\"\n\"\"\n";
+            format!(
+                "{header}0 0.5 6.3e-7 0.2 1 0 {distance} 1787677163\n3 2 0\n0 0 1\n0 1\n0 \"\"\n1 5 0\n#\n0 0 1\n1 0 No Data\n\
+                 0 1 3\n1 1 5\n#\n"
+            )
+        };
+        let found = text(&zygo("2e-006")).unwrap();
+        assert_eq!(
+            (found.spacing, units(&found)),
+            (Some([2e-6; 2]), [Some("m"), None])
+        );
+        assert_eq!(
+            (found.heights[3], found.first_missing.clone()),
+            (5.0, Some(Place::Line(16)))
+        );
+        let options = ReadOptions {
+            unit: "um".parse().ok(),
+            interpolate: true,
+            ..ReadOptions::default()
+        };
+        let map = found.resolve(&options).unwrap();
+        assert_eq!((map.heights[3], map.spacing()), (5e-6, Ok([2e-6; 2])));
+        // A distance of 0 is unknown, and counts are no distances.
+        let found = text(&zygo("0")).unwrap();
+        assert_eq!((found.spacing, units(&found)), (None, [None, None]));
+        assert!(
+            text("Zygo XYZ Data File - Format 1\n1 2\n")
+                .unwrap_err()
+                .starts_with("no line of numbers")
+        );
+    }
+
+    #[test]
+    fn a_column_of_heights_has_the_distance_that_the_file_states() {
+        for header in [
+            "Spacing: 0.4 um",
+            "dx = 0.4 µm",
+            "# Unit: um\n# dx = 0.4",
+            "Sampling interval,400,nm",
+        ] {
+            let found = text(&format!("{header}\n1\n3\n2\n")).unwrap();
+            let [distance, _] = found.spacing.unwrap();
+            assert!(
+                (distance - 4e-7).abs() < 1e-20 && found.heights.len() == 3,
+                "{header}"
+            );
+        }
+        assert_eq!(text("dx = 0.4\n1\n3\n2\n").unwrap().spacing, None);
     }
 
     #[test]

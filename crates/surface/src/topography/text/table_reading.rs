@@ -1,5 +1,6 @@
 //! Meaning of lines of numbers: heights, a profile, points of a map, or rows of a map.
 
+use super::super::channel::Wanted;
 use super::super::grid::PointList;
 use super::super::printed::{Digits, move_to_printed_grid};
 use super::super::reading::Reading;
@@ -20,11 +21,13 @@ const COLUMNS: &str = "text columns";
 const MATRIX: &str = "text matrix";
 
 impl Table {
-    /// Returns the surface in these rows. `is_open` is true if the last line has no line end.
+    /// Returns the surface in these rows, with the column of heights that is wanted if there are
+    /// several. `is_open` is true if the last line has no line end.
     pub fn reading(
         mut self,
         header: &TextHeader,
         rows: Range<usize>,
+        wanted: Wanted<'_>,
         is_open: bool,
     ) -> Result<Reading, SurfaceError> {
         self.decimal.check()?;
@@ -33,7 +36,7 @@ impl Table {
         }
         let names = &header.lines;
         let columns = names.columns(self.columns(), self.cells(), self.separator, Unit::is_name);
-        let reading = match list_of(&columns)? {
+        let reading = match list_of(&columns, wanted)? {
             Some(list) => self.list(header, &columns, list, is_open)?,
             None => self.map(header, is_open)?,
         };
@@ -55,7 +58,7 @@ impl Table {
         let warnings = warnings::of_heights(&heights, is_open, |row| self.place(row));
         let units = ColumnUnits::new(header, columns, list);
         let reading = match (list.x, list.y) {
-            (Some(x), Some(y)) => self.points(x, y, heights, units)?,
+            (Some(x), Some(y)) => self.points(x, y, heights, units, header)?,
             (Some(x), None) => self.profile(x, heights, units)?,
             (None, _) => even(heights, header, units),
         };
@@ -93,6 +96,7 @@ impl Table {
         y: usize,
         heights: Vec<f64>,
         units: ColumnUnits,
+        header: &TextHeader,
     ) -> Result<Reading, SurfaceError> {
         let x_positions = self.column(x)?;
         let y_positions = self.take_column(y);
@@ -105,12 +109,18 @@ impl Table {
             digits: [self.digits_of(x), self.digits_of(y)],
             place: |row: usize| self.place(row),
         };
-        let map = list.map()?;
-        let units = StatedUnits {
+        let mut map = list.map()?;
+        let mut units = StatedUnits {
             along: units.x,
             between: units.y,
             heights: units.heights,
         };
+        if header.has_counted_positions {
+            let rows = map.heights.len() / map.columns;
+            map.distances = header.distances(map.columns, rows);
+            units.along = map.distances.map(|_| Unit::METRE);
+            units.between = units.along;
+        }
         check_both(units)?;
         let heights = map.heights;
         Ok(Reading::even(
@@ -289,8 +299,15 @@ impl ColumnUnits {
 /// Returns evenly spaced heights without positions.
 fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     let points = heights.len();
-    let units = StatedUnits::new(header.unit(X, None), units.heights);
-    Reading::even(COLUMNS, heights, points, None, units)
+    let distance = header.distance();
+    let along = match distance {
+        // The header has converted it.
+        Some(_) => Some(Unit::METRE),
+        None => header.unit(X, None),
+    };
+    let units = StatedUnits::new(along, units.heights);
+    let spacing = distance.map(|distance| [distance; 2]);
+    Reading::even(COLUMNS, heights, points, spacing, units)
 }
 
 /// Returns an error if one of the two axes of positions has a unit and the other has none.
