@@ -369,7 +369,7 @@ fn words_are_whole_sentences_without_options() {
         Warning::FallingProfile { from: 1e-5 },
         Warning::MeasuredFile {
             file: "a.csv".to_owned(),
-            property: "line 3: far away".to_owned(),
+            property: "line 3: far away".into(),
         },
         Warning::SurfacesFarApart {
             flattest: NamedHeight {
