@@ -4,7 +4,7 @@ use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Number of springs from which a second thread saves more time than it costs.
+/// Smallest number of springs for which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
 /// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
