@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// Returns the command for a POSIX shell that opens the scene `name` in `program` and changes its
-/// fields by `--set`. Each override is the path of a field and its new value.
+/// Returns the command for a POSIX shell that opens the scene `name` in `program`. The command
+/// changes fields by `--set`; each override is the path of a field and its new value.
 ///
 /// ```
 /// let overrides = [("form".to_string(), "Cone(angle: 0.1)".to_string())];
@@ -16,7 +16,7 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
         let set = format!("{path}={value}");
         sets += &format!(" --set {}", quoted(set));
     }
-    // A name that looks like an option comes after all options.
+    // A name that begins like an option must come after all options.
     if name.starts_with('-') {
         format!("{program}{sets} -- {}", quoted(name))
     } else {
@@ -24,14 +24,14 @@ pub fn command_line(program: &str, name: &str, overrides: &[(String, String)]) -
     }
 }
 
-/// Returns `word` as it must be written for a POSIX shell to read it as one word: in quotes if it
-/// needs them.
+/// Returns `word` as it must be written so that a POSIX shell reads it as one word. It is in quotes
+/// if it needs them.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let is_plain = word
         .chars()
         .all(|sign| sign.is_alphanumeric() || "_-./:,+@%=".contains(sign));
-    // zsh takes a word that starts with = for the path of a command.
+    // zsh interprets a word that starts with = as the path of a command, so the word needs quotes.
     if !word.is_empty() && !word.starts_with('=') && is_plain {
         word.into_owned()
     } else {
