@@ -16,7 +16,7 @@ use thiserror::Error;
 /// Edge models. If both need the same number of springs, the first one is chosen.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Largest number of springs that is tried. If the modes of the scene need more than a quarter of
-/// this number, four times the needed number is tried.
+/// this number, the limit is four times the needed number.
 const MOST_TRIED: u64 = 1 << 21;
 
 /// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1
