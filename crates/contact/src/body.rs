@@ -1,6 +1,6 @@
-//! The exact solver: a body that moves along any loading history in linear time, without a step
-//! error. A reversal is the unloading from one turning point to separation; many reversals need
-//! only one loading.
+//! The exact solver: a body that moves along any loading history. The computing time is linear in
+//! the number of springs, and there is no error from finite steps. A reversal is the unloading from
+//! one turning point to separation; many reversals need only one loading.
 
 use super::adhesive::tree::TWO_THREADS;
 use super::contact::Contact;
@@ -14,8 +14,8 @@ use super::target::Move;
 use asperity_data::in_parallel;
 use std::time::{Duration, Instant};
 
-/// Rigid body that the exact solver moves. The body has its present indentation, and as a [`Leg`]
-/// the contact at all indentations of its present motion.
+/// Rigid body that the exact solver moves. It stores the present indentation and a [`Leg`], the
+/// contact at all indentations of the present motion.
 ///
 /// ```
 /// use asperity_contact::motion::Body;
@@ -35,7 +35,7 @@ pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
-    /// Extreme force of contact and instrument so far on the present motion; see
+    /// Extreme force so far on the present motion, of contact and instrument together; see
     /// [`Leg::jump_energy`].
     extreme: Option<f64>,
     work: Work,
@@ -82,8 +82,8 @@ impl Motion {
         !self.loads() && matches!(self.goal, Goal::Separation(_))
     }
 
-    /// Returns true if the largest force is that at the end. A loading to a force has a smaller
-    /// force until then.
+    /// Returns true if the force at the end of the motion is certainly the largest one. This holds
+    /// for a loading to a target force, because the loading ends as soon as it reaches this force.
     fn ends_at_largest(&self) -> bool {
         self.loads() && matches!(self.goal, Goal::Force(_))
     }
@@ -95,7 +95,8 @@ struct SampledMotion {
     states: Vec<ContactState>,
     /// Distance, in points of the grid, between two points of the force curve.
     stride: usize,
-    /// ∫ (c − θ)² dx in cells times m² over all attachments and detachments.
+    /// ∫ (c − θ)² dx in cells times m² over all attachments and detachments, where c is the gap and
+    /// θ the indentation at which a spring attaches or detaches.
     squared_stretch: f64,
 }
 
@@ -117,8 +118,8 @@ impl Body {
         Self::on(leg, ContactState::free(0.0), samples)
     }
 
-    /// Creates a body that is at this indentation in m on the motion `leg`, and can continue it or
-    /// turn back.
+    /// Creates a body at this indentation in m of the motion `leg`. The body can continue the
+    /// motion or turn back.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the
@@ -182,8 +183,8 @@ impl Body {
         state.point(self.leg.contact().foundation)
     }
 
-    /// Returns the present leg if it has this direction, else the leg that begins at the present
-    /// indentation.
+    /// Returns the leg of a motion in this direction: the present leg if it has this direction,
+    /// otherwise a new leg that begins at the present indentation.
     fn leg_in(&mut self, direction: Direction) -> Result<Leg, ContactError> {
         let approaches = self.is_separated() && direction == Direction::Loading;
         if self.leg.direction() == direction && !approaches {
@@ -198,7 +199,8 @@ impl Body {
         Ok(leg)
     }
 
-    /// Finds the leg and the ends of the motion to a target; `None` if the body is there already.
+    /// Finds the leg of the motion to a target and the indentations between which it lies. Returns
+    /// `None` if the body is already at the target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.leg.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
@@ -222,7 +224,7 @@ impl Body {
             }));
         }
         let leg = self.leg_in(direction)?;
-        // Nothing touches below d = 0.
+        // A separated body touches nothing below d = 0.
         let from = if self.is_separated() {
             start.max(0.0)
         } else {
@@ -241,8 +243,8 @@ impl Body {
         }))
     }
 
-    /// Returns the grid of a motion for the search of extremes, and the stride at which its points
-    /// are samples of the curve.
+    /// Returns the grid of indentations on which extremes of a motion are searched, and the stride:
+    /// every `stride`-th point of the grid is also a point of the force curve.
     fn grid(&self, low: f64, high: f64) -> (Grid, usize) {
         let intervals = self.samples - 1;
         let stride = SEARCH_INTERVALS.div_ceil(intervals);
@@ -299,8 +301,9 @@ impl Body {
         } else {
             self.grid(*low, *high)
         };
-        // The springs that touch first attach at the first point itself; those held to it detach
-        // just below.
+        // If the body is separated at the beginning, the springs of first touch attach exactly at
+        // the first point of the motion. If it separates, the last springs detach just below the
+        // last point. The sum must include these events.
         let from = if self.is_separated() || motion.separates() {
             f64::NEG_INFINITY
         } else {
@@ -319,8 +322,8 @@ impl Body {
         })
     }
 
-    /// Returns the point at which an instrument that is not rigid loses the contact of an
-    /// unloading.
+    /// Returns the point of an unloading at which a compliant instrument loses the contact. Returns
+    /// `None` for a loading and for a rigid instrument.
     fn loosest_point(
         &mut self,
         motion: &Motion,
@@ -336,8 +339,8 @@ impl Body {
         Ok(Some(loosest.point(contact.foundation)))
     }
 
-    /// Returns the contact at the end of a motion. A separated body is where its target places it,
-    /// or else where the instrument lost the contact.
+    /// Returns the contact at the end of a motion. If the body separates, it ends at the
+    /// indentation that the target states, or else where the instrument lost the contact.
     fn end_state(
         &self,
         motion: &Motion,
@@ -359,7 +362,8 @@ impl Body {
         ContactState::free(indentation)
     }
 
-    /// Returns the ascending points of the force curve of a sampled motion.
+    /// Returns the points of the force curve of a sampled motion, in ascending order of the
+    /// indentation.
     fn curve_of(&self, sampled: &SampledMotion, loosest: Option<CurvePoint>) -> Vec<CurvePoint> {
         let last = sampled.states.len() - 1;
         let mut curve = Vec::with_capacity(self.samples + 2);
@@ -408,8 +412,8 @@ impl Body {
         let leg = &motion.leg;
         let mut smallest = leg.extreme(Extreme::Smallest, &sampled.states, &mut self.work);
         if smallest.totals.springs == 0 {
-            // A body that nowhere pulls has the smallest force where it is in contact last, not
-            // where it moves on to.
+            // If no force of the unloading pulls, the smallest force is that of the last contact,
+            // and not the zero force of the separated body further on.
             smallest = leg.state(leg.end().min(motion.high))?;
         }
         Ok(Extremes {
@@ -419,8 +423,8 @@ impl Body {
     }
 
     /// Finds the point of the smallest force on the rest of an unloading, from the indentation
-    /// `from` in m to separation. This search does not count as work of the loading, which does not
-    /// go there.
+    /// `from` in m to separation. The work counts leave this search out because the body does not
+    /// make this motion.
     fn rest_of(&self, unloading: &Leg, from: f64) -> Result<CurvePoint, ContactError> {
         let (separation, _) =
             unloading.reach(Goal::Separation(None), from, &mut Work::default())?;
@@ -429,11 +433,11 @@ impl Body {
         Ok(self.point_of(smallest))
     }
 
-    /// Computes the unloading to separation from several turning points. Each turning point is
-    /// where a loading from separation reaches one of the targets. `see` is called with the index
-    /// of each target and its [`Reversal`], in the order of growing indentation at the turning
-    /// point. [`Reversal::forces`] are computed at the indentations `points`, which are in m and in
-    /// ascending order.
+    /// Computes the unloading to separation from several turning points. Each turning point is the
+    /// point at which a loading from separation reaches one of the targets. `see` is called with
+    /// the index of each target and its [`Reversal`], in ascending order of the indentation at the
+    /// turning point. [`Reversal::forces`] are computed at the indentations `points`, which are in
+    /// m and in ascending order.
     ///
     /// # Errors
     /// Returns an error for a target that the contact cannot reach, and for a target at which the
@@ -464,7 +468,8 @@ impl Body {
     fn turning_point(&mut self, loading: &Leg, target: Move) -> Result<f64, ContactError> {
         let stiffness = loading.contact().loading_stiffness;
         let goal = match Goal::from(target) {
-            // A pulling force as well: while the bodies are drawn together.
+            // A tensile force is also a valid target: on the approach, adhesion pulls before the
+            // body is pressed.
             goal @ Goal::Force(force) if force < 0.0 && force.is_finite() => goal,
             _ => match plan(target, CurvePoint::default(), stiffness)? {
                 Some((Direction::Loading, goal)) => goal,
@@ -493,7 +498,8 @@ impl Body {
                 self.reverse(&loading, turn, &[])?.adhesion_force()
             }
         };
-        // The passes for F_a(d=0) count separately.
+        // The work counts have a separate field for the passes over the tree for F_a(d=0) and
+        // F_a(F=0).
         self.work.loading_passes = before.loading_passes;
         self.work.unloading_passes = before.unloading_passes;
         self.work.passes_without_preload += 2;
@@ -525,7 +531,7 @@ impl Body {
             turn: self.point_of(turn),
             smallest: self.point_of(smallest),
             separation,
-            // Changes −0 to 0.
+            // Adding 0.0 changes −0 to 0.
             dissipated_energy: released_on_loading + released_on_unloading + 0.0,
             reaches_ends: loading.reaches_ends(high),
             forces,
@@ -608,7 +614,7 @@ impl Reversal {
     /// Returns the adhesion force F_a in N: the smallest force with the opposite sign. Returns
     /// `None` if the smallest force is above zero.
     pub fn adhesion_force(&self) -> Option<f64> {
-        // Not −F: that would make a force of zero negative.
+        // 0.0 − F instead of −F, because −F would be −0 for a force of zero.
         let adhesion_force = 0.0 - self.smallest.force;
         (self.smallest.force <= 0.0).then_some(adhesion_force)
     }

@@ -1,14 +1,15 @@
-//! Branches, preload and pull-off of a loading history. They depend only on the path of the body,
-//! not on the division of this path into loading stages.
+//! Branches, preload and pull-off of a loading history. They depend only on the motion of the body,
+//! not on the division of the motion into loading stages.
 
 use super::history::{CurvePoint, Direction, LegRecord};
 use asperity_data::Warning;
 use std::ops::Range;
 
-/// Relative difference within which two forces or two indentations count as equal. Equal forces may
-/// be different sums.
+/// Relative difference within which two forces or two indentations count as equal, because equal
+/// forces may be computed as different sums.
 pub(super) const ROUNDING: f64 = 1e-9;
-/// Relative motion that counts as rounding, for a force or displacement that is reached again.
+/// Largest relative motion that counts as rounding, if a stage moves the body to a force or
+/// displacement that it already has.
 const NO_MOTION: f64 = 4.0 * f64::EPSILON;
 
 /// Consecutive loading stages that move the body in the same direction, taken together as one
@@ -46,7 +47,8 @@ impl Branch {
                 Some(last) if last.direction == leg.direction || is_still(leg) => {
                     last.stages.end += 1
                 }
-                // The first stages may leave the body in place.
+                // If all stages so far leave the body in place, they belong to the branch of the
+                // next stage.
                 Some(last) if legs[last.stages.clone()].iter().all(is_still) => {
                     *last = Branch {
                         direction: leg.direction,
@@ -70,8 +72,8 @@ impl Branch {
         })
     }
 
-    /// Returns the stages of the branch that move in its direction and have contact, with their
-    /// indices. A stage of a separated body has no extremes of the contact.
+    /// Returns the stages of the branch that move in its direction and have contact, with the
+    /// indices of the stages. A stage without contact has no extreme force.
     fn touching<'l>(
         &self,
         legs: &'l [LegRecord],
@@ -80,7 +82,7 @@ impl Branch {
     }
 
     /// Finds the preload, the point of the largest force on loading before the last unloading, and
-    /// the index of its stage. An earlier contact that ended in separation does not count.
+    /// the index of its stage. Only the loading since the last separation counts.
     ///
     /// ```
     /// use asperity_contact::{Branch, Contact, Modulus, Move, Profile};
@@ -120,13 +122,16 @@ impl Branch {
         let start = last_separation.map_or(0, |stage| stage + 1);
         let loadings = stages_in_contact(legs, start..end, Direction::Loading);
         let largest = loadings.map(|(stage, leg)| (stage, leg.largest));
-        // Of equal forces the last one, as on one stage.
+        // If several stages have the same largest force, the last one counts, as within one stage.
         largest.max_by(|(_, point), (_, other)| point.force.total_cmp(&other.force))
     }
 
     /// Finds the pull-off, the point of the smallest force of the last unloading, and the index of
-    /// its stage. Returns `None` if this force is above zero, or if the unloading ends in contact
-    /// while the force still falls, or with a smaller force on its rest up to separation.
+    /// its stage. Returns `None` in three cases:
+    ///
+    /// * the smallest force is above zero;
+    /// * the unloading ends in contact while the force is still falling;
+    /// * the unloading ends in contact, and its rest up to separation has a smaller force.
     pub fn pull_off(legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let unloading = Branch::last_unloading(legs)?;
         let (stage, least) = unloading.smallest(legs)?;
@@ -142,9 +147,9 @@ impl Branch {
         (least.force <= 0.0 && is_passed).then_some((stage, least))
     }
 
-    /// Returns the warning that the last unloading ends in contact although its rest would pull
-    /// with a larger force than the unloading so far. Returns `None` if the bodies are pulled off,
-    /// or if nothing pulls.
+    /// Returns a warning if the last unloading ends in contact and a further unloading would pull
+    /// with a larger force. Returns `None` if the pull-off force has been passed, or if no force
+    /// pulls.
     pub fn ends_in_contact(legs: &[LegRecord]) -> Option<Warning> {
         let unloading = Branch::last_unloading(legs)?;
         let (_, least) = unloading.smallest(legs)?;
@@ -161,9 +166,9 @@ impl Branch {
         }
     }
 
-    /// Returns what is known of the way from the end of an unloading to separation.
+    /// Returns what is known about the rest of an unloading, from its end to separation.
     fn rest(&self, legs: &[LegRecord]) -> Rest {
-        // The last stages may leave the body in place.
+        // The last stages may leave the body in place, so they are left out.
         let Some((_, last)) = self.touching(legs).next_back() else {
             return Rest::None;
         };
@@ -184,7 +189,8 @@ impl Branch {
     pub fn smallest(&self, legs: &[LegRecord]) -> Option<(usize, CurvePoint)> {
         let stages = self.touching(legs);
         let smallest = stages.map(|(stage, leg)| (stage, leg.smallest));
-        // Of equal forces the one at the smallest indentation, as on one stage.
+        // If several points have the same smallest force, the one at the smallest indentation
+        // counts, as within one stage.
         smallest.min_by(|(_, point), (_, other)| {
             let by_force = point.force.total_cmp(&other.force);
             by_force.then(point.indentation.total_cmp(&other.indentation))
@@ -192,17 +198,17 @@ impl Branch {
     }
 }
 
-/// Way from the end of an unloading to separation.
+/// The rest of an unloading, from its end to separation.
 enum Rest {
-    /// There is none: the unloading separates the bodies.
+    /// There is no rest, because the unloading separates the bodies.
     None,
-    /// The way is not known.
+    /// The forces of the rest are not known.
     Unknown,
-    /// Point of the smallest force of the way.
+    /// Point of the smallest force of the rest.
     Smallest(CurvePoint),
 }
 
-/// Returns true if a stage leaves the body in place, in contact or separated throughout.
+/// Returns true if a stage leaves the body in place and neither closes nor opens the contact.
 fn is_still(leg: &LegRecord) -> bool {
     let start = leg.start();
     let end = leg.end();

@@ -1,6 +1,6 @@
-//! Closed forms that a profile must reproduce: the adhesive contact of a power-law body b rⁿ, of a
-//! flat punch and of a flat face. The power law includes the sphere of JKR (n = 2) and the cone (n
-//! = 1).
+//! Closed forms against which the solvers are checked: the adhesive contact of a power-law body b
+//! rⁿ, of a flat punch and of a flat face. The power law includes the sphere of Johnson, Kendall
+//! and Roberts (n = 2) and the cone (n = 1).
 
 use super::modulus::Modulus;
 use std::f64::consts::PI;
@@ -33,8 +33,8 @@ pub struct ClosedForm {
 
 impl ClosedForm {
     /// Returns the ideal adhesion force F_a,max = √(πγE*L³) in N of a flat face of length L in m.
-    /// Here γ is the work of adhesion in J/m² and E* the effective modulus in Pa. The formula is
-    /// eq. (14) of Popov and Filippov (2012), after Kendall (1971).
+    /// Here γ is the work of adhesion in J/m² and E* the effective modulus in Pa. Popov and
+    /// Filippov (2012) have this formula as eq. (14), after Kendall (1971).
     pub fn ideal_adhesion_force(work_of_adhesion: f64, effective_modulus: f64, length: f64) -> f64 {
         (PI * work_of_adhesion * effective_modulus * length.powi(3)).sqrt()
     }
@@ -56,8 +56,8 @@ impl ClosedForm {
         (8.0 * PI * radius.powi(3) * effective_modulus * work_of_adhesion).sqrt()
     }
 
-    /// Creates the closed forms of Johnson, Kendall and Roberts for a sphere of this radius in m:
-    /// g(x) = x²/R.
+    /// Creates the closed-form solution of Johnson, Kendall and Roberts for a sphere of the radius
+    /// R = `radius` in m. Its equivalent profile is g(x) = x²/R.
     pub fn sphere(radius: f64, modulus: Modulus, work_of_adhesion: f64) -> Self {
         let effective_modulus = modulus.pascals();
         ClosedForm {
@@ -68,8 +68,8 @@ impl ClosedForm {
         }
     }
 
-    /// Creates the closed forms of a cone whose flank makes the angle θ in rad with the surface:
-    /// g(x) = (π/2) |x| tan θ.
+    /// Creates the closed-form solution for a cone whose flank makes the angle θ = `angle` in rad
+    /// with the surface. Its equivalent profile is g(x) = (π/2) |x| tan θ.
     ///
     /// ```
     /// use asperity_contact::ClosedForm;
@@ -94,7 +94,7 @@ impl ClosedForm {
     }
 
     /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The
-    /// fields are c, n, E* and γ.
+    /// symbols c, n, E* and γ are the fields of [`ClosedForm`].
     pub fn indentation(&self, radius: f64) -> f64 {
         // Rule of Hess, eq. (3).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
@@ -102,7 +102,7 @@ impl ClosedForm {
     }
 
     /// Returns the force F(a) = 2E* n c a^(n+1)/(n+1) − √(8π a³ E* γ) in N at the contact radius a
-    /// in m. The fields are c, n, E* and γ.
+    /// in m. The symbols c, n, E* and γ are the fields of [`ClosedForm`].
     pub fn force(&self, radius: f64) -> f64 {
         let n = self.exponent;
         let scale = 2.0 * self.effective_modulus * n * self.line_coefficient;
@@ -128,14 +128,16 @@ impl ClosedForm {
         (radius, factor * self.detaching(radius))
     }
 
-    /// Returns the contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)) in m, for m = `multiple`.
+    /// Returns the contact radius [m π γ/(2n²c²E*)]^(1/(2n−1)) in m, where m = `multiple` and the
+    /// other symbols are the fields of [`ClosedForm`].
     fn critical_radius(&self, multiple: f64) -> f64 {
         let n = self.exponent;
         let scale = 2.0 * (n * self.line_coefficient).powi(2) * self.effective_modulus;
         (multiple * PI * self.work_of_adhesion / scale).powf((2.0 * n - 1.0).recip())
     }
 
-    /// Returns the force √(8π a³ E* γ) in N by which adhesion pulls at a contact radius in m.
+    /// Returns the part √(8π a³ E* γ) of the force in N that adhesion contributes at the contact
+    /// radius a in m.
     fn detaching(&self, radius: f64) -> f64 {
         ClosedForm::flat_punch(radius, self.effective_modulus, self.work_of_adhesion)
     }

@@ -1,5 +1,5 @@
-//! The contact of a rigid profile with an elastic half-space: profile, modulus and adhesion, which
-//! remain the same while the body moves.
+//! The contact of a rigid profile with an elastic half-space. It combines the properties that
+//! remain the same while the body moves: profile, modulus and adhesion.
 
 use super::adhesive::levels::Edges;
 use super::adhesive::loading::Closing;
@@ -82,8 +82,8 @@ impl ContactBuilder {
         self.works_of_adhesion([work; 2])
     }
 
-    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is gained where the interface closes, γ is
-    /// spent where it opens, and γ₁ ≤ γ.
+    /// Sets two works of adhesion `[γ₁, γ]` in J/m². γ₁ is the energy per area gained where the
+    /// interface closes, and γ the energy per area spent where it opens. γ₁ must not exceed γ.
     #[must_use]
     pub fn works_of_adhesion(self, works: [f64; 2]) -> Self {
         ContactBuilder { works, ..self }
@@ -146,7 +146,7 @@ impl ContactBuilder {
 }
 
 impl Contact {
-    /// Begins to build the contact of a profile with a half-space of this modulus.
+    /// Creates a builder for the contact of a profile with a half-space of this modulus.
     #[must_use]
     pub fn builder(profile: &Profile, modulus: Modulus) -> ContactBuilder {
         ContactBuilder {
@@ -158,7 +158,8 @@ impl Contact {
         }
     }
 
-    /// Copies the contact for the stepwise solver, with whole springs and a rigid instrument.
+    /// Copies the contact for the stepwise solver. The copy has whole springs and a rigid
+    /// instrument.
     pub(super) fn of_whole_springs(&self) -> Self {
         Contact {
             edges: Edges::Grid,
@@ -168,8 +169,8 @@ impl Contact {
         }
     }
 
-    /// Begins to build a contact with another modulus and the same profile and edge model. The new
-    /// contact has no adhesion and a rigid instrument unless the builder sets them.
+    /// Creates a builder for a contact with another modulus and the same profile and edge model.
+    /// The new contact has no adhesion and a rigid instrument unless the builder sets them.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -197,7 +198,7 @@ impl Contact {
         Contact::builder(&self.profile, modulus).edges(self.edges)
     }
 
-    /// Returns the force in N at which the last spring touches the body on loading without
+    /// Returns the force in N at which the last spring touches the profile on a loading without
     /// adhesion.
     ///
     /// ```
@@ -257,14 +258,14 @@ impl Contact {
         self.rules.is_some()
     }
 
-    /// Returns the rules of attachment and detachment; without adhesion their largest stretch is
-    /// zero.
+    /// Returns the rules of attachment and detachment. Without adhesion, the rules have a largest
+    /// stretch of zero.
     pub(super) fn rules(&self) -> Rules<ContactRule> {
         self.rules.unwrap_or(Rules::<ContactRule>::NO_ADHESION)
     }
 
-    /// Returns the closing thresholds of a loading from separation; `close` computes them at the
-    /// first call.
+    /// Returns the closing thresholds for a loading from separation: the indentations at which the
+    /// nodes of the contact tree close. The first call computes them with `close` and stores them.
     pub(super) fn closing(
         &self,
         close: impl FnOnce() -> Result<Closing, ContactError>,

@@ -1,4 +1,4 @@
-//! The contact at one indentation and along a grid of indentations, and bounds of the force between
+//! The contact at one indentation and on a grid of indentations, and bounds of the force between
 //! two indentations.
 
 use super::adhesive::levels::{EdgeCells, EdgeSum, Slider};
@@ -17,17 +17,17 @@ pub struct ContactState {
     pub totals: ContactTotals,
     /// Contact length in units of the spring spacing.
     pub length: f64,
-    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force over
-    /// the stiffness of one spring.
+    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force
+    /// divided by the stiffness of one spring.
     pub compression: f64,
     /// ∫ (d − c)² dx in m², with x in units of the spring spacing. It is twice the stored energy
-    /// over the stiffness of one spring.
+    /// divided by the stiffness of one spring.
     pub squares: f64,
 }
 
 impl ContactState {
-    /// Computes the contact at an indentation in m from the totals of its whole springs, or with
-    /// `slides` from its whole cells and edge cells.
+    /// Computes the contact at an indentation in m. If `slides` is true, it consists of the whole
+    /// cells of `totals` and of the edge cells; otherwise of the springs of `totals`.
     #[inline]
     pub fn new(
         slides: bool,
@@ -42,7 +42,7 @@ impl ContactState {
             totals,
             length: whole as f64 + edges.length,
             compression: totals.compression(whole, indentation, scale) + edges.compression,
-            // No sum of squares is below zero, but for rounding.
+            // A sum of squares is negative only by rounding.
             squares: (totals.squares_of(whole, indentation, scale) + edges.squares).max(0.0),
         }
     }
@@ -55,9 +55,10 @@ impl ContactState {
         }
     }
 
-    /// Adds `springs` springs that lie parallel to the contact and are compressed by the
-    /// indentation. The force of both is F + k d. An instrument of stiffness k at the displacement
-    /// D holds the body where this force is k D.
+    /// Adds the instrument as `springs` springs that lie parallel to the contact and are compressed
+    /// by the indentation d. The common force of contact and instrument is then F + k d, where k is
+    /// the stiffness of the instrument. The instrument at the displacement D holds the body where
+    /// this force equals k D.
     #[inline]
     pub fn beside(&self, springs: f64) -> Self {
         if springs == 0.0 {
@@ -86,8 +87,8 @@ impl ContactState {
 /// Converts a number of springs or patches in contact to an unsigned number.
 ///
 /// # Panics
-/// Panics for a negative number, which only a defect of the sums can cause. It must not pass for a
-/// result.
+/// Panics for a negative number. Only a defect of the sums can cause such a number, which must not
+/// appear in a result.
 pub fn counted(number: i64) -> u64 {
     assert!(
         number >= 0,
@@ -96,13 +97,13 @@ pub fn counted(number: i64) -> u64 {
     number.unsigned_abs()
 }
 
-/// Sums along a grid of indentations over parts of a contact, each of which is in contact at some
-/// of the points.
+/// Sums at the points of a grid of indentations. Each part of the contact that is added is in
+/// contact at a range of these points.
 pub struct Tally {
     pub grid: Grid,
     /// Change of the totals from each point to the next.
     changes: Vec<ContactTotals>,
-    /// Sum of the edge cells at each point, where edges slide.
+    /// Sum of the edge cells at each point. Empty if patches consist of whole springs.
     edges: Vec<EdgeSum>,
 }
 
@@ -119,8 +120,8 @@ impl Tally {
         })
     }
 
-    /// Returns the index of the first point of at least this indentation in m, or the number of
-    /// points if there is none.
+    /// Returns the index of the first point that is at least `indentation` in m. If there is none,
+    /// returns the number of points.
     #[inline]
     pub fn place(&self, indentation: f64) -> usize {
         if indentation > self.grid.high() {
@@ -130,8 +131,8 @@ impl Tally {
         }
     }
 
-    /// Returns the range of indentations in m for which [`Tally::place`] returns this index: above
-    /// the first number and up to the second.
+    /// Returns the range of indentations in m for which [`Tally::place`] returns the index `place`:
+    /// above the first returned value and up to the second.
     pub fn ends_before(&self, place: usize) -> (f64, f64) {
         let points = &self.grid.points;
         let below = match place {
@@ -142,20 +143,21 @@ impl Tally {
         (below, at_most)
     }
 
-    /// Adds whole springs or cells that are in contact from this point on.
+    /// Adds whole springs or cells that are in contact at the point `place` and at all later
+    /// points.
     #[inline]
     pub fn begin(&mut self, place: usize, totals: ContactTotals) {
         self.changes[place] += totals;
     }
 
-    /// Adds whole springs or cells that are in contact at these points.
+    /// Adds whole springs or cells that are in contact at the points of the range.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
         self.changes[carries.start] += totals;
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds edge cells that are in contact at these points.
+    /// Adds edge cells that are in contact at the points of the range.
     #[inline]
     pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
@@ -179,8 +181,8 @@ impl Tally {
     }
 }
 
-/// Returns the intervals between neighbouring points of a sampled motion for whose ends `may_lie`
-/// returns true.
+/// Returns the intervals between neighbouring points of a sampled motion, if `may_lie` is true for
+/// the contact at both points.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -189,7 +191,7 @@ pub fn intervals(
     pairs.filter(|[low, high]| may_lie(low, high)).collect()
 }
 
-/// Extreme of the force that a search looks for.
+/// The extreme of the force that a search finds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
     Smallest,
@@ -197,9 +199,10 @@ pub enum Extreme {
 }
 
 impl Extreme {
-    /// Returns true if `state` has a smaller (larger) force than `best`. Of equal smallest forces
-    /// the one at the least indentation counts, of equal largest forces the one at the greatest, in
-    /// whichever order they are found.
+    /// Returns true if `state` is more extreme than `best`: if it has a smaller force in a search
+    /// for the smallest force, or a larger force in a search for the largest. If both forces are
+    /// equal, the smaller indentation counts in the first case, and the larger indentation in the
+    /// second. The result of a search then does not depend on its order.
     pub fn is_beyond(self, state: &ContactState, best: &ContactState) -> bool {
         let order = (state.compression, state.indentation);
         let order_of_best = (best.compression, best.indentation);
@@ -209,8 +212,8 @@ impl Extreme {
         }
     }
 
-    /// Returns the contact of the extreme force at the points of a sampled motion, of which there
-    /// is at least one.
+    /// Returns the contact of the extreme force among the points of a sampled motion, which must
+    /// have at least one point.
     pub fn among(self, leg: &[ContactState]) -> ContactState {
         let mut best = leg[0];
         for state in leg {
@@ -221,8 +224,8 @@ impl Extreme {
         best
     }
 
-    /// Returns true if the bounds of the force between two indentations allow a force beyond
-    /// `best`.
+    /// Returns true if the bounds of the force between two indentations allow a force that is more
+    /// extreme than the force of `best`.
     pub fn may_lie(self, low: &ContactState, high: &ContactState, best: &ContactState) -> bool {
         match self {
             Extreme::Smallest => lower_bound(low, high) < best.compression,
@@ -243,13 +246,14 @@ pub fn upper_bound(low: &ContactState, high: &ContactState) -> f64 {
     low.compression + rise + slack(low, high, rise)
 }
 
-/// Returns a bound of the rounding errors of both compressions and of their bounds, in m.
+/// Returns a bound, in m, of the rounding errors of both compressions and of the bounds made of
+/// them.
 fn slack(low: &ContactState, high: &ContactState, rise: f64) -> f64 {
     8.0 * f64::EPSILON * (low.compression.abs() + high.compression.abs() + rise)
 }
 
-/// Ascending indentations: evenly spaced between two exact ends, except for a shorter last
-/// interval, or at given points.
+/// Ascending indentations. They are either given points, or evenly spaced between two exact ends;
+/// the last interval may be shorter than the others.
 #[derive(Clone, Debug)]
 pub struct Grid {
     pub points: Vec<f64>,
@@ -257,11 +261,12 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates a grid of `intervals` equal intervals from `low` to `high` in m; a single point
-    /// where both coincide.
+    /// Creates a grid of `intervals` equal intervals from `low` to `high` in m. If both ends
+    /// coincide, the grid is a single point.
     pub fn new(low: f64, high: f64, intervals: usize) -> Self {
         let width = (high - low) / intervals as f64;
-        // A range too narrow for two different points is also one point at each end.
+        // A range that is too narrow for different points in between has only its two ends as
+        // points.
         let even = low + width > low && high - width < high && width.recip().is_finite();
         let mut points = Vec::new();
         if even {
@@ -289,7 +294,7 @@ impl Grid {
         }
     }
 
-    /// Returns the grid of every `stride`-th point and the last point.
+    /// Returns the grid that consists of every `stride`-th point and the last point.
     pub fn coarser(&self, stride: usize) -> Self {
         let last = self.points.len() - 1;
         let points = (0..last)
@@ -303,8 +308,8 @@ impl Grid {
         }
     }
 
-    /// Returns false for a grid at given points, and for a grid of two ends without points between
-    /// them.
+    /// Returns true if the points are evenly spaced. Returns false for given points, and for two
+    /// ends without points between them.
     pub fn is_even(&self) -> bool {
         self.intervals_per_metre > 0.0
     }
@@ -313,14 +318,14 @@ impl Grid {
         self.points[self.points.len() - 1]
     }
 
-    /// Returns the index of the first point that is at least `indentation`. The indentation must
-    /// not exceed the last point.
+    /// Returns the index of the first point that is at least `indentation` in m. The indentation
+    /// must not exceed the last point.
     #[inline]
     pub fn first_at_least(&self, indentation: f64) -> usize {
         if !self.is_even() {
             return self.points.partition_point(|&point| point < indentation);
         }
-        // Off by at most two where the grid is even; the loops make it exact.
+        // On an even grid the guess differs from the result by at most two; the loops correct it.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);
         while self.points[index] < indentation {
@@ -339,8 +344,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A grid has the requested number of equal intervals, both ends exact; the search finds
-        /// the same point as a scan.
+        /// A grid has the requested number of equal intervals and exact ends. The search finds the
+        /// same point as a comparison with each point.
         #[test]
         fn points_are_even_and_found(
             low in -1.0..1.0_f64,
@@ -368,7 +373,7 @@ mod tests {
     fn a_range_too_narrow_for_its_points_is_its_two_ends() {
         let high = 1.0 + f64::EPSILON;
         assert_eq!(Grid::new(1.0, high, 8).points, [1.0, high]);
-        // Narrower than the reciprocal of the largest number.
+        // A range narrower than the reciprocal of the largest floating-point number.
         let high = f64::from_bits(1 << 14);
         let grid = Grid::new(0.0, high, 4);
         assert_eq!(grid.points, [0.0, high]);

@@ -1,13 +1,14 @@
-//! Searches of the number at which a function passes zero or a condition becomes true, to the last
-//! place.
+//! Searches for the argument at which a function passes zero or a condition becomes true. The
+//! result is exact to the last digit of a floating-point number.
 
-/// Largest number of halvings of an interval in a search, more than any two floating-point numbers
-/// need.
+/// Largest number of halvings of an interval in a search. Fewer halvings are enough for any two
+/// floating-point numbers.
 const HALVINGS: usize = 2200;
 /// Number of guesses by interpolation before a crossing is searched by halving alone.
 const GUESSES: usize = 20;
 
-/// Finds the smallest number in (low, high] for which `is_past` is true; `is_past(high)` is true.
+/// Finds the smallest floating-point number in (low, high] for which `is_past` is true;
+/// `is_past(high)` must be true.
 pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = low + 0.5 * (high - low);
@@ -23,26 +24,27 @@ pub fn bisect(mut low: f64, mut high: f64, is_past: impl Fn(f64) -> bool) -> f64
     high
 }
 
-/// Finds the smallest number in (low, high] at which `value` is at least zero. `value` rises
-/// through zero once; at `low` it is negative.
+/// Finds the smallest floating-point number in (low, high] at which `value` is at least zero.
+/// `value` must be negative at `low` and change sign only once.
 pub fn crossing(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (low, high) = enclose(low, high, &value, |value| value >= 0.0);
     bisect(low, high, |place| value(place) >= 0.0)
 }
 
-/// Finds the largest number in \[low, high) at which `value` is at most zero. `value` rises through
-/// zero once; at `high` it is positive.
+/// Finds the largest floating-point number in \[low, high) at which `value` is at most zero.
+/// `value` must be positive at `high` and change sign only once.
 pub fn last_before(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (before, past) = enclose(low, high, &value, |value| value > 0.0);
     let first_past = bisect(before, past, |place| value(place) > 0.0);
     first_past.next_down().max(low)
 }
 
-/// Narrows an interval around a crossing by interpolation. Its lower end stays before the crossing,
-/// its upper end past it.
+/// Narrows an interval around a zero of `value` by interpolation. The returned lower end lies
+/// before the zero, and the returned upper end past it.
 ///
-/// The value at an end that stays is halved (the Illinois rule), so that both ends move. An
-/// interval that narrows slowly is halved as well.
+/// If the same end moves twice, the interpolation uses half the value at the other end (the
+/// Illinois rule), so that both ends move. Every fourth guess is the middle of the interval,
+/// because interpolation alone may narrow the interval slowly.
 fn enclose(
     mut low: f64,
     mut high: f64,
@@ -51,7 +53,7 @@ fn enclose(
 ) -> (f64, f64) {
     let mut value_at_low = value(low);
     let mut value_at_high = value(high);
-    // 1 if the last guess has moved the upper end, −1 the lower end.
+    // 1 if the last guess moved the upper end, −1 if it moved the lower end.
     let mut moved_end = 0_i32;
     for guess in 0..GUESSES {
         let middle = low + 0.5 * (high - low);
@@ -89,8 +91,8 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    /// Zeros are found to the last place, in far fewer evaluations in total than the fifty-odd of
-    /// halving.
+    /// The search finds each zero to the last digit. In total it needs far fewer evaluations than
+    /// halving, which needs about fifty for each zero.
     #[test]
     fn a_rising_zero_is_found_in_few_evaluations() {
         let evaluations = Cell::new(0);

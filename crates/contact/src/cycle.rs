@@ -12,7 +12,7 @@ use super::profile::Profile;
 use super::target::Move;
 use asperity_data::Warning;
 
-/// Number of samples of the force curve of a stage, if none is given.
+/// Number of points of the force curve of a stage, if the options do not state another number.
 const SAMPLES: usize = 512;
 
 /// Options of [`Contact::load_with`]: the number of points of the force curve, further indentations
@@ -110,14 +110,14 @@ impl<'a> LoadOptions<'a> {
 pub struct Cycle {
     history: History,
     figures: Figures,
-    /// Points of each stage at the further indentations of [`LoadOptions`].
+    /// Points of the force curve of each stage at the additional indentations of [`LoadOptions`].
     points: Vec<Vec<CurvePoint>>,
-    /// Leg of the last stage, or of the separated body without stages.
+    /// Leg of the last stage. If there are no stages, the leg of the separated body.
     leg: Leg,
 }
 
-/// Force curve of all loading stages as columns of equal length, with one value for each point. The
-/// points are in the order of the motion.
+/// Force curve of all loading stages. Each field is a column with one value for each point of the
+/// curve. The points are in the order of the motion.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -154,7 +154,7 @@ pub struct Curve {
 }
 
 impl Contact {
-    /// Moves the body, which is separated at first, to the target of each loading stage, one after
+    /// Starts with a separated body and moves it to the targets of the loading stages, one after
     /// the other.
     ///
     /// # Errors
@@ -276,7 +276,8 @@ impl Contact {
     }
 }
 
-/// Returns the points of a stage at the indentations in m that it passes, in their ascending order.
+/// Returns the points of a stage at those of the `indentations` (in m, ascending) that the stage
+/// passes, in ascending order.
 fn points_between(
     record: &LegRecord,
     leg: &Leg,
@@ -289,7 +290,7 @@ fn points_between(
     leg.curve(&indentations[first..end.max(first)])
 }
 
-/// Returns an error for a target with which a result might not be a finite number.
+/// Returns an error if a target is so large that a result might not be a finite number.
 fn check_targets(targets: &[Move]) -> Result<(), ContactError> {
     for (index, target) in targets.iter().enumerate() {
         if let Move::ToForce(value) | Move::ToIndentation(value) | Move::ToDisplacement(value) =
@@ -302,7 +303,7 @@ fn check_targets(targets: &[Move]) -> Result<(), ContactError> {
     Ok(())
 }
 
-/// Returns an error for indentations that are not ascending finite numbers.
+/// Returns an error unless all indentations are finite numbers in ascending order.
 fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
     let mut before = -LARGEST;
     for (index, &indentation) in indentations.iter().enumerate() {
@@ -316,9 +317,12 @@ fn check_ascending(indentations: &[f64]) -> Result<(), ContactError> {
 }
 
 impl History {
-    /// Returns the premises of the model that the loading of a profile does not meet: a contact
-    /// that ends inside the profile of a curved body, an unloading to separation, and enough
-    /// springs in contact.
+    /// Returns a warning for each premise of the model that the loading of a profile does not meet.
+    /// The premises are:
+    ///
+    /// * the contact of a curved body ends inside the profile;
+    /// * the last unloading reaches separation or passes the smallest force;
+    /// * enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         let reaches_ends = self.legs.iter().any(|stage| stage.reaches_ends);
         let springs = self.legs.iter().map(LegRecord::most_springs);
@@ -330,16 +334,19 @@ impl History {
 }
 
 impl Reversal {
-    /// Returns the premises of the model that the loading of a profile to the turning point does
-    /// not meet: a contact that ends inside the profile of a curved body, and enough springs in
-    /// contact.
+    /// Returns a warning for each premise of the model that the loading to the turning point does
+    /// not meet. The premises are:
+    ///
+    /// * the contact of a curved body ends inside the profile;
+    /// * enough springs are in contact.
     pub fn warnings(&self, profile: &Profile) -> Vec<Warning> {
         warnings_of_contact(profile, self.reaches_ends, self.turn.springs)
     }
 }
 
-/// Returns the premises that a contact does not meet. `reaches_ends` is true if an outermost spring
-/// was in contact, and `most_springs` is the largest number of springs in contact.
+/// Returns the warnings about the ends of the profile and the number of springs in contact.
+/// `reaches_ends` is true if an outermost spring was in contact, and `most_springs` is the largest
+/// number of springs in contact.
 fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if reaches_ends && profile.is_curved() {
@@ -347,7 +354,8 @@ fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64)
             length: profile.length(),
         });
     }
-    // A profile of few springs, all of which are in contact, is resolved as well as it can be.
+    // If every spring of a profile is in contact, a finer resolution is not possible, so no warning
+    // is given.
     if most_springs < profile.points() as u64 {
         warnings.extend(Warning::of_springs_in_contact(most_springs));
     }
@@ -357,7 +365,7 @@ fn warnings_of_contact(profile: &Profile, reaches_ends: bool, most_springs: u64)
 impl Cycle {
     /// Returns the pull-off force in N: the smallest force of the last unloading, with the opposite
     /// sign. Returns `None` if the smallest force is above zero, or if the unloading ends in
-    /// contact while the force still falls.
+    /// contact while the force is still falling.
     #[must_use]
     pub fn pull_off_force(&self) -> Option<f64> {
         self.figures.adhesion_force
@@ -370,9 +378,9 @@ impl Cycle {
         self.figures.pull_off_indentation
     }
 
-    /// Returns the preload in N: the largest force on loading before the last unloading. An earlier
-    /// contact that ended in separation does not count. Returns `None` if the body is never in
-    /// contact on that loading.
+    /// Returns the preload in N: the largest force on loading before the last unloading. Only the
+    /// loading since the last separation counts. Returns `None` if the body is never in contact on
+    /// this loading.
     #[must_use]
     pub fn preload(&self) -> Option<f64> {
         self.figures.preload
@@ -430,9 +438,9 @@ impl Cycle {
         &self.history.legs
     }
 
-    /// Returns the premises of the model that this loading does not meet, such as a contact that
-    /// reaches the ends of the profile of a curved body. The list is empty if all premises hold
-    /// that can be known from the heights and the loading.
+    /// Returns a warning for each premise of the model that this loading does not meet, such as a
+    /// contact that reaches the ends of the profile of a curved body. The list is empty if the
+    /// heights and the loading show no unmet premise.
     ///
     /// ```
     /// use asperity_contact::{Contact, Modulus, Move, Profile};

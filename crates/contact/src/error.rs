@@ -7,8 +7,8 @@ use thiserror::Error;
 /// Largest number of steps of one motion of the stepwise solver.
 pub const STEP_LIMIT: u64 = 10_000_000;
 
-/// Largest value, in SI units, of any quantity of a contact. Its inverse is the smallest length,
-/// modulus or stiffness. Products of such values are finite.
+/// Largest value, in SI units, of any quantity of a contact. The inverse 1e-50 is the smallest
+/// length, modulus or stiffness. With these limits, products of quantities are finite.
 pub const LARGEST: f64 = 1e50;
 
 /// Reason why a value is refused, or why a body does not move to a target.
@@ -63,7 +63,7 @@ pub enum ContactError {
     /// MiB.
     #[error(transparent)]
     OutOfMemory(#[from] OutOfMemory),
-    /// A target is infinite or not a number; the field has the value of the target.
+    /// A target is infinite or not a number. The field is the value of the target.
     #[error("{0} is not finite; allowed: finite numbers")]
     NotFinite(f64),
     /// A body that is separated cannot move to a tensile force.
@@ -73,16 +73,16 @@ pub enum ContactError {
     /// where it should turn back.
     #[error("a reversal begins in contact; allowed: an indentation of at least 0 m, or a force")]
     NoContact,
-    /// The contact detaches before the force falls to the force of the target.
+    /// The contact detaches before the force falls to the target force.
     #[error("the contact detaches before that force; smallest force within reach: {smallest:e} N")]
     DetachesBefore {
         /// Smallest force in N that the contact reaches on this unloading.
         smallest: f64,
     },
-    /// The force of the target is not reached at any finite indentation on this foundation.
+    /// No finite indentation on this foundation has the target force.
     #[error("no finite indentation reaches that force on this foundation")]
     OutOfReach,
-    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps; the field has the
+    /// The [stepwise solver](crate::motion::Stepwise) would need too many steps. The field is the
     /// length of a step in m.
     #[error(
         "more than {STEP_LIMIT} steps of {0:e} m; take a larger numerics.solver.step or the exact solver"
@@ -94,7 +94,7 @@ pub enum ContactError {
         "a leg of the stepwise solver is known at its steps alone; allowed: a leg of the exact solver"
     )]
     Stepwise,
-    /// The program has a defect; the field describes the state that should not occur.
+    /// The program has a defect. The field describes the state that should not occur.
     #[error("internal error, please report it: {0}")]
     Internal(&'static str),
     /// The computation ended because a function of the caller requested this, such as the function
@@ -114,8 +114,8 @@ impl ContactError {
         }
     }
 
-    /// Returns the smallest force in N that the contact bears, if a target force lies below this
-    /// force; `None` for other errors.
+    /// Returns the smallest force in N that the contact can bear, if the error is a target force
+    /// below it; `None` for other errors.
     pub fn smallest_force(&self) -> Option<f64> {
         if let ContactError::DetachesBefore { smallest } = self.reason() {
             Some(*smallest)
@@ -133,7 +133,8 @@ impl ContactError {
         )
     }
 
-    /// Describes in words why a body does not move to a target.
+    /// Returns a message that states why a body does not move to a target, with forces in suitable
+    /// units.
     pub fn in_words(&self, target: Move) -> String {
         let ContactError::DetachesBefore { smallest } = self else {
             return self.to_string();
@@ -146,7 +147,7 @@ impl ContactError {
         format!("the contact detaches before {force}; smallest force within reach: {least}")
     }
 
-    /// Returns the reason without its stage.
+    /// Returns the reason of an error that names a stage; returns any other error unchanged.
     fn reason(&self) -> &ContactError {
         if let ContactError::Stage { reason, .. } = self {
             reason
@@ -155,8 +156,8 @@ impl ContactError {
         }
     }
 
-    /// Adds the stage to the reason. Lack of memory, interruptions and defects concern the whole
-    /// loading and remain unchanged.
+    /// Adds the stage to the reason. Errors about memory, interruptions and defects remain
+    /// unchanged because they concern the whole loading.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }
@@ -172,12 +173,13 @@ impl ContactError {
     }
 }
 
-/// Returns true for a positive value within the allowed magnitudes.
+/// Returns true if a value is positive and within the allowed magnitudes.
 pub fn is_positive(value: f64) -> bool {
     (LARGEST.recip()..=LARGEST).contains(&value)
 }
 
-/// Returns an error that names the value and what is allowed, unless the value is allowed.
+/// Returns `Ok` if the value is allowed, otherwise an error that states the value and the allowed
+/// range.
 pub fn check(
     name: &str,
     value: f64,
@@ -194,7 +196,7 @@ pub fn check(
     })
 }
 
-/// Writes a value as a user would write it: numbers of ordinary size without an exponent.
+/// Writes a value as a user would write it: values from 0.001 to 1e10 and zero without an exponent.
 fn shown(value: f64) -> String {
     let is_plain = value == 0.0 || (1e-3..1e10).contains(&value.abs());
     if is_plain {

@@ -7,7 +7,7 @@ use super::history::{CurvePoint, Direction, History, LegRecord};
 use super::target::Move;
 
 /// Figures of a loading history: preload, pull-off and dissipated energy. A figure is `None` if the
-/// history has no such value.
+/// history does not determine it.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -25,21 +25,21 @@ use super::target::Move;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Figures {
-    /// Preload F_n in N: the largest force on loading before the last unloading. An earlier contact
-    /// that ended in separation does not count. `None` if the body is never in contact on that
-    /// loading.
+    /// Preload F_n in N: the largest force on loading before the last unloading. Only the loading
+    /// since the last separation counts. `None` if the body is never in contact on this loading.
     pub preload: Option<f64>,
     /// Indentation in m at which the preload acts; `None` if `preload` is `None`.
     pub preload_indentation: Option<f64>,
     /// Adhesion force F_a in N: the smallest force of the last unloading, with the opposite sign.
     /// `None` if the smallest force is above zero, or if the unloading ends in contact while the
-    /// force still falls.
+    /// force is still falling.
     pub adhesion_force: Option<f64>,
-    /// Adhesion coefficient F_a/F_n. The value is `None` if no force pulls, or if the preload does
-    /// not press.
+    /// Adhesion coefficient F_a/F_n. `None` if F_a is `None`, or if the preload is not a positive
+    /// force.
     pub adhesion_coefficient: Option<f64>,
     /// Indentation in m at the smallest force of the last unloading; `None` if `adhesion_force` is
-    /// `None`. It has a larger relative error than the adhesion force.
+    /// `None`. Its relative deviation from the exact value is larger than the relative deviation of
+    /// the adhesion force.
     pub pull_off_indentation: Option<f64>,
     /// Energy in J dissipated in the contact during all stages together; `None` if the last stage
     /// ends in contact.
@@ -61,8 +61,8 @@ impl Figures {
         Figures::of_points(preload, pull_off, energy)
     }
 
-    /// Computes the figures of a loading from separation to the target `leg`, followed by the
-    /// unloading `reversal` back to separation.
+    /// Computes the figures of two stages: a loading from separation to the target `leg`, and the
+    /// unloading `reversal` from there back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal) -> Self {
         let touches = reversal.turn.springs > 0;
         let preload = Preload {
@@ -77,15 +77,15 @@ impl Figures {
         )
     }
 
-    /// Computes the figures from the preload, the pull-off point, and the released energy of all
-    /// stages in J.
+    /// Computes the figures from the preload, the pull-off point, and the energy in J that all
+    /// stages together release.
     fn of_points(
         preload: Option<Preload>,
         pull_off: Option<CurvePoint>,
         energy: Option<f64>,
     ) -> Self {
         let preload_force = preload.map(|preload| preload.without_rounding().force);
-        // Not −F, which would make a force of zero negative.
+        // 0.0 − F instead of −F, because −F would be −0 for a force of zero.
         let adhesion_force = pull_off.map(|point| 0.0 - point.force);
         Figures {
             preload: preload_force,
@@ -93,13 +93,14 @@ impl Figures {
             adhesion_force,
             adhesion_coefficient: adhesion_coefficient(adhesion_force, preload_force),
             pull_off_indentation: pull_off.map(|point| point.indentation),
-            // Changes −0 to 0 without dissipation.
+            // Adding 0.0 changes −0 to 0 if no energy is dissipated.
             dissipated_energy: energy.map(|energy| energy + 0.0),
         }
     }
 }
 
-/// Returns F_a/F_n for forces in N; `None` if no force pulls, or if the preload does not press.
+/// Returns F_a/F_n for forces in N; `None` if either force is `None`, if the preload is not
+/// positive, or if the quotient is too large for a number.
 fn adhesion_coefficient(adhesion_force: Option<f64>, preload: Option<f64>) -> Option<f64> {
     let adhesion_force = adhesion_force?;
     let preload = preload?;
@@ -115,8 +116,8 @@ struct Preload {
 }
 
 impl Preload {
-    /// Returns the point of the preload. The force that remains at a target force of zero is
-    /// rounding and becomes zero.
+    /// Returns the point of the preload. If the target is a force of zero, the force is set to
+    /// exactly zero, because the small remaining force is a rounding.
     fn without_rounding(&self) -> CurvePoint {
         match self.target {
             Move::ToForce(0.0) | Move::ToZeroForce => CurvePoint {
@@ -240,7 +241,8 @@ mod tests {
         }
     }
 
-    /// A stage with this curve, of which one point is the extreme, and a released energy of 0.25 J.
+    /// A stage with this curve. The point `extreme` has both the largest and the smallest force.
+    /// The released energy is 0.25 J.
     fn leg(
         target: Move,
         direction: Direction,
@@ -298,7 +300,7 @@ mod tests {
             dissipated_energy: Some(1.0),
         };
         assert_eq!(found, expected);
-        // No dissipation is 0, not −0.
+        // Without dissipation the energy is 0, not −0.
         let nothing = |leg: LegRecord| LegRecord {
             released_energy: -0.0,
             ..leg
@@ -308,7 +310,8 @@ mod tests {
             lost.is_some_and(|lost| lost == 0.0 && lost.is_sign_positive()),
             "{lost:?}"
         );
-        // A body in contact has not completed a loop.
+        // A body that ends in contact has not completed a loop, so the dissipated energy is
+        // unknown.
         assert_eq!(
             figures(&[pressed(7.0), pulled(-3.0, 1)]).dissipated_energy,
             None
@@ -323,8 +326,8 @@ mod tests {
         let none = adhesion(0.0);
         assert!(none == Some(0.0) && none.is_some_and(f64::is_sign_positive));
         assert_eq!(adhesion(-1e-300), Some(1e-300));
-        // The pull-off is a minimum within the stage, and the rest of the unloading has no smaller
-        // force.
+        // The smallest force lies inside the stage, and the rest of the unloading has no smaller
+        // force, so it is the pull-off force.
         let ends_at = |force: f64, rest: Option<f64>| {
             let mut pulled = pulled(-1.0, 0);
             pulled.curve = vec![pulled.smallest, point(-0.5, force, 1)];
@@ -339,8 +342,8 @@ mod tests {
         ];
         assert_eq!(ends, [None, None, Some(1.0)]);
         assert_eq!([ends_at(-0.9, Some(-1.1)), ends_at(-0.9, None)], [None; 2]);
-        // A coefficient that overflows is `None`, and so is that of a target force of zero, where a
-        // rounding remains.
+        // The coefficient is `None` if it is too large for a number. It is also `None` if the
+        // target is a force of zero, although rounding leaves a small positive force.
         for pressed in [pressed(0.0), pressed(1e-320)] {
             assert_eq!(
                 figures(&[pressed, pulled(-1.0, 0)]).adhesion_coefficient,

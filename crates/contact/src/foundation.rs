@@ -14,9 +14,9 @@ pub struct Foundation {
 }
 
 impl Foundation {
-    /// Returns the length in contact of this number of cells in m. It is never above the length of
-    /// the foundation. It equals that length where the cells cover the foundation, although N Δx
-    /// may differ by a rounding.
+    /// Returns the contact length in m of `cells` cells in contact. If the cells cover the whole
+    /// foundation, the length is exactly the length of the foundation, although N Δx may differ
+    /// from this length by a rounding.
     #[inline]
     pub fn contact_length(&self, cells: f64) -> f64 {
         let length = cells * self.spacing;
@@ -28,8 +28,8 @@ impl Foundation {
     }
 
     /// Returns half the distance between the outermost edges of the contact in m; zero in
-    /// separation. `patches` and `point` describe one state. Separated regions between patches are
-    /// whole cells; the outermost edges may lie inside a cell.
+    /// separation. `patches` and `point` must belong to the same state. The distance is the contact
+    /// length plus the springs without contact between the patches.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let separated_springs = match patches {
             [] => 0,
@@ -54,8 +54,9 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// All cells are as long as the foundation, to the last bit; fewer have their own length,
-        /// and more are no longer.
+        /// If all cells are in contact, the contact length equals the length of the foundation to
+        /// the last bit. Fewer cells have their own length, and more cells are not longer than the
+        /// foundation.
         #[test]
         fn no_contact_is_longer_than_the_foundation(springs in 2_usize..400, length in 1e-6..10.0_f64) {
             let spacing = length / springs as f64;

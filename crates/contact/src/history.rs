@@ -1,5 +1,5 @@
-//! Loading histories: targets, records of motions with their force curves, contact patches and work
-//! counts.
+//! Loading histories: the records of motions with their force curves, the contact patches, the
+//! counts of computing work, and the plan of a motion to a target.
 
 use super::error::ContactError;
 use super::target::Move;
@@ -46,8 +46,8 @@ pub struct LegRecord {
     /// Number of springs that detached in this stage.
     pub detached: u64,
     /// Elastic energy in J that springs release when they detach, minus the elastic energy that
-    /// springs gain when they attach. The sum over all stages of a closed loop is the dissipated
-    /// energy.
+    /// springs gain when they attach. For a closed loop, the sum of this energy over all stages is
+    /// the dissipated energy.
     pub released_energy: f64,
     /// Energy in J lost where the body jumps because the instrument that moves it is compliant. The
     /// sum of `released_energy` and `jump_energy` over all stages is the loop area ∮F dD of the
@@ -56,8 +56,8 @@ pub struct LegRecord {
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
-    /// Point of the smallest force on the rest of an unloading that ends in contact, if the body
-    /// went on to separation from there. `None` for any other motion, and if the rest is not known.
+    /// Point of the smallest force that a further unloading to separation would reach. It is known
+    /// only for an unloading that ends in contact; otherwise `None`.
     pub smallest_of_rest: Option<CurvePoint>,
 }
 
@@ -109,7 +109,8 @@ impl LegRecord {
         }
     }
 
-    /// Inserts a point into a curve of ascending indentations, unless the curve has a point there.
+    /// Inserts a point into a curve in ascending order of the indentation, unless the curve already
+    /// has a point at this indentation.
     pub(super) fn insert(curve: &mut Vec<CurvePoint>, point: CurvePoint) {
         let place = curve.partition_point(|other| other.indentation < point.indentation);
         let next = curve.get(place);
@@ -118,8 +119,8 @@ impl LegRecord {
         }
     }
 
-    /// Creates the record of a motion from the ascending points of its curve, and the released
-    /// elastic energy in J.
+    /// Creates the record of a motion. `curve` has the points of the force curve in ascending order
+    /// of the indentation, and `released_energy` is in J.
     pub(super) fn moved(
         passage: Passage,
         mut curve: Vec<CurvePoint>,
@@ -153,7 +154,8 @@ impl LegRecord {
         }
         if after.springs == 0 && end.springs > 0 {
             curve.push(CurvePoint::free(end.indentation));
-            // The instrument, no longer deflected, moves the free body on.
+            // After the contact is lost, the instrument relaxes and moves the separated body
+            // further.
             if after.indentation < end.indentation {
                 curve.push(after);
             }
@@ -177,7 +179,8 @@ impl LegRecord {
 
     /// Returns the largest number of springs in contact at any moment of the motion.
     pub fn most_springs(&self) -> u64 {
-        // A motion in one direction only attaches or only detaches springs.
+        // A motion in one direction either only attaches or only detaches springs, so the largest
+        // number is at a point of the curve.
         let springs = self.curve.iter().map(|point| point.springs);
         springs.max().unwrap_or(0)
     }
@@ -259,8 +262,8 @@ pub struct Work {
     pub random_phases: u64,
     /// Number of Fourier transforms over the whole profile.
     pub transforms: u64,
-    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the places where two
-    /// patches can merge.
+    /// Number of nodes of the [`ContactTree`](crate::motion::ContactTree), the points of the
+    /// profile at which two patches can merge.
     pub tree_nodes: u64,
     /// Number of times that the solver passed over the contact tree to compute a loading.
     pub loading_passes: u64,
@@ -364,8 +367,8 @@ impl CurvePoint {
     }
 }
 
-/// A contact patch: a run of neighbouring springs in contact. In JSON it is the array
-/// `[first, last]`.
+/// A contact patch: a group of neighbouring springs in contact. In JSON it is the array `[first,
+/// last]`.
 ///
 /// ```
 /// use asperity_contact::Patch;
@@ -389,14 +392,14 @@ impl Patch {
         self.first..self.last + 1
     }
 
-    /// Returns the index of the spring in the middle of the patch. Of two springs in the middle it
-    /// is the left one.
+    /// Returns the index of the spring in the middle of the patch. If two springs are in the
+    /// middle, returns the left one.
     pub fn middle(self) -> usize {
         self.first + (self.last - self.first) / 2
     }
 
-    /// Returns the contact patches from left to right. `contact` has one item for each spring, true
-    /// for a spring in contact.
+    /// Returns the contact patches from left to right. `contact` has one value for each spring:
+    /// true if the spring is in contact.
     pub fn of_springs(contact: impl Iterator<Item = bool>) -> Vec<Patch> {
         let mut patches: Vec<Patch> = Vec::new();
         for (spring, is_in_contact) in contact.enumerate() {
@@ -430,8 +433,8 @@ pub(super) enum Goal {
     Force(f64),
     /// A displacement in m of an instrument that is not rigid.
     Displacement(f64),
-    /// Detachment of the last patch. The number is the indentation of the body afterwards in m,
-    /// where the target gives one.
+    /// Detachment of the last patch. The value is the indentation in m to which the body moves
+    /// afterwards, if the target states one.
     Separation(Option<f64>),
 }
 
@@ -448,8 +451,8 @@ impl From<Move> for Goal {
     }
 }
 
-/// Returns the direction and the goal of the motion of a body at `here` to a target, with an
-/// instrument of this stiffness in N/m. `None` if the body is there already.
+/// Returns the direction and the goal of the motion from the point `here` to a target. `stiffness`
+/// is the stiffness of the instrument in N/m. Returns `None` if the body is already at the target.
 pub(super) fn plan(
     target: Move,
     here: CurvePoint,
@@ -457,7 +460,8 @@ pub(super) fn plan(
 ) -> Result<Option<(Direction, Goal)>, ContactError> {
     let separated = here.springs == 0;
     let goal = match Goal::from(target) {
-        // Nothing deflects a rigid instrument, nor any other before the touch.
+        // The displacement equals the indentation if the instrument is rigid, or if no force
+        // deflects it because the body has not touched yet.
         Goal::Displacement(end) if stiffness.is_infinite() || separated && end < 0.0 => {
             Goal::Indentation(end)
         }

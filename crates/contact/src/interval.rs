@@ -1,7 +1,8 @@
-//! Intervals of the indentations of a motion, in which extremes and crossings of the force are
-//! searched.
+//! Parts of a motion between two indentations, called intervals, in which extremes and crossings of
+//! the force are searched.
 //!
-//! An interval is divided at its middle event, until the bounds of the force exclude a part or a
+//! A search divides an interval at its middle event. An event is an indentation at which springs
+//! attach or detach. The division ends where the bounds of the force exclude a part, or where a
 //! part has no event inside.
 
 use super::adhesive::levels::{EdgeSum, Slider};
@@ -12,14 +13,16 @@ use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 use std::rc::Rc;
 
-/// Totals of the whole springs or cells in contact from this indentation up to the next step.
+/// Totals of all whole springs or cells that are in contact at indentations from `threshold` (m) up
+/// to the next step.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     threshold: f64,
     totals: ContactTotals,
 }
 
-/// Edge cells of a patch over the indentations at which it fills one span.
+/// Edge cells of one patch, and the range of indentations in m in which the patch consists of the
+/// same springs. An edge cell lies at one end of the patch and is only partly in contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Piece<R> {
     pub slider: Slider<R>,
@@ -30,23 +33,25 @@ pub struct Piece<R> {
 /// Part of a motion between two indentations, with the events inside.
 pub struct Interval<R> {
     slides: bool,
-    /// The instrument as a number of springs parallel to the contact; see [`ContactState::beside`].
+    /// Number of springs parallel to the contact that represent the instrument; see
+    /// [`ContactState::beside`].
     instrument: f64,
     scale: GapScale,
-    /// The contact at the lowest indentation, then the events; sorted by [`Interval::sort`].
+    /// The totals at the lowest indentation, then those after each event; [`Interval::sort`] puts
+    /// them in order.
     steps: Rc<Vec<Step>>,
     pieces: Vec<Piece<R>>,
-    /// Contact at the lowest and at the highest indentation.
+    /// Contact at the lowest indentation (`low`) and at the highest (`high`).
     low: ContactState,
     high: ContactState,
 }
 
-/// Ascending intervals of a sampled motion in which a force is searched, at least one.
+/// Neighbouring intervals of a motion in ascending order of the indentation, at least one.
 pub struct Intervals<R>(Vec<Interval<R>>);
 
 impl<R: DetachmentRule> Intervals<R> {
-    /// Creates intervals from the contact at both ends of each. `instrument` is a number of springs
-    /// parallel to the contact.
+    /// Creates one interval for each pair of `ends`, the contact at the lower and at the upper end.
+    /// `instrument` is the number of springs parallel to the contact that represent the instrument.
     pub fn new(ends: &[[ContactState; 2]], slides: bool, scale: GapScale, instrument: f64) -> Self {
         let mut intervals = Vec::with_capacity(ends.len());
         for &[low, high] in ends {
@@ -74,20 +79,22 @@ impl<R: DetachmentRule> Intervals<R> {
         (low, high)
     }
 
-    /// Returns the index range of the intervals that overlap the indentations from `from` to `to`
-    /// in m.
+    /// Returns the indices of the intervals that overlap the range of indentations from `from` to
+    /// `to` in m.
     pub fn between(&self, from: f64, to: f64) -> Range<usize> {
         let intervals = &self.0;
         let first = intervals.partition_point(|interval| interval.high.indentation < from);
         let end = intervals.partition_point(|interval| interval.low.indentation < to);
-        // A part without extent may end a rounding before it begins.
+        // Because of rounding, `to` may lie slightly below `from`; the range is then empty.
         first..end.max(first)
     }
 
-    /// Adds springs or cells that are in contact from one indentation up to another in m.
+    /// Adds two events: springs or cells attach at the indentation `from` and detach at `to`, both
+    /// in m.
     pub fn add_events(&mut self, from: f64, to: f64, totals: ContactTotals) {
         for (threshold, totals) in [(from, totals), (to, -totals)] {
-            // At most one, which does not begin there.
+            // At most one interval contains the threshold, because an event at the lower end of an
+            // interval does not belong to this interval.
             let range = self.between(threshold, threshold);
             for interval in &mut self.0[range] {
                 Rc::make_mut(&mut interval.steps).push(Step { threshold, totals });
@@ -95,7 +102,7 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Adds edge cells to all intervals that they overlap.
+    /// Adds edge cells to all intervals that overlap the range of indentations of the edge cells.
     pub fn add_piece(&mut self, piece: Piece<R>) {
         let range = self.between(piece.from, piece.to);
         for interval in &mut self.0[range] {
@@ -103,7 +110,8 @@ impl<R: DetachmentRule> Intervals<R> {
         }
     }
 
-    /// Returns the intervals with sorted events, and adds the number of events to `sorted`.
+    /// Sorts the events of all intervals and returns the intervals. Adds the number of sorted
+    /// events to `sorted`.
     pub fn finish(mut self, sorted: &mut u64) -> Vec<Interval<R>> {
         for interval in &mut self.0 {
             *sorted += interval.steps.len() as u64 - 1;
@@ -114,7 +122,7 @@ impl<R: DetachmentRule> Intervals<R> {
 }
 
 impl<R: DetachmentRule> Interval<R> {
-    /// Sorts the events; each step then has the totals of all steps up to it.
+    /// Sorts the events and sums their changes, so that each step has the totals after its event.
     fn sort(&mut self) {
         let steps = Rc::make_mut(&mut self.steps);
         steps[1..].sort_unstable_by(|step, other| step.threshold.total_cmp(&other.threshold));
@@ -136,7 +144,7 @@ impl<R: DetachmentRule> Interval<R> {
         (self.low.indentation, self.high.indentation)
     }
 
-    /// Returns the whole springs or cells in contact at an indentation in m.
+    /// Returns the totals of the whole springs or cells in contact at an indentation in m.
     fn totals(&self, indentation: f64) -> ContactTotals {
         let above = self
             .steps
@@ -151,8 +159,9 @@ impl<R: DetachmentRule> Interval<R> {
             .map(|piece| piece.slider)
     }
 
-    /// Returns the contact at an indentation in m, if no event lies between `from` and there: no
-    /// edge jumps, and no patch merges or splits. The force is convex in the indentation.
+    /// Returns the contact at an indentation in m. No event may lie between `from` and this
+    /// indentation: no edge jumps, and no patch merges or splits. The force is then convex in the
+    /// indentation.
     fn steady(&self, from: f64, indentation: f64) -> ContactState {
         let mut edges = EdgeSum::default();
         for slider in self.sliders(from) {
@@ -164,15 +173,16 @@ impl<R: DetachmentRule> Interval<R> {
         contact.beside(self.instrument)
     }
 
-    /// Returns the compression in m at an indentation in m, if no event lies between the lower end
-    /// and there.
+    /// Returns the compression in m at an indentation in m. No event may lie between the lower end
+    /// of the interval and this indentation.
     fn compression(&self, indentation: f64) -> f64 {
         let from = self.low.indentation;
         self.steady(from, indentation).compression
     }
 
     /// Returns the derivative of the compression with respect to the indentation, in cells, at an
-    /// indentation in m, if no event lies between the lower end and there.
+    /// indentation in m. No event may lie between the lower end of the interval and this
+    /// indentation.
     fn stiffness(&self, indentation: f64) -> f64 {
         let from = self.low.indentation;
         let mut edges = 0.0;
@@ -182,8 +192,8 @@ impl<R: DetachmentRule> Interval<R> {
         self.totals(from).whole(self.slides) as f64 + edges + self.instrument
     }
 
-    /// Returns the indentation in m of the smallest force between the lower end and `last`, if no
-    /// event lies between.
+    /// Returns the indentation in m of the smallest force between the lower end of the interval and
+    /// `last`. No event may lie between the two.
     fn flattest(&self, last: f64) -> f64 {
         let low = self.low.indentation;
         if self.stiffness(low) >= 0.0 {
@@ -195,7 +205,8 @@ impl<R: DetachmentRule> Interval<R> {
         bisect(low, last, |indentation| self.stiffness(indentation) >= 0.0)
     }
 
-    /// Returns the contact at the middle event inside; `None` without an event.
+    /// Returns the contact at the middle one of the events inside the interval; `None` if no event
+    /// is inside.
     fn middle(&self) -> Option<ContactState> {
         let (low, high) = self.ends();
         let steps = &self.steps;
@@ -208,12 +219,12 @@ impl<R: DetachmentRule> Interval<R> {
         Some(self.steady(event, event))
     }
 
-    /// Returns the part below the contact `middle`.
+    /// Returns the part of the interval below the contact `middle`.
     fn below(&self, middle: ContactState) -> Self {
         self.between(self.low, middle)
     }
 
-    /// Returns the part above the contact `middle`.
+    /// Returns the part of the interval above the contact `middle`.
     fn above(&self, middle: ContactState) -> Self {
         self.between(middle, self.high)
     }
@@ -230,8 +241,9 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Replaces `best` by the contact of the extreme force inside, if its force is beyond `best`.
-    /// No force at an end is beyond `best`.
+    /// Replaces `best` by the contact of the extreme force inside the interval, if this force is
+    /// more extreme than the force of `best`. The forces at both ends must not be more extreme than
+    /// `best`.
     pub fn extreme(&self, extreme: Extreme, best: &mut ContactState) {
         let (from, to) = self.ends();
         if !extreme.may_lie(&self.low, &self.high, best) || from.next_up() >= to {
@@ -248,7 +260,8 @@ impl<R: DetachmentRule> Interval<R> {
         let before = to.next_down();
         let indentation = match extreme {
             Extreme::Smallest => self.flattest(to).min(before),
-            // Where the force falls at once, the largest number before counts.
+            // If the force drops in a jump at the upper end, its largest value is just before the
+            // jump.
             Extreme::Largest => before,
         };
         let state = self.steady(from, indentation);
@@ -257,9 +270,9 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Computes ∫ (E − C) dd in cells times m² over the parts of the interval that a loading jumps
-    /// over. C is the compression of contact and instrument, and E is the largest one so far. Where
-    /// C turns back from E the body jumps.
+    /// Computes ∫ (E − C) dd in cells times m² over the parts of the interval that a loading passes
+    /// in jumps of the instrument. C is the compression of contact and instrument together, and E
+    /// the largest C so far. A jump begins where C falls below E.
     pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.below(middle).jumped_on_loading(largest);
@@ -267,7 +280,7 @@ impl<R: DetachmentRule> Interval<R> {
             return first + second;
         }
         let (from, to) = self.ends();
-        // The compression is convex: it falls up to here, and rises beyond.
+        // The compression is convex: it falls up to `flattest` and rises beyond.
         let flattest = self.flattest(to);
         let start = self.compression(from);
         let end = self.compression(to);
@@ -279,7 +292,8 @@ impl<R: DetachmentRule> Interval<R> {
         if end <= level {
             return level * (to - from) - self.work(from, to);
         }
-        // The compression is less than the largest one up to where it is back at it.
+        // The body jumps from the lower end to the indentation at which the compression is back at
+        // the largest one.
         let back = crossing(from, to, |indentation| {
             self.compression(indentation) - level
         });
@@ -287,8 +301,8 @@ impl<R: DetachmentRule> Interval<R> {
     }
 
     /// Computes ∫ (C − E) dd in cells times m² over the parts of the interval that an unloading
-    /// jumps over. C is the compression of contact and instrument, and E is the smallest one so
-    /// far. Where C turns back from E the body jumps.
+    /// passes in jumps of the instrument. C is the compression of contact and instrument together,
+    /// and E the smallest C so far. A jump begins where C rises above E.
     pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.above(middle).jumped_on_unloading(smallest);
@@ -296,7 +310,7 @@ impl<R: DetachmentRule> Interval<R> {
             return first + second;
         }
         let (from, to) = self.ends();
-        // The compression is convex: it falls up to here, and rises beyond.
+        // The compression is convex: it falls up to `flattest` and rises beyond.
         let flattest = self.flattest(to);
         let level = *smallest;
         let least = self.compression(flattest);
@@ -315,9 +329,9 @@ impl<R: DetachmentRule> Interval<R> {
         work_before + work_after
     }
 
-    /// Computes ∫ C dd over a range of indentations in m without an event inside, where C is the
-    /// compression. The integral is half of the growth of ∫ (d − c)² dx minus the squared stretch
-    /// with which springs attach at the sliding edges.
+    /// Computes ∫ C dd between two indentations in m without an event between them, where C is the
+    /// compression. The integral is half of the growth of (∫ (d − c)² dx minus the sum of the
+    /// squared stretches with which springs attach at the moving edges).
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
         let squares = self.steady(from, high).squares - self.steady(from, low).squares;
@@ -326,15 +340,16 @@ impl<R: DetachmentRule> Interval<R> {
         0.5 * (squares - surface + instrument)
     }
 
-    /// Returns the sum of [`Slider::surface`] over all patches at an indentation in m, if no event
-    /// lies between the lower end and there.
+    /// Returns the sum of [`Slider::surface`] over all patches at an indentation in m. No event may
+    /// lie between the lower end of the interval and this indentation.
     fn surface(&self, indentation: f64) -> f64 {
         let sliders = self.sliders(self.low.indentation);
         sliders.map(|slider| slider.surface(indentation)).sum()
     }
 
-    /// Returns the smallest indentation in the interval with at least this compression. The
-    /// compression at the lower end is smaller.
+    /// Returns the smallest indentation in the interval at which the compression is at least
+    /// `wanted`; `None` if there is no such indentation. The compression at the lower end must be
+    /// less than `wanted`.
     pub fn first_at_least(&self, wanted: f64) -> Option<f64> {
         if upper_bound(&self.low, &self.high) < wanted {
             return None;
@@ -343,7 +358,8 @@ impl<R: DetachmentRule> Interval<R> {
             let lower = self.below(middle).first_at_least(wanted);
             return lower.or_else(|| self.above(middle).first_at_least(wanted));
         }
-        // Convex and below `wanted` at first: one crossing.
+        // The compression is convex and less than `wanted` at the lower end, so it reaches `wanted`
+        // at most once.
         let (from, to) = self.ends();
         let passes = |indentation: f64| self.compression(indentation) - wanted;
         if passes(to) >= 0.0 {
@@ -355,8 +371,9 @@ impl<R: DetachmentRule> Interval<R> {
         (self.high.compression >= wanted).then_some(to)
     }
 
-    /// Returns the largest indentation in the interval with at most this compression. The
-    /// compression at the upper end is larger.
+    /// Returns the largest indentation in the interval at which the compression is at most
+    /// `wanted`; `None` if there is no such indentation. The compression at the upper end must be
+    /// more than `wanted`.
     pub fn last_at_most(&self, wanted: f64) -> Option<f64> {
         let (from, to) = self.ends();
         if lower_bound(&self.low, &self.high) > wanted || from >= to {
@@ -378,7 +395,7 @@ impl<R: DetachmentRule> Interval<R> {
             return (self.low.compression <= wanted).then_some(from);
         }
         if passes(last) > 0.0 {
-            // The compression rises from the flattest place on.
+            // The compression rises at indentations above `flattest`.
             return Some(last_before(flattest, last, passes));
         }
         Some(last)

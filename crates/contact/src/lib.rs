@@ -24,9 +24,9 @@
 //!
 //! A rigid profile lies on an elastic foundation of independent springs. Each spring attaches and
 //! detaches by the equilibrium rules of the method of dimensionality reduction, with the rule of
-//! Hess for adhesion. A *patch* is a run of neighbouring springs in contact. The gap c of a spring
-//! is its depth below the highest point of the profile, d is the indentation, and Δl_max(n) is the
-//! largest stretch that a patch of n springs bears. The numbers of equations are those of Popov and
+//! Hess for adhesion. A *patch* is a group of neighbouring springs in contact. The gap c of a
+//! spring is its depth below the highest point of the profile, d is the indentation, and Δl_max(n)
+//! is the largest stretch that a patch of n springs bears. The equation numbers refer to Popov and
 //! Filippov (2012). The rules are:
 //!
 //! * *touch*: a free spring attaches when its gap is closed, c ≤ d;

@@ -20,10 +20,10 @@ pub struct Modulus(f64);
 const PASCALS: &str = "from 1e-50 to 1e50 Pa";
 
 impl Modulus {
-    /// Creates an effective modulus E* from a number in Pa.
+    /// Creates an effective modulus from its value E* in Pa.
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] for a number that is not from 1e-50 to 1e50.
+    /// Returns [`ContactError::Value`] for a value that is not from 1e-50 to 1e50.
     pub fn effective(pascals: f64) -> Result<Self, ContactError> {
         check("effective modulus", pascals, is_positive(pascals), PASCALS)?;
         Ok(Modulus(pascals))
@@ -41,7 +41,7 @@ impl Modulus {
         let is_allowed = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
         let allowed = "above -1 and at most 0.5";
         check("Poisson's ratio", poisson_ratio, is_allowed, allowed)?;
-        // (1 − ν)(1 + ν) keeps its digits for ν close to −1; 1 − ν² does not.
+        // For ν close to −1, (1 − ν)(1 + ν) is more accurate than 1 − ν².
         Modulus::effective(youngs_modulus / ((1.0 - poisson_ratio) * (1.0 + poisson_ratio)))
     }
 

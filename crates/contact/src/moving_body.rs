@@ -1,4 +1,4 @@
-//! Interface of the exact and of the stepwise solver. A body moves from target to target and
+//! Interface that the exact and the stepwise solver share: a body moves from target to target and
 //! records its history.
 
 use super::error::ContactError;
@@ -41,13 +41,13 @@ pub trait MovingBody {
     /// Returns counts of the computing work for this body since it was created.
     fn work(&self) -> Work;
 
-    /// Returns the computing time in s for force curves and their extremes since the body was
-    /// created, without the time to find the patches.
+    /// Returns the time in s that this body has spent on force curves and their extremes since it
+    /// was created. The time to find the patches is not included.
     fn curve_seconds(&self) -> f64;
 }
 
-/// Moves the body `solver` through loading stages with these targets. `after` is called at the end
-/// of each stage with the record and the leg of the stage.
+/// Moves the body `solver` to the targets one after the other; each target is one loading stage.
+/// `after` is called at the end of each stage with the record and the leg of the stage.
 ///
 /// # Errors
 /// Returns the error of the first stage that fails, or the first error that `after` returns.

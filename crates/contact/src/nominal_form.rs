@@ -1,16 +1,18 @@
-//! Form of the body behind a profile: stated by the author of the profile, or read from the
+//! Form of the body behind a profile: stated by the author of the profile, or concluded from the
 //! heights.
 
-/// Number of parts of equal length whose mean gaps show whether a body is curved.
+/// Number of parts of equal length into which a profile is divided. The mean gaps of these parts
+/// show whether a body is curved.
 const PARTS: usize = 16;
 
-/// Smallest fall of the outermost part on each side of the summit, divided by the mean fall of the
-/// parts on this side, for a curved body. A cone has 1, a sphere nearly 2. The longest wave of a
-/// roughness, which turns up again at the ends of the profile, has about a half.
+/// Smallest fall of the outermost part on each side of the summit for which a body counts as
+/// curved. It is relative to the mean fall of the parts on this side. A cone has 1, a sphere nearly
+/// 2. A rough flat body has about a half, because its longest wave rises again at the ends of the
+/// profile.
 const LEAST_FALL_AT_ENDS: f64 = 0.75;
 
-/// Largest rms difference of smooth heights from a parabola, divided by the depth of the parabola.
-/// Heights in a file have at least four digits.
+/// Largest rms difference between heights and a parabola for which the heights count as smooth,
+/// relative to the depth of the parabola. The limit allows for heights in files with four digits.
 const SMOOTH: f64 = 1e-3;
 
 /// Form of the body behind a profile, without its roughness, as the author of the profile states
@@ -33,7 +35,7 @@ const SMOOTH: f64 = 1e-3;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NominalForm {
-    /// Nobody has stated the form, nor that the heights are those of an equivalent profile.
+    /// Nobody has stated the form, or that the heights are those of an equivalent profile.
     #[default]
     Unstated,
     /// The body is nominally flat. Its contact may reach the ends of the profile.
@@ -43,8 +45,9 @@ pub enum NominalForm {
     Curved,
 }
 
-/// Returns true if the mean gaps of 16 parts of a profile grow from the smallest one to both ends
-/// as those of a curved body do: at the ends they grow almost as fast as on the way.
+/// Returns true if the mean gaps of 16 parts of a profile grow like those of a curved body: from
+/// the part with the smallest mean gap to both ends, and near the ends almost as fast as on
+/// average.
 pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     let part = gaps.len() / PARTS;
     if part == 0 {
@@ -65,8 +68,9 @@ pub fn falls_to_both_ends(gaps: &[f64]) -> bool {
     falls_to_end(&left) && falls_to_end(right)
 }
 
-/// Returns true if mean gaps, from the summit of the body to one of its ends, grow from part to
-/// part, and at the end as fast as on the way.
+/// Returns true if the mean gaps grow like those of a curved body. `means` are in the order from
+/// the summit to one end. They must grow from part to part, and at the end almost as fast as on
+/// average.
 fn falls_to_end(means: &[f64]) -> bool {
     let [.., before, last] = means else {
         return false;
@@ -76,8 +80,8 @@ fn falls_to_end(means: &[f64]) -> bool {
     always_grow && last - before >= LEAST_FALL_AT_ENDS * mean_growth
 }
 
-/// Returns the radius R in m of the sphere whose cut x²/2R has these gaps, in m at points with this
-/// spacing in m. Returns `None` for gaps that are rough, and for gaps of another form.
+/// Returns the radius R in m of the sphere whose cut x²/2R has these gaps in m. Neighbouring points
+/// have the distance `spacing` in m. Returns `None` for rough gaps and for gaps of another form.
 pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     let [offset, slope, bend] = parabola(gaps)?;
     let middle = 0.5 * (gaps.len() - 1) as f64;
@@ -97,9 +101,9 @@ pub fn radius_of_cut(gaps: &[f64], spacing: f64) -> Option<f64> {
     (is_smooth && radius.is_finite()).then_some(radius)
 }
 
-/// Returns the coefficients [a, b, c] of the parabola a + b x + c x² of least squares through
-/// values at whole numbers x, which count from the middle. Returns `None` for fewer than five
-/// values.
+/// Returns the coefficients [a, b, c] of the parabola a + b x + c x² that fits the values best
+/// (least squares). x is the index of a value minus the index of the middle. Returns `None` for
+/// fewer than five values.
 fn parabola(values: &[f64]) -> Option<[f64; 3]> {
     if values.len() < 5 {
         return None;
@@ -111,7 +115,8 @@ fn parabola(values: &[f64]) -> Option<[f64; 3]> {
     let mut squares = 0.0;
     let mut fourths = 0.0;
     for (index, value) in values.iter().enumerate() {
-        // From −1 to 1, so that no power leaves the range of numbers.
+        // Scaled to the range from −1 to 1, so that no power of x is too large for a floating-point
+        // number.
         let x = (index as f64 - middle) / middle;
         sum += value;
         first += x * value;

@@ -51,14 +51,14 @@ pub struct Profile {
 pub struct Springs {
     pub gaps: Arc<Vec<f64>>,
     pub deepest: f64,
-    /// One tree for each edge model, by the number of the edge model.
+    /// One contact tree for each edge model; the index is the edge model as an integer.
     trees: [OnceLock<Arc<ContactTree>>; 2],
 }
 
 impl Profile {
-    /// Creates a profile from the heights in m of an equivalent line, at points with this spacing
-    /// in m. Heights that are measured along a line are a cut, not an equivalent line: analyse them
-    /// with `asperity_surface::Topography`.
+    /// Creates a profile from the heights in m of an equivalent line. Neighbouring points have the
+    /// distance `spacing` in m. Heights measured along a line on a body are a cut, not an
+    /// equivalent line; `asperity_surface::Topography` analyses such heights.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a profile without points, and for a spacing or a height
@@ -79,9 +79,10 @@ impl Profile {
         })
     }
 
-    /// Creates a profile from the gaps in m of an equivalent line, at points with this spacing in
-    /// m. A gap is the depth of a point below the highest point, so at least one gap is 0. The gaps
-    /// of a sphere of the radius R are x²/R, twice the depths of its cut.
+    /// Creates a profile from the gaps in m of an equivalent line. Neighbouring points have the
+    /// distance `spacing` in m. A gap is the depth of a point below the highest point, so at least
+    /// one gap is 0. The gaps of a sphere of the radius R are x²/R, twice the depths of a cut
+    /// through the sphere.
     ///
     /// ```
     /// use asperity_contact::Profile;
@@ -157,7 +158,8 @@ impl Profile {
         })
     }
 
-    /// Moves the profile in height, so that its highest point lies at this height in m.
+    /// Shifts the heights of the profile so that its highest point lies at the height `summit` in
+    /// m.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a height that is not from −1e50 to 1e50 m.
@@ -183,9 +185,11 @@ impl Profile {
         self.nominal_form
     }
 
-    /// Returns true if the body is curved, so that its contact is meant to end inside the profile.
-    /// If nobody has stated the form, the heights decide: the mean gaps of 16 parts of the profile
-    /// grow from the smallest one to both ends, and at the ends almost as fast as on the way.
+    /// Returns true if the body is curved, so that its contact should end inside the profile. If
+    /// [`Profile::with_nominal_form`] has not stated the form, the heights decide. For this
+    /// decision the profile is divided into 16 parts. The body counts as curved if the mean gap
+    /// grows from the part with the smallest mean gap to both ends of the profile, and near the
+    /// ends at least 0.75 times as fast as on average.
     pub fn is_curved(&self) -> bool {
         match self.nominal_form {
             NominalForm::Curved => true,
@@ -194,9 +198,9 @@ impl Profile {
         }
     }
 
-    /// Returns the doubt about heights of which nobody has stated that they are an equivalent
-    /// profile. Returns `None` if the form is stated, and for a flat profile, which is its own
-    /// equivalent.
+    /// Returns a warning that the heights may not be those of an equivalent line. Returns `None` if
+    /// the form has been stated. Also returns `None` for a profile without height differences,
+    /// because a flat profile is its own equivalent line.
     pub fn doubt(&self) -> Option<Warning> {
         if self.nominal_form != NominalForm::Unstated || self.deepest() == 0.0 {
             return None;
@@ -218,8 +222,8 @@ impl Profile {
         self.spacing
     }
 
-    /// Returns the length in m of the foundation, the row of springs under the profile. It is the
-    /// number of points times their distance, unless [`Profile::on_foundation`] has set another
+    /// Returns the length in m of the foundation, the row of springs under the profile. The length
+    /// is the number of points times the spacing, unless [`Profile::on_foundation`] has set another
     /// length.
     pub fn length(&self) -> f64 {
         self.length
@@ -240,8 +244,8 @@ impl Profile {
         self.springs.deepest
     }
 
-    /// Returns the height of each point in m. Rounding may change the last digit of a height that
-    /// was given.
+    /// Returns the height of each point in m. The last digit may differ from the given height
+    /// because of rounding.
     pub fn heights(&self) -> impl Iterator<Item = f64> {
         self.gaps().iter().map(|gap| self.summit - gap)
     }
@@ -252,15 +256,15 @@ impl Profile {
         self.place(index as f64 + 0.5)
     }
 
-    /// Returns the position in m of a place that is given in cells from the left end of the first
-    /// cell under the body.
+    /// Returns the position in m of a point from the left end of the foundation. `cells` is the
+    /// distance of the point, in spacings, from the left end of the first cell under the body.
     pub(super) fn place(&self, cells: f64) -> f64 {
         (self.first as f64 + cells) * self.spacing
     }
 
-    /// Builds the [contact tree](ContactTree) of the edge model `edges` in the memory of an old
-    /// tree, `memory`. Without this call, the first contact with adhesion builds the tree in new
-    /// memory.
+    /// Builds the [contact tree](ContactTree) for the edge model `edges` and reuses the memory of
+    /// `memory`, a tree that is no longer needed. Without this call, the first contact with
+    /// adhesion builds the tree in new memory.
     ///
     /// # Errors
     /// Returns [`ContactError::OutOfMemory`] if the tree does not fit into memory.
@@ -281,7 +285,8 @@ impl Profile {
     }
 
     /// Consumes the profile and returns its contact tree, whose memory [`Profile::build_tree`] can
-    /// reuse. The tree is empty if the profile has none, or if a clone or a contact still uses it.
+    /// reuse. The returned tree is empty if no tree has been built, or if a clone of the profile or
+    /// a contact still uses the tree.
     pub fn into_tree(self) -> ContactTree {
         let Some(springs) = Arc::into_inner(self.springs) else {
             return ContactTree::default();
@@ -291,7 +296,7 @@ impl Profile {
     }
 }
 
-/// Two profiles are equal if they have the same heights at the same places.
+/// Two profiles are equal if their points have the same positions and heights.
 impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
         self.spacing == other.spacing
@@ -327,12 +332,13 @@ impl Springs {
     }
 }
 
-/// Number of values that are compared at the same time. A single sequence of comparisons would wait
-/// for each one.
+/// Number of independent comparisons in each step of the search for the smallest and the largest
+/// value. The processor does them at the same time; with a single sequence, each comparison would
+/// wait for the one before.
 const LANES: usize = 8;
 
-/// Returns the smallest and the largest value. The error is the index of the first value whose
-/// magnitude is not at most `most`.
+/// Returns the smallest and the largest value. If a value is not a number or has a magnitude above
+/// `most`, returns the index of the first such value as the error.
 fn range(values: &[f64], most: f64) -> Result<[f64; 2], usize> {
     let mut extremes = Extremes {
         smallest: [f64::INFINITY; LANES],
@@ -367,7 +373,8 @@ struct Extremes {
 }
 
 impl Extremes {
-    /// Takes in at most one value for each lane.
+    /// Updates the extremes with a block of values, one value for each lane. A block may be shorter
+    /// than the number of lanes.
     #[inline]
     fn include(&mut self, values: &[f64]) {
         let lanes = self.smallest.iter_mut().zip(&mut self.largest);

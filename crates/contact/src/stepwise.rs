@@ -1,8 +1,9 @@
 //! The stepwise solver, which works as Popov and Filippov (2012) do: it moves by a small step,
 //! relaxes to equilibrium and repeats.
 //!
-//! The error is of the order of the step Δd, and each step costs a few sweeps over the whole
-//! profile. This solver shares only the rules and the sums with the exact solver.
+//! The deviation from the exact solution is of the order of the step Δd, and each step needs a few
+//! sweeps over the whole profile. The stepwise solver shares with the exact solver only the rules
+//! of detachment and the sums over springs.
 
 use super::adhesive::levels::EdgeCells;
 use super::contact::Contact;
@@ -44,8 +45,8 @@ pub struct Stepwise<'a> {
     direction: Direction,
     indentation: f64,
     totals: ContactTotals,
-    /// Σ e² in m² over the springs detached on the present motion, minus the same sum over the
-    /// springs attached.
+    /// Sum in m² of the squared stretches of all springs at their detachment on the present motion,
+    /// minus the same sum over all springs at their attachment.
     squared_stretch: f64,
     /// True for each spring in contact.
     holds: Vec<bool>,
@@ -55,10 +56,10 @@ pub struct Stepwise<'a> {
 }
 
 impl<'a> Stepwise<'a> {
-    /// Creates a separated body that moves by steps of `step` in m. Its patches consist of whole
-    /// springs, as with [`Edges::Grid`](crate::Edges::Grid). The force curve of each motion has
-    /// `samples` points, at least 2. `stop` is called before each step. If `stop` returns true, the
-    /// motion ends with [`ContactError::Interrupted`].
+    /// Creates a separated body that moves by steps of the length `step` in m. Its patches consist
+    /// of whole springs, as with [`Edges::Grid`](crate::Edges::Grid). The force curve of each
+    /// motion has `samples` points, at least 2. `stop` is called before each step. If `stop`
+    /// returns true, the motion ends with [`ContactError::Interrupted`].
     pub fn new(
         contact: &'a Contact,
         step: f64,
@@ -84,9 +85,9 @@ impl<'a> Stepwise<'a> {
         })
     }
 
-    /// Attaches or detaches a spring at an indentation in m. A spring that detaches
-    /// counts as held until exactly this indentation, so that its energy does not depend on the
-    /// overshoot of a step.
+    /// Attaches or detaches a spring at an indentation in m. The energy of a spring that detaches
+    /// is computed at exactly this indentation, so that the energy does not depend on how far the
+    /// step goes beyond it.
     fn change(&mut self, index: usize, attaches: bool, indentation: f64) {
         let gap = self.contact.gaps()[index];
         self.holds[index] = attaches;
@@ -103,7 +104,8 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Sweeps until no spring touches and no patch grows.
+    /// Attaches springs, in sweeps over the profile, until no further spring touches and no patch
+    /// grows.
     fn relax_loading(&mut self) {
         let gaps = self.contact.gaps();
         let indentation = self.indentation;
@@ -125,7 +127,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Extends each patch over its neighbours as long as the rule of detachment allows.
+    /// Extends each patch by neighbouring springs as long as the rule of detachment allows.
     fn grow_patches(&mut self) {
         let rule = self.contact.rules().rule(Direction::Loading);
         let springs = self.holds.len();
@@ -145,7 +147,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Extends a range of springs in contact to the whole patch around it.
+    /// Returns the whole patch that contains `part`, a range of springs in contact.
     fn whole_patch(&self, part: Range<usize>) -> Range<usize> {
         let (before, from) = self.holds.split_at(part.start);
         let on_the_left = before.iter().rev().take_while(|&&holds| holds).count();
@@ -153,8 +155,8 @@ impl<'a> Stepwise<'a> {
         part.start - on_the_left..part.start + from_the_start
     }
 
-    /// Returns the spring beside a patch that attaches under a stretch of at most `stretch` in m.
-    /// Of two such springs it is the right one.
+    /// Returns the spring beside a patch that attaches if the patch bears a stretch of `stretch` in
+    /// m; `None` if neither spring attaches. If both springs attach, returns the right one.
     fn next_to_attach(&self, patch: &Range<usize>, stretch: f64) -> Option<usize> {
         let gaps = self.contact.gaps();
         let attaches = |index: usize| gaps[index] - stretch <= self.indentation;
@@ -165,8 +167,9 @@ impl<'a> Stepwise<'a> {
         attaches(left).then_some(left)
     }
 
-    /// Sweeps until every patch holds its most stretched spring.
-    /// Springs that detach were held up to the indentation `held_until` in m.
+    /// Detaches springs, in sweeps over the profile, until every patch bears the stretch of its
+    /// most stretched spring. The springs that detach were in contact up to the indentation
+    /// `held_until` in m.
     fn relax_unloading(&mut self, held_until: f64) {
         let gaps = self.contact.gaps();
         let indentation = self.indentation;
@@ -181,8 +184,8 @@ impl<'a> Stepwise<'a> {
                 self.work.spring_updates += 2 * (end - first) as u64 + 1;
                 let stretch = rule.largest_stretch((end - first) as f64);
                 for (place, &gap) in gaps[first..end].iter().enumerate() {
-                    // A spring stretched too far here is stretched too far in each part of the
-                    // patch as well.
+                    // If a patch cannot bear the stretch of this spring, the smaller patches into
+                    // which it splits cannot bear this stretch either.
                     if indentation <= gap - stretch && indentation < gap {
                         self.change(first + place, false, held_until);
                     }
@@ -208,14 +211,15 @@ impl<'a> Stepwise<'a> {
         state.point(self.contact.foundation)
     }
 
-    /// Returns an error, before the first step, for a motion that certainly needs more steps than
-    /// allowed.
+    /// Returns an error if a motion certainly needs more steps than allowed. Called before the
+    /// first step.
     fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
         let start = self.indentation;
         let end = match goal {
             Goal::Indentation(end) => end,
-            // No spring is compressed by more than the indentation, and any patch holds the highest
-            // point to the stretch of one spring.
+            // On loading no spring is compressed by more than the indentation. On unloading even a
+            // patch of one spring bears some stretch, so the highest point stays in contact at
+            // least up to this stretch.
             Goal::Force(force) if direction == Direction::Loading => {
                 force / (self.contact.foundation.spring_stiffness() * self.holds.len() as f64)
             }
@@ -228,7 +232,7 @@ impl<'a> Stepwise<'a> {
         if !end.is_finite() {
             return Err(ContactError::OutOfReach);
         }
-        // From separation the first step is the touch.
+        // A separated body begins its steps at first touch.
         let start = if self.totals.springs == 0 {
             start.max(0.0)
         } else {
@@ -254,7 +258,7 @@ impl<'a> Stepwise<'a> {
         self.begin(direction);
         let before = self.point();
         let loads = direction == Direction::Loading;
-        // From separation the first step is the touch.
+        // A separated body begins its steps at first touch.
         let touches = before.springs == 0 && loads;
         let origin = if touches {
             before.indentation.max(0.0)
@@ -287,7 +291,8 @@ impl<'a> Stepwise<'a> {
         self.record(target, origin, before, extremes)
     }
 
-    /// Begins a motion: the springs in contact are so from its beginning on.
+    /// Begins a motion: each spring in contact counts as in contact from the beginning of the
+    /// motion, and each other spring as never in contact.
     fn begin(&mut self, direction: Direction) {
         self.direction = direction;
         self.squared_stretch = 0.0;
@@ -300,7 +305,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Returns the indentation in m after a number of steps from `origin` in m.
+    /// Returns the indentation in m after `steps` steps from the indentation `origin` in m.
     fn place_of_step(&self, origin: f64, steps: u64, goal: Goal) -> f64 {
         let way = steps as f64 * self.step;
         let place = match self.direction {
@@ -325,7 +330,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Returns true if the body has reached a goal at the point `point`. The point `smallest` has
+    /// Returns true if the body reaches the goal at the point `point`. `smallest` is the point of
     /// the smallest force of the motion so far.
     fn has_reached(
         &self,
@@ -345,7 +350,7 @@ impl<'a> Stepwise<'a> {
         }
     }
 
-    /// Records the motion from `origin` in m to the present place.
+    /// Records the motion from the indentation `origin` in m to the present indentation.
     fn record(
         &mut self,
         target: Move,
@@ -358,7 +363,8 @@ impl<'a> Stepwise<'a> {
         let low = origin.min(after.indentation);
         let high = origin.max(after.indentation);
         let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
-        // The sum counts detachments.
+        // The sum for a leg is positive for attachments on loading and for detachments on
+        // unloading.
         let squared_stretch = match self.direction {
             Direction::Loading => -self.squared_stretch,
             Direction::Unloading => self.squared_stretch,
@@ -378,9 +384,9 @@ impl<'a> Stepwise<'a> {
 }
 
 impl Stepwise<'_> {
-    /// Returns the point of the smallest force on the rest of an unloading, on which a copy of the
-    /// body walks to separation. Returns `None` for a loading, for a separated body, and if the
-    /// copy takes too many steps.
+    /// Returns the point of the smallest force on the rest of an unloading. A copy of the body
+    /// makes the rest of the motion, up to separation. Returns `None` for a loading, for a
+    /// separated body, and if the copy needs too many steps.
     fn rest(&self, direction: Direction) -> Result<Option<CurvePoint>, ContactError> {
         if direction == Direction::Loading || self.totals.springs == 0 {
             return Ok(None);
@@ -397,7 +403,7 @@ impl Stepwise<'_> {
 impl MovingBody for Stepwise<'_> {
     fn advance(&mut self, target: Move) -> Result<LegRecord, ContactError> {
         let here = self.point();
-        // Its instrument is rigid: no goal is a displacement.
+        // The instrument of the stepwise solver is rigid, so no goal is a displacement.
         match plan(target, here, f64::INFINITY)? {
             None => Ok(LegRecord::still(target, here)),
             Some((_, Goal::Indentation(end))) if here.springs == 0 && end < 0.0 => {
@@ -413,7 +419,8 @@ impl MovingBody for Stepwise<'_> {
                         Ok(record)
                     }
                     Err(error) => {
-                        // The body stays in place, but the work has been done.
+                        // After an error the body is back at the beginning of the motion, but the
+                        // work counts include the steps that were made.
                         let work = self.work;
                         *self = before;
                         self.work = work;
@@ -438,7 +445,7 @@ impl MovingBody for Stepwise<'_> {
     }
 
     fn curve_seconds(&self) -> f64 {
-        // Each step adds its own point to the curve.
+        // The stepwise solver does not measure this time separately.
         0.0
     }
 }

@@ -35,8 +35,8 @@ pub enum Move {
     ToDisplacement(f64),
     /// Moves to the indentation of first touch, d = 0.
     ToTouch,
-    /// Moves until the force is zero. From separation the body moves past first touch until the
-    /// force is back at zero.
+    /// Moves until the force is zero. A separated body moves past first touch until the force is
+    /// zero again.
     ToZeroForce,
     /// Moves until the bodies separate.
     ToSeparation,

@@ -1,11 +1,13 @@
-//! Springs that touch one by one. They describe contact without adhesion, where a spring is in
-//! contact exactly while its gap is closed, and the contact of the stepwise solver.
+//! Springs that touch independently of each other. They describe two contacts: the contact without
+//! adhesion, in which a spring is in contact exactly while its gap is closed, and the contact of
+//! the stepwise solver.
 //!
-//! Without adhesion the contact depends on the indentation alone, and the force does not decrease
-//! with the indentation. A *cell*, the profile between two neighbouring springs, fills from its
-//! smaller gap to its larger one. Full cells are summed exactly, as whole numbers of quanta. A
-//! partly filled cell adds its part at each point inside it, which is accurate for any slope and
-//! indentation.
+//! Without adhesion the contact depends on the indentation alone, and the force never falls while
+//! the indentation grows. A *cell* is the part of the profile between two neighbouring springs.
+//! While the indentation grows from the smaller gap of these springs to the larger one, the cell
+//! comes into contact from one side to the other. Cells in full contact are summed exactly, as
+//! integers. A cell in partial contact adds its part at each point of the curve, which is accurate
+//! for any slope of the cell and any indentation.
 
 use super::adhesive::levels::{Edges, Slider, larger, smaller};
 use super::contact::Contact;
@@ -17,12 +19,13 @@ use super::interval::{Intervals, Piece};
 use super::totals::{ContactTotals, GapScale};
 use std::ops::Range;
 
-/// Springs, each of which is in contact from its own indentation on.
+/// Springs with the smallest indentation at which each spring is in contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Thresholds<'a> {
     gaps: &'a [f64],
-    /// Indentation in m from which each spring is in contact: −∞ always, +∞ never; the gaps where
-    /// edges lie between springs. Empty for a body that touches nothing.
+    /// Smallest indentation in m at which each spring is in contact: −∞ if it is always in contact,
+    /// +∞ if never. With edges between springs, the thresholds are the gaps. Empty for a body that
+    /// touches nothing.
     thresholds: &'a [f64],
     slides: bool,
     scale: GapScale,
@@ -74,7 +77,7 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the events and the partly filled cells to the intervals in which a crossing is
+    /// Adds the events and the cells in partial contact to the intervals in which a crossing is
     /// searched.
     pub fn search(&self, intervals: &mut Intervals<ContactRule>) {
         let (low, high) = intervals.ends();
@@ -102,7 +105,8 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// Returns the half cells at both ends of the foundation; none for whole springs.
+    /// Returns the half cells at both ends of the foundation. With whole springs there are no half
+    /// cells.
     fn half_cells(&self) -> Vec<Piece<ContactRule>> {
         let mut half_cells = Vec::new();
         if self.slides {
@@ -118,12 +122,12 @@ impl<'a> Thresholds<'a> {
         half_cells
     }
 
-    /// Returns what a range of neighbouring springs adds to the totals once all of them are in
-    /// contact.
+    /// Returns the change of the totals when all springs of a range of neighbouring springs attach.
     ///
-    /// They add one patch, minus one for each neighbour that touches earlier. Of equal thresholds
-    /// the left spring counts as the later. Where edges lie between springs, the range also adds
-    /// the cells to these neighbours.
+    /// The number of patches grows by one, minus one for each neighbour of the range that is
+    /// already in contact. If two neighbours have equal thresholds, the left spring counts as
+    /// attached later. If edges lie between springs, the totals also grow by the cells between the
+    /// range and these neighbours.
     #[inline]
     fn totals(&self, springs: Range<usize>) -> ContactTotals {
         let Range { start, end } = springs;
@@ -145,7 +149,7 @@ impl<'a> Thresholds<'a> {
     }
 }
 
-/// Returns the rule by which springs fill a cell without adhesion.
+/// Returns the rule for a cell without adhesion, which allows no stretch.
 fn no_stretch() -> ContactRule {
     Rules::<ContactRule>::NO_ADHESION.rule(Direction::Loading)
 }

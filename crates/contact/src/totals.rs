@@ -1,12 +1,12 @@
-//! Totals of the springs in contact, as sums without cancellation: exact counts and fixed-point
-//! gaps.
+//! Totals of the springs in contact: the numbers of springs and patches, and the sums of gaps. The
+//! sums are integers, so no digits cancel.
 
 /// Fixed-point scale of the gaps of one profile. Its unit, the quantum, is 2⁻⁶² of the smallest
 /// power of two above the largest gap.
 ///
-/// Sums of quanta are integers and do not depend on the order of the springs. A spring that
-/// attaches and detaches again changes no bit. So loading and unloading agree bit for bit on the
-/// same contact.
+/// Sums of quanta are integers, so they do not depend on the order of the springs, and a spring
+/// that attaches and detaches again changes no bit. If a loading and an unloading lead to the same
+/// contact, their forces are therefore equal bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapScale {
     quanta_per_metre: f64,
@@ -19,19 +19,20 @@ impl Default for GapScale {
     }
 }
 
-/// Number of bits of a gap in quanta. Gaps below 2^62 quanta fit an `i64`, and a sum of 2^28 gaps
-/// an `i128`.
+/// Number of bits of a gap in quanta. A gap below 2^62 quanta fits into an `i64`, and a sum of 2^28
+/// such gaps into an `i128`.
 const GAP_BITS: i32 = 62;
 
-/// Largest exponent of the scale, for which scale and quantum are both normal numbers.
+/// Largest exponent of the scale. Up to this exponent, the scale and the quantum are both normal
+/// floating-point numbers.
 const LARGEST_SCALE_EXPONENT: i32 = 1000;
 
-/// Number of bits of a double after its exponent.
+/// Number of bits of the mantissa of an `f64`.
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-/// Exponent of 1 in the bits of a double.
+/// Value of the exponent bits of an `f64` for the number 1.
 const EXPONENT_BIAS: i32 = f64::MAX_EXP - 1;
 
-/// Returns 2 to a power for which the result is a normal number.
+/// Returns 2 to the power `exponent`. The result must be a normal floating-point number.
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((EXPONENT_BIAS + exponent) as u64) << MANTISSA_BITS)
 }
@@ -49,29 +50,29 @@ impl GapScale {
         }
     }
 
-    /// Returns a gap (m) in quanta, rounded down.
+    /// Returns a gap in m as a number of quanta, rounded down.
     #[inline]
     pub fn quanta(&self, gap: f64) -> i64 {
         (gap * self.quanta_per_metre) as i64
     }
 
-    /// Returns the size of a quantum in m. A gap in a sum is rounded by less than a quantum.
+    /// Returns the size of a quantum in m. In a sum, each gap is rounded by less than a quantum.
     #[cfg(test)]
     pub fn quantum(&self) -> f64 {
         self.quantum
     }
 }
 
-/// Number of low bits that squared quanta lose in a sum of squares, so that 2^28 squares fit an
-/// `i128`.
+/// Number of low bits by which squared quanta are shortened in a sum of squares, so that 2^28
+/// squares fit into an `i128`.
 const SQUARE_BITS: u32 = 28;
 
 /// Sums the gaps and their squares over at most four springs, or over at most four cells (five
 /// springs), in the units of [`ContactTotals`].
 ///
-/// Four quanta below 2^62 fit into 64 bits, and four of their squares into 128. The profile is
-/// straight between springs. The mean square along a cell is therefore (mean gap)² +
-/// (difference)²/12.
+/// The sum of four gaps, each below 2^62 quanta, fits into 64 bits, and the sum of their squares
+/// into 128 bits. The profile is straight between springs. The mean square along a cell is
+/// therefore (mean gap)² + (difference)²/12.
 #[inline]
 pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     let mut sum = 0_u64;
@@ -97,8 +98,8 @@ pub fn sums_of_few(gaps: &[f64], of_cells: bool, scale: GapScale) -> [i128; 2] {
     [i128::from(sum), squares.cast_signed()]
 }
 
-/// Returns a twelfth of a number, at most 13 too small. A division of 128 bits would take longer
-/// than all other sums.
+/// Returns a twelfth of a number, at most 13 too small. An exact division of 128 bits would take
+/// longer than all other sums.
 #[inline]
 fn twelfth(number: u128) -> u128 {
     let high = (number >> 64) as u64;
@@ -116,23 +117,23 @@ pub struct ContactTotals {
     pub springs: i64,
     /// Number of patches.
     pub patches: i64,
-    /// Sum of the gaps of the springs, or of the mean gaps of their cells, in quanta of a
-    /// [`GapScale`].
+    /// Sum of the gaps of the springs, or of the mean gaps of the cells between them, in quanta of
+    /// a [`GapScale`].
     pub quanta: i128,
-    /// Sum of the squared gaps, in units of 2^28 squared quanta.
+    /// Sum of the squared gaps. The unit is 2^28 squared quanta.
     pub squares: i128,
 }
 
 impl ContactTotals {
-    /// Computes the totals of one patch: of its springs, or with `slides` of the cells between its
-    /// springs.
+    /// Computes the totals of one patch. If `slides` is true, the sums are over the cells between
+    /// its springs; otherwise over its springs.
     pub(super) fn of_patch(gaps: &[f64], slides: bool, scale: GapScale) -> Self {
         let mut totals = ContactTotals {
             springs: gaps.len() as i64,
             patches: 1,
             ..Self::default()
         };
-        // A cell lies between two springs.
+        // Each cell lies between two springs.
         let springs_of_part = if slides { 2 } else { 1 };
         for part in gaps.windows(springs_of_part) {
             let [quanta, squares] = sums_of_few(part, slides, scale);
@@ -142,8 +143,8 @@ impl ContactTotals {
         totals
     }
 
-    /// Returns the number of whole springs, or with `slides` of whole cells, one fewer in each
-    /// patch than springs.
+    /// Returns the number of whole cells if `slides` is true, otherwise of springs. Each patch has
+    /// one whole cell less than springs.
     #[inline]
     pub(super) fn whole(&self, slides: bool) -> i64 {
         if slides {
@@ -153,13 +154,14 @@ impl ContactTotals {
         }
     }
 
-    /// Computes the compression Σ (d − c_i) in m of `count` springs, or ∫ (d − c) dx in cells times
-    /// metres of `count` cells. It is the force over the stiffness of one spring.
+    /// Computes the compression Σ (d − c_i) in m of `count` springs with the gaps c_i, or ∫ (d − c)
+    /// dx in cells times metres of `count` cells, at the indentation d. The compression is the
+    /// force divided by the stiffness of one spring.
     ///
-    /// With n springs, unit roundoff u = 2⁻⁵³ and a largest gap below 2^e the error is at most
-    /// 2u |result| plus n 2^(e−62). The gaps are summed exactly, n d is an exact product of two
-    /// numbers, and only their difference is rounded. For a largest gap below about 2^−938 m a
-    /// quantum is 2^−1000 m and no smaller.
+    /// For n springs and a largest gap below 2^e, the error is at most 2u |result| plus n 2^(e−62),
+    /// where u = 2⁻⁵³ is the unit roundoff. The gaps are summed exactly, n d is an exact product of
+    /// two numbers, and only the difference of both is rounded. If the largest gap is below about
+    /// 2^−938 m, the quantum is 2^−1000 m and not smaller.
     #[inline]
     pub fn compression(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let springs = count as f64;
@@ -169,7 +171,8 @@ impl ContactTotals {
         let low_quanta = (self.quanta - high_quanta as i128) as f64;
         let high = high_quanta * scale.quantum;
         let low = low_quanta * scale.quantum;
-        // Error of product − high by Knuth's two-sum, which is independent of their order.
+        // Rounding error of product − high by Knuth's two-sum, which needs no order of the two
+        // numbers.
         let difference = product - high;
         let subtracted = difference - product;
         let kept = difference - subtracted;
@@ -177,11 +180,13 @@ impl ContactTotals {
         difference + (error + (product_error - low))
     }
 
-    /// Computes the sum of squared compressions Σ (d − c)² in m² of `count` springs or cells.
+    /// Computes the sum of squared compressions Σ (d − c)² in m² of `count` springs or cells with
+    /// the gaps c at the indentation d.
     ///
-    /// Sums of nested spans at one indentation are integers. They differ by the squares of the
-    /// springs between the spans, each with an error below 2^28 squared quanta. This is a relative
-    /// error of 1e-15 for a stretch of 1e-7 of the largest gap.
+    /// The sums are integers. If one patch lies inside another one, their sums at the same
+    /// indentation differ by the squares of the springs between the edges of both. Each square has
+    /// an error below 2^28 squared quanta. This is a relative error of 1e-15 for a stretch of 1e-7
+    /// of the largest gap.
     pub(super) fn squares_of(&self, count: i64, indentation: f64, scale: &GapScale) -> f64 {
         let scale = SquareScale::new(*scale, indentation.abs());
         let (squares, remainder) = scale.at(self, count, indentation);
@@ -213,8 +218,8 @@ impl std::ops::AddAssign for ContactTotals {
     }
 }
 
-/// Unit of sums of squared stretches. It is coarser than the quantum of the gaps where an
-/// indentation far exceeds all gaps.
+/// Unit of sums of squared stretches. The unit is coarser than the quantum of the gaps if an
+/// indentation is much larger than all gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareScale {
     quanta_per_metre: f64,
@@ -224,7 +229,7 @@ pub struct SquareScale {
 }
 
 impl SquareScale {
-    /// Creates the unit for gaps of this scale and indentations between `−largest` and `largest` in
+    /// Creates the unit for gaps with this scale and indentations from `−largest` to `largest` in
     /// m.
     pub fn new(scale: GapScale, largest: f64) -> Self {
         let mut squares = SquareScale {
@@ -240,8 +245,8 @@ impl SquareScale {
         squares
     }
 
-    /// Computes Σ (c − θ)² over `count` springs or cells at the indentation θ in m, as an integer
-    /// in this unit and a remainder in m².
+    /// Computes Σ (c − θ)² over `count` springs or cells with the gaps c at the indentation θ in m.
+    /// Returns the sum as an integer in this unit and a remainder in m².
     pub fn at(&self, totals: &ContactTotals, count: i64, indentation: f64) -> (i128, f64) {
         let gaps = totals.quanta.checked_shr(self.coarser).unwrap_or(0);
         let squared_gaps = totals.squares.checked_shr(2 * self.coarser).unwrap_or(0);
@@ -249,8 +254,9 @@ impl SquareScale {
         let whole = i128::from(exact as i64);
         let part = exact - whole as f64;
         let number = i128::from(count);
-        // Σ c² + θ (n θ − 2 Σ c) with the whole part of θ; the low bits of the factor apart, since
-        // the product of all bits might pass the range of integers.
+        // The integer is Σ c² + θ (n θ − 2 Σ c) for the whole part of θ and n = `count`. The low
+        // bits of the factor in brackets are multiplied separately, because the product of all bits
+        // might exceed the range of integers.
         let factor = number * whole - 2 * gaps;
         let high_product = (factor >> SQUARE_BITS).wrapping_mul(whole);
         let low_bits = factor & ((1 << SQUARE_BITS) - 1);
@@ -274,7 +280,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A sum of compressions is rounded once, also where it is far from the sum of the gaps.
+        /// A sum of compressions is rounded only once, also if it is much smaller or larger than
+        /// the sum of the gaps.
         #[test]
         fn a_compression_is_rounded_once(
             count in 1_i64..1000,
@@ -292,17 +299,18 @@ mod tests {
         }
     }
 
-    // Sums of gaps and forces against exact arithmetic: the documented bound also holds where
-    // nearly all of a force cancels.
+    // Sums of gaps and forces are compared with exact arithmetic. The documented bound also holds
+    // if nearly all of a force cancels.
 
-    /// a + b and its rounding error.
+    /// Returns the rounded sum a + b and its rounding error.
     fn two_sum(a: f64, b: f64) -> (f64, f64) {
         let sum = a + b;
         let added = sum - a;
         (sum, (a - (sum - added)) + (b - added))
     }
 
-    /// An exact sum of numbers: its parts rise in size and have no digit in common (Shewchuk 1997).
+    /// An exact sum of numbers as several parts. The parts rise in size and have no digit in common
+    /// (Shewchuk 1997).
     #[derive(Clone, Default)]
     struct Sum(Vec<f64>);
 
@@ -321,12 +329,14 @@ mod tests {
             self.add(product);
         }
 
-        /// Adds a sum times a power of two or its negative.
+        /// Adds another sum multiplied by `factor`, a power of two or the negative of a power of
+        /// two.
         fn add_sum(&mut self, other: &Sum, factor: f64) {
             other.0.iter().for_each(|part| self.add(factor * part));
         }
 
-        /// The largest part, which has the sign of the sum and its size to rounding.
+        /// Returns the largest part. It has the sign of the sum, and the size of the sum to
+        /// rounding.
         fn rounded(&self) -> f64 {
             self.0.last().copied().unwrap_or(0.0)
         }
@@ -339,8 +349,8 @@ mod tests {
     }
 
     /// Checks that the compressions of these gaps are within the bound of
-    /// [`ContactTotals::compression`], 2u |result| + a quantum for each gap, at these indentations
-    /// and where the gaps nearly balance.
+    /// [`ContactTotals::compression`], 2u |result| plus a quantum for each gap. The check uses
+    /// these indentations, and indentations at which the compression nearly vanishes.
     fn check(gaps: &[f64], indentations: &[f64]) -> Result<(), String> {
         let scale = GapScale::for_gaps_up_to(gaps.iter().copied().fold(0.0, f64::max));
         let mut totals = ContactTotals::default();
@@ -377,7 +387,8 @@ mod tests {
         Ok(())
     }
 
-    /// Gaps of one size, of all sizes, and on a large offset with differences in the last places.
+    /// Three kinds of gaps: of similar size, of very different sizes, and with a large common
+    /// offset and differences only in the last digits.
     fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
         let alike = (
             -150.0..150.0_f64,
@@ -412,8 +423,8 @@ mod tests {
             for gap in [largest, share * largest, 0.0] {
                 let quanta = scale.quanta(gap);
                 prop_assert!((0..1_i64 << 62).contains(&quanta));
-                // Without rounding: a quantum is a power of two, and the digits of the quanta are
-                // the first ones of the gap.
+                // This difference has no rounding: a quantum is a power of two, and the digits of
+                // the quanta are the first digits of the gap.
                 let left = gap - quanta as f64 * scale.quantum();
                 prop_assert!((0.0..scale.quantum()).contains(&left), "{} of {}", gap, largest);
             }

@@ -1,13 +1,19 @@
 //! Contact with adhesion. The edge of the contact is a crack. It opens or closes where the energy
-//! that it releases over one cell, the virtual crack closure ½σg, passes the work of adhesion.
+//! that it would release on the length of one cell passes the work of adhesion. This energy is the
+//! virtual crack closure ½σg, where σ is the tension of a cell in contact and g the gap of an open
+//! cell beside it.
 //!
-//! Here σ is the tension of a cell i in contact, and g the gap of an open cell j beside it. ½σg is
-//! exact for straight fronts along the grid and at 45°. A front moves by kinks, where the mean over
-//! the open neighbours is about 1.27 times that of the straight front, whatever the number of
-//! cells. A cell therefore opens where this mean passes [`OPENING`] times the work of adhesion. A
-//! cell closes where the mean over its neighbours in contact is below [`CLOSING`] times the work of
-//! adhesion on closing. Between both remains a hysteresis of the lattice, 5 to 12 % of the work of
-//! adhesion. A smaller dissipated energy is not a property of the contact.
+//! ½σg is exact for straight edges along the grid and at 45°. An edge in another direction moves by
+//! kinks. At a kink, the mean of ½σg over the open neighbours is about 1.27 times the value for a
+//! straight edge, for any number of cells. Therefore:
+//!
+//! * A cell opens if this mean exceeds [`OPENING`] times the work of adhesion.
+//! * A cell closes if the mean over its neighbours in contact is below [`CLOSING`] times the work
+//!   of adhesion on closing.
+//!
+//! Between the two limits there is a hysteresis that is due to the lattice of cells. It is 5 to 12
+//! % of the work of adhesion. A dissipated energy that is smaller than this is not a property of
+//! the contact.
 
 use super::error::HalfSpaceError;
 use super::half_space::{Square, check_cells, highest, positive};
@@ -15,19 +21,19 @@ use super::operators::Boundary;
 use super::press::Grid;
 use asperity_data::{check_room, resized};
 
-/// Ratio of the energy ½σg of a crack closure to the work of adhesion, above which a cell opens. It
-/// was found once with spheres.
+/// Limit at which a cell opens: the ratio of the energy ½σg of a crack closure to the work of
+/// adhesion. The value was fitted to spheres and is used for all bodies.
 pub const OPENING: f64 = 1.29;
 
-/// Ratio of the energy ½σg of a crack closure to the work of adhesion on closing, below which a
-/// cell closes.
+/// Limit at which a cell closes: the ratio of the energy ½σg of a crack closure to the work of
+/// adhesion on closing.
 pub const CLOSING: f64 = 0.8;
 
-/// Allowed error of stresses, as a share of the largest stress of an edge.
+/// Allowed deviation of stresses, divided by the largest stress at an edge.
 const TOLERANCE: f64 = 1e-3;
 
-/// Energy of an edge under the stress σ over σ²Δ/E*, for a front along the grid with cells of the
-/// side Δ.
+/// Energy of an edge with the stress σ, divided by σ²Δ/E*. The edge is along the grid, and Δ is the
+/// side of a cell.
 const ENERGY_OF_EDGE: f64 = 0.4732;
 
 /// Force, contact area and elastic energy of an adhesive contact at one indentation.
@@ -43,25 +49,25 @@ pub struct AdhesiveState {
     pub elastic_energy: f64,
 }
 
-/// A rigid rough square that adheres to an elastic half-space and is moved by prescribed
-/// indentations.
+/// A rigid rough square that adheres to an elastic half-space. Prescribed indentations move it.
 pub struct AdhesiveSquare {
     grid: Grid,
-    /// Number of cells along a side of the body. One ring of cells around it never touches.
+    /// Number of cells along a side of the body. Around the body there is a ring of cells that
+    /// never touch.
     cells: usize,
-    /// Side L in m of the grid, which is the body with the ring.
+    /// Side L in m of the grid, which consists of the body and the ring.
     side: f64,
     effective_modulus: f64,
-    /// Work of adhesion over E* L where the interface opens.
+    /// Work of adhesion where the interface opens, divided by E* L.
     opening_work: f64,
-    /// Work of adhesion over E* L where the interface closes.
+    /// Work of adhesion where the interface closes, divided by E* L.
     closing_work: f64,
-    /// Cells that have opened at the present indentation.
+    /// True for each cell that has opened at the present indentation.
     opened: Vec<bool>,
 }
 
 impl AdhesiveSquare {
-    /// Returns the memory in bytes that a square with this number of cells along a side takes.
+    /// Returns the memory in bytes that a square with `cells` cells along a side needs.
     pub fn bytes(cells: usize) -> u64 {
         Grid::bytes(cells + 2, Boundary::Free) + (cells as u64 + 2).pow(2)
     }
@@ -71,7 +77,7 @@ impl AdhesiveSquare {
     ///
     /// # Errors
     /// Returns an error if the number of heights is not the square of an allowed number of cells
-    /// along a side, if a value is out of its range, or if the memory is too small.
+    /// along a side, if a value is out of its range, or if there is not enough memory.
     pub fn new(square: &Square<'_>, opening: f64, closing: f64) -> Result<Self, HalfSpaceError> {
         let cells = square.heights.len().isqrt();
         check_cells(cells)?;
@@ -102,7 +108,7 @@ impl AdhesiveSquare {
         let mut grid = Grid::new(ringed, Boundary::Free)?;
         let highest = highest(square)?;
         for index in 0..ringed * ringed {
-            // The ring has the heights of the cells beside it.
+            // The cells of the ring have the heights of the cells beside them.
             let row = (index / ringed).clamp(1, cells) - 1;
             let column = (index % ringed).clamp(1, cells) - 1;
             grid.depths[index] = (highest - heights[row * cells + column]) / side_with_ring;
@@ -121,15 +127,15 @@ impl AdhesiveSquare {
         })
     }
 
-    /// Returns the number of convolutions over the grid since the square was created, a measure of
-    /// the computing work.
+    /// Returns the number of convolutions that were computed since the square was created, a
+    /// measure of the computing work.
     pub fn convolutions(&self) -> u64 {
         self.grid.operators.convolutions
     }
 
     /// Moves the square to an indentation in m from first touch, and returns the state of the
-    /// contact in equilibrium there. `stop` is called before each step of the solver. If `stop`
-    /// returns true, the solver ends with [`HalfSpaceError::Stopped`].
+    /// contact in equilibrium at this indentation. `stop` is called before each step of the solver.
+    /// If `stop` returns true, the solver ends with [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
     /// Returns an error if the indentation is not finite, or if `stop` returned true.
@@ -151,7 +157,7 @@ impl AdhesiveSquare {
         let tolerance = TOLERANCE * stress_of_edge * side_of_cell;
         self.opened.fill(false);
         self.grid.level = depth;
-        // A cell opens at most once at one indentation, so that this ends.
+        // The loop ends because each cell opens at most once at one indentation.
         loop {
             self.grid.solve_fixed(depth, tolerance, stop)?;
             if self.open() {
@@ -162,7 +168,7 @@ impl AdhesiveSquare {
         }
     }
 
-    /// Returns the cells of the body, without the ring, for which a condition is true.
+    /// Returns those cells of the body, without the ring, for which a condition is true.
     fn cells_where(&self, is_met: impl Fn(usize) -> bool) -> Vec<usize> {
         let cells = self.cells;
         let ringed = cells + 2;
@@ -184,8 +190,8 @@ impl AdhesiveSquare {
         (-self.grid.pressure[cell]).max(0.0)
     }
 
-    /// Returns the mean of ½σg over the neighbours of a cell on the other side of the edge; `None`
-    /// without one.
+    /// Returns the mean of ½σg over those neighbours of a cell that are on the other side of the
+    /// edge of the contact. Returns `None` if there is no such neighbour.
     fn energy(&self, cell: usize) -> Option<f64> {
         let ringed = self.cells + 2;
         let is_open = self.is_open(cell);
@@ -210,7 +216,7 @@ impl AdhesiveSquare {
         (count > 0.0).then(|| 0.5 * own * sum / count)
     }
 
-    /// Opens all cells whose energy passes the work of adhesion. Returns true if there was one.
+    /// Opens all cells whose energy exceeds the limit. Returns true if a cell was opened.
     fn open(&mut self) -> bool {
         let limit = OPENING * self.opening_work;
         let opening = self.cells_where(|cell| {
@@ -224,7 +230,7 @@ impl AdhesiveSquare {
         !opening.is_empty()
     }
 
-    /// Takes all cells into contact that penetrate. Returns true if there was one.
+    /// Puts all cells that penetrate into contact. Returns true if there was such a cell.
     fn touch(&mut self) -> bool {
         let penetrating = self.cells_where(|cell| {
             let is_free = self.is_open(cell) && !self.opened[cell];
@@ -233,7 +239,8 @@ impl AdhesiveSquare {
         self.take_in(&penetrating)
     }
 
-    /// Takes all cells into contact that close. Returns true if there was one.
+    /// Puts all cells into contact whose energy is below the limit of closing. Returns true if
+    /// there was such a cell.
     fn close(&mut self) -> bool {
         let limit = CLOSING * self.closing_work;
         let closing = self.cells_where(|cell| {
@@ -285,10 +292,10 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// An ellipsoid on a square of 1 m, with radii of curvature of 1 m times and over `ratio` in
-    /// directions turned by `angle`, whose summit is off the middle of the grid by shares of a
-    /// cell. A sphere with its mean radius has a contact radius at pull-off, a³ = (9/8)πγR²/E*, of
-    /// `critical` cells. With its work of adhesion, J/m².
+    /// Returns an ellipsoid on a square of 1 m, and its work of adhesion in J/m². The radii of
+    /// curvature are 1 m multiplied and divided by `ratio`, in directions turned by `angle`. The
+    /// summit is off the middle of the grid by the shares (`x`, `y`) of a cell. A sphere with the
+    /// mean radius has at pull-off a contact radius a of `critical` cells, with a³ = (9/8)πγR²/E*.
     fn ellipsoid(
         cells: usize,
         critical: f64,
@@ -324,8 +331,8 @@ mod tests {
         ellipsoid(cells, critical, (place, (1.0, 0.0)), closing)
     }
 
-    /// Force at first touch and pull-off force, in units of (3/2)πγR, of a body that is pressed by
-    /// `pressed` steps of a fifth of a²/R.
+    /// Returns the force at first touch and the pull-off force, both in units of (3/2)πγR. Before
+    /// the pull-off the body is pressed by `pressed` steps, each of a fifth of a²/R.
     fn pulled((mut body, work): (AdhesiveSquare, f64), unit: f64, pressed: i32) -> [f64; 2] {
         let touch = moved(&mut body, 0.0).force;
         for step in 1..=pressed {
@@ -349,25 +356,26 @@ mod tests {
         body.move_to(indentation, &|| false).unwrap()
     }
 
-    /// Places of a sphere on the grid scatter by a few per cent, most where the summit is in the
-    /// middle of a cell or on a corner and whole rings detach at once; their mean is the force of
-    /// Johnson, Kendall and Roberts.
+    /// The pull-off force depends on the position of the sphere on the grid and scatters by a few
+    /// per cent. It scatters most if the summit is in the middle or on a corner of a cell, so that
+    /// whole rings detach at once. The mean is the force by Johnson, Kendall and Roberts.
     #[test]
     fn a_sphere_pulls_off_as_johnson_kendall_and_roberts_say() {
         check_spheres(&[(32, 6.0, 4, 0.04, 0.08), (64, 13.0, 4, 0.02, 0.03)]);
-        // Minutes of computing.
+        // These spheres take minutes of computing.
         if effort() >= 100 {
             check_spheres(&[(128, 26.0, 1, 0.02, 0.02), (128, 38.0, 1, 0.02, 0.02)]);
         }
     }
 
-    /// Factor of the number of cases, by the environment.
+    /// Returns the factor of the number of cases, which an environment variable states.
     fn effort() -> u64 {
         std::env::var("TEST_EFFORT").map_or(1, |of| of.parse().unwrap())
     }
 
-    /// Cells, cells of the contact radius at pull-off, number of places, and the allowed errors of
-    /// the mean and of one.
+    /// Checks spheres of several sizes. Each size has the number of cells, the contact radius at
+    /// pull-off in cells, the number of positions, and the allowed deviations of the mean and of
+    /// one position.
     fn check_spheres(sizes: &[(usize, f64, usize, f64, f64)]) {
         let places = [(0.3, 0.2), (0.1, 0.4), (0.15, 0.35), (0.45, 0.05)];
         for &(cells, critical, count, of_mean, of_one) in sizes {
@@ -376,8 +384,8 @@ mod tests {
                 let of = |place| pulled(sphere(cells, critical, place, closing), unit, 8);
                 let found: Vec<[f64; 2]> = places[..count].iter().map(|place| of(*place)).collect();
                 println!("{critical} cells, closing {closing}: {found:.4?}");
-                // The trap of a front that closes a whole ring at once: at first touch JKR has 8/9
-                // of the pull-off.
+                // An edge that closes a whole ring at once would give a wrong force at first touch.
+                // By JKR theory this force is 8/9 of the pull-off force.
                 if closing == 1.0 && critical > 10.0 {
                     let touch = found.iter().map(|[touch, _]| touch * 9.0 / 8.0);
                     touch.for_each(|touch| {
@@ -397,9 +405,10 @@ mod tests {
         }
     }
 
-    /// The two constants of the crack were found with spheres. An ellipsoid, whose front has other
-    /// directions on the grid at each angle, pulls off at the same force whatever its angle, and at
-    /// little less than the sphere with its mean radius (Johnson and Greenwood 2005).
+    /// The two constants of the crack were fitted to spheres. The edge of an ellipsoid has other
+    /// directions on the grid at each angle. Nevertheless the ellipsoid pulls off at the same force
+    /// at all angles. The force is slightly less than the force of the sphere with the mean radius
+    /// (Johnson and Greenwood 2005).
     #[test]
     fn an_ellipsoid_pulls_off_at_the_same_force_at_all_angles() {
         let (cells, critical) = (64, 13.0);
@@ -417,8 +426,9 @@ mod tests {
         );
     }
 
-    /// Kendall (1971): a round flat punch pulls off at √(8πE*γa³). The stairs of cells along its
-    /// edge concentrate the stress, so that it pulls off somewhat earlier.
+    /// Kendall (1971): a round flat punch pulls off at √(8πE*γa³). On the grid its edge is a
+    /// staircase of cells, whose corners concentrate the stress, so that it pulls off at a slightly
+    /// smaller force.
     #[test]
     fn a_round_punch_pulls_off_as_kendall_says() {
         let (cells, radius) = (64, 0.35);
@@ -453,9 +463,9 @@ mod tests {
         );
     }
 
-    /// At every step the work of the force less the change of the elastic energy and of γA is
-    /// dissipated, which is never negative but for the error of the trapezoidal rule at jumps and
-    /// for the lattice.
+    /// In each step the dissipated energy is the work of the force minus the change of the elastic
+    /// energy and plus the change of γA. It is never negative, except for the deviation of the
+    /// trapezoidal rule at jumps and the hysteresis of the lattice.
     #[test]
     fn no_step_gains_energy() {
         let (mut body, work) = sphere(64, 13.0, (0.3, 0.2), 1.0);
@@ -483,7 +493,7 @@ mod tests {
                 0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
             })
             .sum();
-        // The loop begins in contact.
+        // The first state is already in contact.
         let begun = states[0].elastic_energy - work * states[0].area;
         assert!(
             (dissipated - (all + begun)).abs() < 1e-9 * all.abs(),
@@ -492,8 +502,8 @@ mod tests {
         assert!(dissipated > 0.0);
     }
 
-    /// The energy that a loop of a sphere dissipates is that of the line, which has it exactly, and
-    /// a share for the lattice.
+    /// The energy that a loop of a sphere dissipates is the energy of the one-dimensional model,
+    /// which is exact, plus a share that is due to the lattice.
     #[test]
     fn a_loop_dissipates_the_energy_of_its_jumps() {
         let (cells, critical) = (128, 20.0);
@@ -515,9 +525,9 @@ mod tests {
         assert!((0.95..1.25).contains(&(lost / exact)), "{}", lost / exact);
     }
 
-    /// Rough squares of two Hurst exponents, from hardly to strongly adhesive, pressed and pulled
-    /// off: each loop ends separated, and dissipates energy. An effort of 175 makes seven hundred
-    /// loops.
+    /// Rough squares of two Hurst exponents, from weakly to strongly adhesive, are pressed and
+    /// pulled off. Each loop ends in separation and dissipates energy. With an effort of 175 there
+    /// are seven hundred loops.
     #[test]
     fn loops_of_rough_squares_end() {
         check_rough_loops(0..effort());
@@ -544,7 +554,8 @@ mod tests {
                 heights
                     .iter_mut()
                     .for_each(|height| *height *= rms_height / square.sqrt());
-                // e_el = (E*/4) Σ q |ĥ|² over all waves.
+                // The elastic energy is e_el = (E*/4) Σ q |ĥ|², summed over all waves with the wave
+                // number q and the amplitude ĥ.
                 let waves = (-8..=8_i32)
                     .flat_map(|x| (-8..=8_i32).map(move |y| f64::from(x).hypot(f64::from(y))));
                 let waves: Vec<f64> = waves.filter(|k| *k > 0.0 && *k <= 8.0).collect();
@@ -591,9 +602,9 @@ mod tests {
         }
     }
 
-    /// A loop in other units is the same loop: forces are in units of E*L², energies of E*L³, works
-    /// of adhesion of E*L. The units are powers of two, so that no crack ends elsewhere by
-    /// rounding.
+    /// A loop in other units is the same loop. Forces scale with E*L², energies with E*L³, and
+    /// works of adhesion with E*L. The units are powers of two, so that rounding does not change
+    /// any event.
     #[test]
     fn a_loop_scales_with_its_modulus_and_side() {
         let cells = 32;
@@ -647,8 +658,8 @@ mod tests {
         }
     }
 
-    /// Kendall's punch is round; a square one pulls off a little earlier at its corners, the same
-    /// at all sizes.
+    /// The punch of Kendall is round. A square punch pulls off at a slightly smaller force because
+    /// of its corners, by the same share at all sizes.
     #[test]
     fn a_flat_square_pulls_off_as_a_punch() {
         let of = |cells: usize| {

@@ -8,31 +8,32 @@ use asperity_fourier::{
 };
 use std::sync::Arc;
 
-/// Number of bytes of the columns of one row that are transformed together. Memory is read in rows,
-/// and columns are computed contiguously.
+/// Number of bytes of each row that are transformed together as columns. Memory is read row by row,
+/// and each column is computed in contiguous memory.
 const BLOCK: usize = 128;
 
-/// Rows of a block that are gathered together, so that their numbers stay in the cache.
+/// Number of rows of a block that are gathered together, so that their values stay in the cache of
+/// the processor.
 const TILE: usize = 16;
 
-/// A planned convolution of numbers of the type T. Rows are transformed first. Then each block of
-/// columns is gathered, transformed, multiplied, transformed back and stored, in one pass over the
-/// memory.
+/// A planned convolution of values of the type T. The rows are transformed first. Then each block
+/// of columns is gathered, transformed, multiplied by the transform of the kernel, transformed back
+/// and stored, in a single pass over the memory.
 pub struct Convolution<T> {
     /// Number of rows and columns of the grid.
     cells: usize,
-    /// Number of rows and columns of the grid with its margin of zeros.
+    /// Number of rows and columns of the padded grid, which has a margin of zeros.
     padded: usize,
-    /// Transform of the kernel over the number of padded cells, column by column.
+    /// Transform of the kernel divided by the number of padded cells, column by column.
     transfer: Vec<T>,
     rows: PlannedRows<T>,
     columns: PlannedColumns<T>,
-    /// Half spectra of the rows of the grid, each [`Convolution::stride`] numbers after the one
-    /// before.
+    /// Half spectra of the rows of the grid. Neighbouring spectra have the distance
+    /// [`Convolution::stride`].
     spectra: Vec<Complex<T>>,
     /// A padded row.
     row: Vec<T>,
-    /// Padded columns, each [`Convolution::apart`] numbers after the one before.
+    /// Padded columns of a block. Neighbouring columns have the distance [`Convolution::apart`].
     block: Vec<Complex<T>>,
     scratch: Vec<Complex<T>>,
 }
@@ -53,28 +54,29 @@ impl<T: FftNum + Default> Convolution<T> {
     /// Number of columns that are transformed together.
     const TOGETHER: usize = BLOCK / size_of::<Complex<T>>();
 
-    /// Returns the number of bytes of a planned convolution, together with the memory of its
-    /// planning.
+    /// Returns the number of bytes of a planned convolution, including the memory that its planning
+    /// needs.
     pub fn bytes(cells: usize, padded: usize) -> u64 {
         let half = padded / 2 + 1;
         let complex = Self::stride(padded) * cells + (2 * Self::TOGETHER + 4) * Self::apart(padded);
         (size_of::<T>() * (padded * half + 2 * complex) + 8 * half * half) as u64
     }
 
-    /// Returns the distance of the rows of the half spectra. It is no power of two, which would
-    /// fall on the same lines of the cache.
+    /// Returns the distance of the rows of the half spectra. It is not a power of two, because rows
+    /// at such a distance would share the same lines of the cache.
     fn stride(padded: usize) -> usize {
         (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
     }
 
-    /// Returns the distance of the columns of a block: no power of two either.
+    /// Returns the distance of the columns of a block. For the same reason it is not a power of
+    /// two.
     fn apart(padded: usize) -> usize {
         padded + Self::TOGETHER
     }
 
-    /// Plans the convolution with a kernel whose transform at the wave numbers (k_x, k_y), in waves
-    /// over the padded grid, is `transform`. Wave numbers beyond the half of the grid are negative
-    /// ones.
+    /// Plans the convolution with a kernel that is given by its transform. `transform` gets the
+    /// wave numbers (k_x, k_y), in waves on the padded grid. Wave numbers above half of the number
+    /// of padded cells stand for negative wave numbers.
     pub fn by_transform(
         cells: usize,
         padded: usize,
@@ -90,8 +92,8 @@ impl<T: FftNum + Default> Convolution<T> {
         Ok(planned)
     }
 
-    /// Plans the convolution with a kernel given at the distances (x, y), in cells, on a grid
-    /// padded to at least twice its size.
+    /// Plans the convolution with a kernel that is given at the distances (x, y) in cells. The
+    /// padded grid must be at least twice as large as the grid.
     pub fn by_kernel(
         cells: usize,
         padded: usize,
@@ -99,7 +101,8 @@ impl<T: FftNum + Default> Convolution<T> {
     ) -> Result<Self, OutOfMemory> {
         let mut planned = Convolution::plan(cells, padded)?;
         let half = padded / 2 + 1;
-        // An even kernel has a real transform, and its rows beyond the half are those before it.
+        // The transform of an even kernel is real. Its rows above the half are the mirrored rows
+        // below the half.
         let mut rows = resized(Vec::new(), half * half, 0.0)?;
         let mut row = vec![0.0; padded];
         let mut spectrum = vec![Complex::default(); half];
@@ -109,7 +112,7 @@ impl<T: FftNum + Default> Convolution<T> {
             for (x, value) in row.iter_mut().enumerate() {
                 *value = kernel(x.min(padded - x), y);
             }
-            // The lengths are those of the plan.
+            // The lengths of the arrays suit the plan, so no error can occur.
             let _ = plan.process_with_scratch(&mut row, &mut spectrum, &mut scratch);
             for (value, wave) in values.iter_mut().zip(&spectrum) {
                 *value = wave.re;
@@ -161,8 +164,8 @@ impl<T: FftNum + Default> Convolution<T> {
         })
     }
 
-    /// Convolves a grid: `from` writes each of its rows, and `to` reads each row of the result.
-    /// Both have the `context`, so that a row is made and used while it is in the cache.
+    /// Convolves a grid: `from` writes each row of the grid, and `to` reads each row of the result.
+    /// Both functions get `context`, so that a row is made and used while it is in the cache.
     pub fn apply<C>(
         &mut self,
         context: &mut C,
@@ -179,7 +182,7 @@ impl<T: FftNum + Default> Convolution<T> {
                 continue;
             }
             self.row[cells..].fill(T::zero());
-            // The lengths are those of the plan.
+            // The lengths of the arrays suit the plan, so no error can occur.
             let _ = self.rows.forward.process_with_scratch(
                 &mut self.row,
                 &mut spectrum[..half],
@@ -193,7 +196,8 @@ impl<T: FftNum + Default> Convolution<T> {
             self.scatter(first, width);
         }
         for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
-            // Rounding leaves an imaginary part, which the spectrum of real numbers does not have.
+            // The spectrum of real values has no imaginary part at these two modes, but rounding
+            // leaves one.
             spectrum[0].im = T::zero();
             spectrum[half - 1].im = T::zero();
             let _ = self.rows.inverse.process_with_scratch(
@@ -205,7 +209,7 @@ impl<T: FftNum + Default> Convolution<T> {
         }
     }
 
-    /// Copies `width` columns of the spectra, from the column `first` on, to the block.
+    /// Copies `width` columns of the spectra to the block, beginning with the column `first`.
     fn gather(&mut self, first: usize, width: usize) {
         let stride = Self::stride(self.padded);
         let apart = Self::apart(self.padded);
@@ -254,7 +258,7 @@ impl<T: FftNum + Default> Convolution<T> {
     }
 }
 
-/// Returns the number of the type T next to another one.
+/// Converts a number to the nearest value of the type T.
 fn number<T: FftNum>(value: f64) -> T {
     T::from_f64(value).unwrap_or_else(T::zero)
 }

@@ -7,19 +7,19 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HalfSpaceError {
-    /// The number of cells along a side is not a power of two from 32 to 8192; the field has this
+    /// The number of cells along a side is not a power of two from 32 to 8192. The field is this
     /// number.
     #[error("{0} cells along a side; allowed: a power of two from 32 to 8192")]
     Cells(usize),
-    /// The number of heights of the square is not the number of cells of the solver.
+    /// The number of heights of the square differs from the number of cells of the solver.
     #[error("{found} heights; allowed: {allowed}, one for each cell")]
     Heights {
-        /// The given number of heights.
+        /// The number of heights that was given.
         found: usize,
         /// The number of heights that is allowed.
         allowed: usize,
     },
-    /// A value of the square, of its load, of its adhesion or of the tolerance is out of its range.
+    /// A value is out of its range: a value of the square, its load, its adhesion or the tolerance.
     #[error("{name} = {found:e}; allowed: {allowed}")]
     Value {
         /// Name of the refused value, such as `tolerance`.

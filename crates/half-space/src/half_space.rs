@@ -20,7 +20,7 @@ pub struct Square<'a> {
     pub effective_modulus: f64,
 }
 
-/// What is prescribed for a contact: its force or its indentation.
+/// The prescribed load of a contact: its force or its indentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// Force in N, positive in compression. With [`Boundary::Periodic`] it is the force on one of
@@ -36,8 +36,8 @@ pub enum Load {
 pub struct Pressed {
     /// Pressure on each cell in Pa.
     pub pressure: Vec<f64>,
-    /// Gap between the square and the half-space at each cell in m. [`Pressed::residual`] describes
-    /// its error in contact, where it should be zero.
+    /// Gap between the square and the half-space at each cell in m. On the contact it should be
+    /// zero; [`Pressed::residual`] states how far it deviates.
     pub gap: Vec<f64>,
     /// Force on the square in N: the sum of the pressures times the area of a cell. Compression is
     /// positive.
@@ -47,16 +47,17 @@ pub struct Pressed {
     pub indentation: f64,
     /// Contact area in m²: the sum of the areas of the cells in contact.
     pub area: f64,
-    /// Largest error of the gap of any cell, divided by the rms height of the square. The error is
-    /// the absolute value of the gap of a cell in contact, and the depth of penetration of any
-    /// other cell. For a flat square, whose rms height is zero, the error is divided by the given
-    /// indentation, or by F/(E* L) for a given force F and the side L.
+    /// Largest deviation of the gap of any cell, divided by the rms height of the square. The
+    /// deviation is the absolute value of the gap for a cell in contact, and the depth of
+    /// penetration for any other cell. A flat square has an rms height of zero. For such a square
+    /// the deviation is divided by the given indentation, or by F/(E* L) for a given force F and
+    /// the side L.
     pub residual: f64,
     /// True if `residual` is at most the required tolerance and no pressure is negative. False if
-    /// the solver ended before, because it had used all its steps.
+    /// the solver has used all its steps before it reached the tolerance.
     pub is_reached: bool,
-    /// Number of convolutions that the solver computed on the grid of the cells of the square, a
-    /// measure of the computing work.
+    /// Number of convolutions that the solver computed on the finest grid, whose cells are those of
+    /// the square. It is a measure of the computing work.
     pub convolutions: u64,
 }
 
@@ -68,19 +69,18 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// Returns the memory in bytes that a solver takes for squares with this number of cells along
-    /// a side.
+    /// Returns the memory in bytes that a solver needs for squares with `cells` cells along a side.
     pub fn bytes(cells: usize, boundary: Boundary) -> u64 {
         nested(cells)
             .map(|cells| Grid::bytes(cells, boundary))
             .sum()
     }
 
-    /// Creates a solver for squares with this number of cells along a side.
+    /// Creates a solver for squares with `cells` cells along a side.
     ///
     /// # Errors
-    /// Returns an error if the number of cells is not a power of two from 32 to 8192, or if the
-    /// memory is too small.
+    /// Returns an error if the number of cells is not a power of two from 32 to 8192, or if there
+    /// is not enough memory.
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, HalfSpaceError> {
         check_cells(cells)?;
         check_room(HalfSpace::bytes(cells, boundary))?;
@@ -96,8 +96,8 @@ impl HalfSpace {
     /// [`HalfSpaceError::Stopped`].
     ///
     /// # Errors
-    /// Returns an error if the number of heights is not the number of cells of this solver, if a
-    /// value is out of its range, or if `stop` returned true.
+    /// Returns an error if the number of heights differs from the number of cells of this solver,
+    /// if a value is out of its range, or if `stop` returned true.
     pub fn press(
         &mut self,
         square: &Square<'_>,
@@ -131,8 +131,8 @@ impl HalfSpace {
             }
         };
         let rms_height = self.set_depths(square)?;
-        // A flat punch has no height: its residual is divided by the indentation, or by the mean
-        // pressure in units of E*.
+        // A flat punch has an rms height of zero. Its residual is divided by the indentation, or by
+        // the mean pressure in units of E*.
         let height = if rms_height > 0.0 {
             rms_height
         } else {
@@ -238,7 +238,7 @@ pub fn highest(square: &Square<'_>) -> Result<f64, HalfSpaceError> {
     Ok(highest)
 }
 
-/// Checks a number that has to be positive.
+/// Returns an error unless a value is positive.
 pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     if found.is_normal() && found > 0.0 {
         return Ok(());
@@ -250,7 +250,8 @@ pub fn positive(name: &'static str, found: f64) -> Result<(), HalfSpaceError> {
     })
 }
 
-/// Returns the numbers of cells along the sides of nested grids, the coarsest first.
+/// Returns the numbers of cells along the sides of the nested grids, beginning with the coarsest
+/// grid.
 fn nested(cells: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(COARSEST), |cells| Some(2 * cells))
         .take_while(move |side| *side <= cells)
@@ -322,7 +323,8 @@ mod tests {
         }
     }
 
-    /// Westergaard (1939): a wave along one side, and the full contact of waves along both.
+    /// Closed forms by Westergaard (1939): partial contact of a wave along one side, and full
+    /// contact of waves along both sides.
     #[test]
     fn waves_are_in_contact_as_westergaard_says() {
         let cells = 256;
@@ -363,8 +365,8 @@ mod tests {
         random_map(cells, power, seed).unwrap()
     }
 
-    /// Rough squares of three Hurst exponents under all loads up to full contact: the conditions of
-    /// contact hold, and near full contact nothing takes longer.
+    /// Rough squares of three Hurst exponents, under all loads up to full contact. The conditions
+    /// of contact hold, and the solver does not take longer near full contact.
     #[test]
     fn rough_squares_are_solved_at_any_load() {
         for (boundary, hurst) in [
@@ -419,9 +421,9 @@ mod tests {
         }
     }
 
-    /// At light loads the area of contact is about 2F/(E*h′), h′ the rms gradient, once the part of
-    /// the cells at the edge that is out of contact is taken off: a tenth of a cell for each side
-    /// of a cell along the edge.
+    /// At light loads the area of contact is about 2F/(E*h′), where h′ is the rms gradient. The
+    /// cells at the edge of the contact are only partly in contact. This is corrected by a tenth of
+    /// a cell for each side of a cell along the edge.
     #[test]
     fn the_area_at_light_loads_is_proportional_to_the_force() {
         let (cells, last) = (128, 8.0);
@@ -470,7 +472,7 @@ mod tests {
         assert!((1.7..2.3).contains(&mean), "{slopes:?}");
     }
 
-    /// A quarter turn and a mirror of the surface turn and mirror the pressures.
+    /// If the surface is turned by a quarter turn and mirrored, so are the pressures.
     #[test]
     fn turned_squares_have_turned_pressures() {
         let (cells, heights) = (64, rough(64, 0.8, 3));
@@ -497,8 +499,8 @@ mod tests {
         assert!((one.indentation / other.indentation - 1.0).abs() < 1e-9);
     }
 
-    /// A contact in other units is the same contact: pressures are in units of E*, forces of E*L²,
-    /// lengths of L.
+    /// A contact in other units is the same contact. Pressures scale with E*, forces with E*L², and
+    /// lengths with L.
     #[test]
     fn a_contact_scales_with_its_modulus_and_side() {
         let (cells, heights) = (32, rough(32, 0.8, 7));

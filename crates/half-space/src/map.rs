@@ -23,11 +23,11 @@ pub fn random_map(
     let mut waves = resized(Vec::new(), cells * cells, Complex64::default())?;
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let half = cells as i64 / 2;
-    // Waves of half the cells have no phase.
+    // Waves with half as many periods as cells along a side have no phase, so they are left out.
     for shell in 1..half {
         for (x, y) in half_shell(shell) {
             let phase = TAU * (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-            // A pair of opposite waves is one cosine, whose mean square is half its squared
+            // A pair of opposite waves is one cosine. Its mean square is half of its squared
             // amplitude.
             let amplitude = 2.0 * variance((x as f64).hypot(y as f64)).sqrt();
             let column = x.rem_euclid(cells as i64) as usize;
@@ -56,8 +56,8 @@ pub fn random_map(
     Ok(heights)
 }
 
-/// Lists the wave numbers (k_x, k_y) of one half of a shell, which is the boundary of a square. Its
-/// other half are the opposite waves.
+/// Lists the wave numbers (k_x, k_y) of one half of a shell, the boundary of a square of wave
+/// numbers. The other half of the shell consists of the opposite waves.
 fn half_shell(shell: i64) -> impl Iterator<Item = (i64, i64)> {
     let side = (1 - shell..=shell).map(move |y| (shell, y));
     let top = (1 - shell..=shell).map(move |x| (-x, shell));
@@ -95,7 +95,8 @@ mod tests {
             assert!((height - fine[index_of_fine]).abs() < 1e-12);
         }
         assert_ne!(random_map(32, variance, 8).unwrap(), coarse);
-        // Isotropic in the mean: as much power along x as along y, over many maps.
+        // On average over many maps the surface is isotropic: the gradients along x and y are
+        // equal.
         let mut along_x = 0.0;
         let mut along_y = 0.0;
         for seed in 0..40 {

@@ -1,25 +1,25 @@
 //! Linear operators of a half-space on a square grid, in units of the side L and the effective
-//! modulus E*. They are the displacement by a pressure, its approximate inverse, and the extension
-//! of numbers from a contact to the grid around it.
+//! modulus E*. There are three operators: the displacement by a pressure, the approximate inverse
+//! of this displacement, and the extension of values from a contact to the grid around it.
 
 use super::convolution::Convolution;
 use asperity_data::{OutOfMemory, resized};
 use std::f64::consts::{PI, TAU};
 
-/// Number of sweeps by which a residual is extended beyond the contact.
+/// Number of sweeps that extend a residual beyond the contact. Each sweep extends it by one cell.
 const SWEEPS: usize = 6;
 
-/// Surface of the half-space around the square: bare, or covered with copies of the square.
+/// What is on the surface of the half-space around the square: nothing, or copies of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Boundary {
-    /// The square is alone on the half-space.
+    /// The square is the only body on the half-space.
     Free,
-    /// Copies of the square lie side by side without end, along both of its sides.
+    /// Copies of the square cover the whole half-space. They lie side by side in both directions.
     Periodic,
 }
 
-/// Displacement of the middle of a square cell by a pressure of E* on it, in units of the side of
-/// the cell: (4/π) ln(1+√2).
+/// Displacement of the middle of a square cell by a pressure of E* on this cell, in units of the
+/// side of the cell: (4/π) ln(1+√2).
 pub const OWN_DISPLACEMENT: f64 = 1.122_199_7;
 
 /// Operators of one grid.
@@ -45,7 +45,8 @@ impl Operators {
     pub fn new(cells: usize, boundary: Boundary) -> Result<Self, OutOfMemory> {
         let padded = PaddedSides::of(cells, boundary);
         let displacement = match boundary {
-            // 2/(E*|q|); the mean displacement of a periodic half-space is infinite and left out.
+            // The transform is 2/(E*|q|) for the wave number q. The mean displacement of a periodic
+            // half-space is infinite, so it is left out.
             Boundary::Periodic => Convolution::by_transform(cells, cells, |x, y| {
                 if x == 0.0 && y == 0.0 {
                     0.0
@@ -57,8 +58,9 @@ impl Operators {
                 displacement_by_cell(x as f64, y as f64) / cells as f64
             })?,
         };
-        // A mean pressure takes the inverse of the longest wave. Under a force the mean is
-        // subtracted later, and under an indentation it need not be exact.
+        // For the mean pressure, the inverse uses the value of the longest wave. This value need
+        // not be exact: under a force the mean is subtracted later, and under an indentation the
+        // inverse is only an approximation.
         let length = padded.stiffness as f64 / cells as f64;
         let stiffness = |x: f64, y: f64| 0.5 * TAU / length * x.hypot(y).max(0.5);
         Ok(Operators {
@@ -73,7 +75,7 @@ impl Operators {
         })
     }
 
-    /// Computes the displacements by pressures, both row by row.
+    /// Computes the displacements that pressures cause. Both are passed row by row.
     pub fn displace<C>(
         &mut self,
         context: &mut C,
@@ -84,11 +86,17 @@ impl Operators {
         self.displacement.apply(context, pressure, displacement);
     }
 
-    /// Computes approximate pressures on a contact for displacements there, zero elsewhere: P Eᵀ D
-    /// E. D is E*|q|/2, and E extends displacements smoothly beyond the contact, because zeros
-    /// there would act as a wall at each edge. The operator is symmetric. It is only approximate,
-    /// so single precision is enough. `outside` is 1 off the contact and 0 on it. `visit` gets each
-    /// row once it is computed.
+    /// Computes approximate pressures on a contact that cause given displacements of the contact;
+    /// elsewhere the pressures are zero. The operator is P Eᵀ D E:
+    ///
+    /// * E extends the displacements smoothly beyond the contact, because zeros outside would act
+    ///   as a wall at each edge.
+    /// * D multiplies each wave by E*|q|/2, with its wave number q.
+    /// * Eᵀ is the transpose of E, and P sets the pressures outside the contact to zero.
+    ///
+    /// The operator is symmetric. Since it is only approximate, single precision is enough.
+    /// `outside` is 1 for a cell off the contact and 0 for a cell on it. `visit` receives each row
+    /// as soon as the row is computed.
     pub fn precondition(
         &mut self,
         residual: &[f32],
@@ -118,25 +126,26 @@ impl Operators {
     }
 }
 
-/// Extension E of the residuals beyond the contact, and its transpose Eᵀ for the pressures. In E a
-/// cell of the contact keeps its number, and another one becomes the mean of its neighbours. E sums
-/// over the paths of up to as many steps off the contact as there are sweeps, and Eᵀ over the same
-/// paths back.
+/// Extension E of the residuals beyond the contact, and its transpose Eᵀ for the pressures. In each
+/// sweep of E, a cell of the contact keeps its value, and each other cell gets the mean of its four
+/// neighbours. E therefore sums over all paths off the contact whose number of steps is at most the
+/// number of sweeps. Eᵀ sums over the same paths in the opposite direction.
 struct Extension<'a, V> {
     sweeps: &'a mut Sweeps,
     residual: &'a [f32],
     outside: &'a [f32],
-    /// Pressures before and after Eᵀ. A row is replaced once no sweep needs it any more.
+    /// Pressures before and after Eᵀ. A row is replaced when no sweep needs its former values any
+    /// more.
     pressure: &'a mut [f32],
-    /// Gets each row of the pressures after Eᵀ.
+    /// Function that receives each row of the pressures after Eᵀ.
     visit: V,
 }
 
 impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
-    /// Computes a row of the extended residuals. The rows are computed in order.
+    /// Computes a row of the extended residuals. The rows must be computed in order.
     fn extend(&mut self, row: usize, extended: &mut [f32]) {
         let cells = self.sweeps.cells;
-        // The first row needs all rows that its sweeps reach, each other row one more.
+        // The first row needs all rows that its sweeps reach. Each further row needs one more row.
         let first = if row == 0 { 0 } else { row + SWEEPS };
         for time in first..=row + SWEEPS {
             if let Some(residual) = self.residual.chunks_exact(cells).nth(time) {
@@ -150,7 +159,7 @@ impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
         extended.copy_from_slice(self.sweeps.row_mut(SWEEPS, row));
     }
 
-    /// Takes a row of the pressures before Eᵀ.
+    /// Stores a row of the pressures before Eᵀ.
     fn take(&mut self, row: usize, found: &[f32]) {
         let cells = self.sweeps.cells;
         self.pressure[row * cells..][..cells].copy_from_slice(found);
@@ -161,7 +170,8 @@ impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
         }
     }
 
-    /// Sweeps once the row `time` is taken, or, after the last one, further rows without numbers.
+    /// Sweeps as far as the stored rows allow. `time` is the number of the last stored row; after
+    /// the last row of the grid, it continues with empty rows.
     fn restrict(&mut self, time: usize) {
         let cells = self.sweeps.cells;
         self.sweeps.sweep(
@@ -180,16 +190,16 @@ impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
     }
 }
 
-/// Sweeps that follow each other at a distance of one row, so that all rows of their work stay in
-/// the cache.
+/// Sweeps over the grid that run at the same time. Each sweep is one row behind the sweep before,
+/// so that all rows in use stay in the cache of the processor.
 struct Sweeps {
     cells: usize,
-    /// The last three rows of each sweep, and of the numbers before the first one.
+    /// The last three rows of each sweep, and of the values before the first sweep.
     rows: Vec<f32>,
 }
 
 impl Sweeps {
-    /// Returns the number of numbers of all rows.
+    /// Returns the number of values in all rows.
     fn numbers(cells: usize) -> usize {
         3 * (SWEEPS + 1) * cells
     }
@@ -198,9 +208,10 @@ impl Sweeps {
         &mut self.rows[(3 * sweep + row % 3) * self.cells..][..self.cells]
     }
 
-    /// Sweeps the row `time` − n by the sweep n. `each` is called for each number of a row. It gets
-    /// true for the last sweep, the fixed number of the cell, its being outside, and the sum of its
-    /// four neighbours; a neighbour beyond the grid is the cell itself.
+    /// Computes the row `time` − n of each sweep n. `each` is called for each cell of a row. Its
+    /// arguments are: true for the last sweep, the fixed value of the cell, the value of `outside`,
+    /// and the sum of the four neighbours. At the boundary of the grid, the cell itself replaces a
+    /// missing neighbour.
     fn sweep(
         &mut self,
         time: usize,
@@ -234,8 +245,8 @@ impl Sweeps {
     }
 }
 
-/// What a sweep makes a row of: the rows above, at and below it after the sweep before, its fixed
-/// numbers, and its being outside.
+/// Values from which a sweep computes a row: three rows after the sweep before (the rows above, at
+/// and below this row), the fixed values of the row, and its values of `outside`.
 struct Around<'a> {
     above: &'a [f32],
     middle: &'a [f32],
@@ -256,7 +267,8 @@ impl Around<'_> {
         };
         to[0] = swept(0, 0, 1);
         to[last] = swept(last, last - 1, last);
-        // Iterators without indices are compiled to instructions on several numbers.
+        // The compiler makes instructions for several values at once only of iterators without
+        // indices.
         let vertical = self.above[1..].iter().zip(&self.below[1..]);
         let horizontal = self.middle[..last - 1].iter().zip(&self.middle[2..]);
         let own = self.fixed[1..].iter().zip(&self.outside[1..]);
@@ -269,7 +281,7 @@ impl Around<'_> {
     }
 }
 
-/// Sides of the padded grids of both operators.
+/// Sides of the padded grids for the displacement and the stiffness, in cells.
 struct PaddedSides {
     displacement: usize,
     stiffness: usize,
@@ -282,7 +294,7 @@ impl PaddedSides {
                 displacement: cells,
                 stiffness: cells,
             },
-            // Multiples of 16 have no large prime factor on the grids used.
+            // On the grids that are used, multiples of 16 have no large prime factor.
             Boundary::Free => PaddedSides {
                 displacement: (2 * cells).next_multiple_of(16),
                 stiffness: (cells + cells / 4).next_multiple_of(16),
@@ -291,8 +303,8 @@ impl PaddedSides {
     }
 }
 
-/// Returns the displacement at the distance (x, y), in cells, by a pressure of E* on one cell, in
-/// units of the cell (Love 1929).
+/// Returns the displacement at the distance (x, y) from a cell by a pressure of E* on this cell
+/// (Love 1929). The distances are in cells, and the displacement is in units of the side of a cell.
 fn displacement_by_cell(x: f64, y: f64) -> f64 {
     let left = x - 0.5;
     let right = x + 0.5;
@@ -301,11 +313,12 @@ fn displacement_by_cell(x: f64, y: f64) -> f64 {
     (corner(right, top) - corner(left, top) - corner(right, bottom) + corner(left, bottom)) / PI
 }
 
-/// Returns the part of a corner of the cell, y ln(x + r) + x ln(y + r), in the displacement at the
-/// distance (x, y) from this corner.
+/// Returns the contribution of one corner of the cell to the displacement: y ln(x + r) + x ln(y +
+/// r) at the distance (x, y) from this corner, with r² = x² + y².
 fn corner(x: f64, y: f64) -> f64 {
     let r = x.hypot(y);
-    // Written without the difference of near numbers for a negative number beside r.
+    // For a negative x, r + x would be a small difference of large numbers. The equal expression
+    // y²/(r − x) avoids it.
     let along = |x: f64, y: f64| {
         y * if x < 0.0 {
             (y * y / (r - x)).ln()
@@ -323,7 +336,7 @@ mod tests {
     #[test]
     fn a_cell_displaces_by_the_integral_over_it() {
         assert!((displacement_by_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
-        // By the sum over small parts of the cell.
+        // The expected value is the sum over small parts of the cell.
         let parts = 200;
         for (x, y) in [(1.0, 0.0), (3.0, 2.0), (0.0, 7.0), (40.0, 9.0)] {
             let mut sum = 0.0;

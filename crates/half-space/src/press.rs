@@ -1,10 +1,11 @@
-//! Contact without adhesion: nested projected conjugate gradients on an active set.
+//! Contact without adhesion: conjugate gradients on a set of cells in contact, on nested grids.
 //!
-//! Each grid halves the cells of the coarser one, and starts from the solution on it. On a fixed
-//! set of cells, preconditioned conjugate gradients (Polak and Ribière) make the gap uniform.
-//! Pressures may become negative in the meantime. The set changes once the violations by cells that
-//! pull or penetrate outweigh the residual that the gradients have left on the contact. An active
-//! set in one loop with the gradients is the idea of Polonsky and Keer (1999).
+//! Each grid has cells of half the size of the coarser grid before, and starts from its solution.
+//! For a fixed set of cells in contact, preconditioned conjugate gradients (Polak and Ribière) make
+//! the gap on the set uniform. In the meantime pressures may become negative. Violations of the set
+//! are cells in contact that pull, and open cells that penetrate. The set changes when these
+//! violations are larger than the residual that the gradients have left on the contact. Polonsky
+//! and Keer (1999) had the idea to change the set in the same loop as the gradients.
 
 use super::error::HalfSpaceError;
 use super::operators::{Boundary, OWN_DISPLACEMENT, Operators};
@@ -15,16 +16,17 @@ use std::mem::swap;
 /// Number of cells along the side of the coarsest grid.
 pub const COARSEST: usize = 32;
 
-/// Residual to which coarser grids are solved, in rms heights.
+/// Residual at which the solution on a coarser grid ends, in rms heights.
 const COARSE: f64 = 1e-3;
 
-/// Ratio of the violations of the set to the residual on it at which the set changes.
+/// Ratio of the violations of the set to the residual on the contact. When the ratio exceeds this
+/// value, the set changes.
 const OUTWEIGHS: f64 = 1.5;
 
-/// Largest number of steps of the gradients on one grid.
+/// Largest number of conjugate gradient steps on one grid.
 const MOST_STEPS: u64 = 400;
 
-/// Prescribed force or indentation, in units of L and E*.
+/// The prescribed force or indentation, in units of the side L and the effective modulus E*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// Mean pressure over the square, F/(E* L²).
@@ -33,41 +35,43 @@ pub enum Given {
     Indentation(f64),
 }
 
-/// End of a solution: its residual and its cost.
+/// Result of a solution: the residual that is left, and the computing work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ended {
     /// Largest violation of the conditions of contact, in rms heights of the surface.
     pub residual: f64,
-    /// True if the required residual is reached.
+    /// True if the residual is within the required tolerance.
     pub is_reached: bool,
-    /// Number of steps of the gradients on the finest grid.
+    /// Number of conjugate gradient steps on the finest grid.
     pub steps: u64,
     /// Number of convolutions on the finest grid.
     pub convolutions: u64,
 }
 
-/// State and memory of one grid.
+/// State and memory of one grid. All lengths are in units of the side, all pressures in units of
+/// E*.
 pub struct Grid {
     pub cells: usize,
     pub operators: Operators,
-    /// Depth of the rigid surface below its highest point.
+    /// Depth of each cell of the rigid surface below the highest point.
     pub depths: Vec<f64>,
     pub pressure: Vec<f64>,
-    /// Sum of displacement and depth of each cell, uniform on the contact.
+    /// Sum of displacement and depth of each cell. In the solution it has one value on the whole
+    /// contact.
     pub levels: Vec<f64>,
-    /// 1 for a cell off the contact, 0 on it.
+    /// 1 for a cell off the contact, 0 for a cell on the contact.
     pub outside: Vec<f32>,
-    /// Sum of displacement and depth that the contact is to have.
+    /// Sum of displacement and depth that the solution has on the contact.
     pub level: f64,
-    /// Number of cells of the contact.
+    /// Number of cells in contact.
     count: f64,
     residual: Vec<f32>,
     /// Residual before the last step.
     former_residual: Vec<f32>,
     gradient: Vec<f32>,
-    /// Pressures that a step adds, but for its length.
+    /// Change of the pressures by a step, up to the factor that is the length of the step.
     direction: Vec<f64>,
-    /// Displacements by the direction.
+    /// Displacements that the direction causes as pressures.
     image: Vec<f64>,
 }
 
@@ -76,38 +80,38 @@ pub struct Grid {
 struct Violations {
     /// Largest residual on the contact.
     on_contact: f64,
-    /// Deepest penetration elsewhere.
+    /// Largest penetration off the contact.
     penetration: f64,
     lowest_pressure: f64,
 }
 
-/// Result of a step of the gradients.
+/// Result of a step of the conjugate gradients.
 struct Step {
     /// Scalar product of gradient and residual before the step, which the next step needs.
     product: f64,
     violations: Violations,
 }
 
-/// Sums over the contact with the gradient at a step.
+/// Sums over the contact that contain the gradient of a step.
 struct GradientSums {
     /// Scalar product of gradient and residual.
     with_residual: f64,
-    /// Scalar product of gradient and former residual.
+    /// Scalar product of gradient and the residual before the last step.
     with_former_residual: f64,
     total: f64,
 }
 
-/// Sums with the direction of a step.
+/// Sums that contain the direction of a step.
 struct DirectionSums {
     /// Scalar product of direction and residual.
     with_residual: f64,
-    /// Scalar product of direction and image.
+    /// Scalar product of the direction and its image.
     with_image: f64,
     /// Sum of the image over the contact.
     image_on_contact: f64,
 }
 
-/// Borrowed rows while the displacements by a direction are computed.
+/// Rows that are borrowed while the displacements by a direction are computed.
 struct DirectionRows<'a> {
     direction: &'a mut [f64],
     image: &'a mut [f64],
@@ -140,7 +144,7 @@ impl Grid {
         })
     }
 
-    /// Sets each depth to the mean over four cells of a finer grid.
+    /// Sets each depth to the mean depth of the four cells of the finer grid that the cell covers.
     pub fn coarsen(&mut self, finer: &Grid) {
         let cells = self.cells;
         let fine = finer.cells;
@@ -152,8 +156,9 @@ impl Grid {
         }
     }
 
-    /// Begins on the coarsest grid: with everything under load, or with all cells that the
-    /// undeformed half-space would touch.
+    /// Sets the contact with which the coarsest grid begins. Under a force, all cells are in
+    /// contact. At an indentation, those cells are in contact that penetrate the undeformed
+    /// half-space.
     pub fn begin(&mut self, given: Given) {
         match given {
             Given::MeanPressure(mean) => {
@@ -169,8 +174,8 @@ impl Grid {
         }
     }
 
-    /// Begins with the solution of a coarser grid. The edge of the contact lies where the
-    /// [signed pressure](Grid::signed_pressure) changes its sign.
+    /// Begins with the solution of the coarser grid `coarse`. The edge of the contact lies where
+    /// the interpolated [signed pressure](Grid::signed_pressure) changes its sign.
     pub fn refine(&mut self, coarse: &Grid, given: Given, boundary: Boundary) {
         let cells = self.cells;
         let half = coarse.cells;
@@ -200,7 +205,8 @@ impl Grid {
             }
         }
         if !has_contact && matches!(given, Given::MeanPressure(_)) {
-            // A contact of a few cells, all of whose finer cells would be open.
+            // If a contact has so few cells that interpolation would open all of them, the finer
+            // cells copy the coarser ones.
             for index in 0..cells * cells {
                 let parent = index / cells / 2 * half + index % cells / 2;
                 self.pressure[index] = coarse.pressure[parent];
@@ -209,8 +215,9 @@ impl Grid {
         }
     }
 
-    /// Returns a number that is positive on the contact and negative elsewhere: the pressure as a
-    /// displacement of one cell on the contact, and minus the gap elsewhere.
+    /// Returns a length that is positive on the contact and negative elsewhere. On the contact it
+    /// is the displacement that the pressure of the cell causes at the cell; elsewhere it is minus
+    /// the gap.
     fn signed_pressure(&self, index: usize) -> f64 {
         if self.outside[index] == 0.0 {
             OWN_DISPLACEMENT / self.cells as f64 * self.pressure[index]
@@ -219,7 +226,8 @@ impl Grid {
         }
     }
 
-    /// Brings the pressures to the given mean, and computes the displacements.
+    /// Scales the pressures to the prescribed mean pressure, if there is one, and computes the
+    /// displacements.
     fn load(&mut self, given: Given) {
         if let Given::MeanPressure(mean) = given {
             let [sum] = Sums::of([&self.pressure], [], |[pressure], []| [pressure]);
@@ -231,7 +239,7 @@ impl Grid {
         self.displace();
     }
 
-    /// Computes the displacements by the pressures.
+    /// Computes the displacements that the pressures cause.
     pub fn displace(&mut self) {
         let Grid {
             cells,
@@ -254,7 +262,8 @@ impl Grid {
         );
     }
 
-    /// Sets the level of the contact: the given indentation, or the mean over the contact.
+    /// Sets the level of the contact. Under an indentation it is the indentation; under a force it
+    /// is the mean over the contact.
     fn find_level(&mut self, given: Given) {
         let [total, count] = Sums::of([&self.levels], [&self.outside], |[level], [out]| {
             let on = 1.0 - f64::from(out);
@@ -267,7 +276,8 @@ impl Grid {
         };
     }
 
-    /// Moves by a length along the direction, and finds the residuals on the contact.
+    /// Adds `length` times the direction to the pressures. Computes the new residuals on the
+    /// contact, and returns the violations.
     fn advance(&mut self, length: f64) -> Violations {
         swap(&mut self.residual, &mut self.former_residual);
         let level = self.level;
@@ -280,7 +290,8 @@ impl Grid {
             .iter()
             .zip(groups_mut(&mut self.residual));
         for (((p, u), (direction, image)), (out, residual)) in moved.zip(by).zip(cells) {
-            // Group by group, for instructions on several numbers.
+            // The loop works on groups of cells, so that the processor computes several values at
+            // once.
             *p = from_fn(|lane| p[lane] + length * direction[lane]);
             *u = from_fn(|lane| u[lane] + length * image[lane]);
             let missing = u.map(|u| level - u);
@@ -298,8 +309,8 @@ impl Grid {
         }
     }
 
-    /// Removes cells that pull or carry nothing, and adds cells that penetrate. Returns true if a
-    /// pressure was removed.
+    /// Removes the cells from the contact whose pressure is not positive, and adds the cells that
+    /// penetrate. Returns true if a negative pressure was set to zero.
     fn change_set(&mut self) -> bool {
         let mut is_clipped = false;
         let level = self.level;
@@ -316,7 +327,7 @@ impl Grid {
         is_clipped
     }
 
-    /// Solves the contact on this grid until its violations are below `tolerance` times the rms
+    /// Solves the contact on this grid until its violations are at most `tolerance` times the rms
     /// height `height`.
     pub fn solve(
         &mut self,
@@ -330,7 +341,7 @@ impl Grid {
         self.load(given);
         self.find_level(given);
         let mut violations = self.advance(0.0);
-        // Without a product of the last step, the next step is that of the steepest descent.
+        // Without the product of a former step, the next step goes along the steepest descent.
         let mut last_product = None;
         let mut steps = 0;
         loop {
@@ -369,8 +380,9 @@ impl Grid {
         }
     }
 
-    /// Solves on the present contact, whose pressures may pull, at the indentation `depth`, until
-    /// no displacement on it is off by more than `tolerance`.
+    /// Solves the contact at the indentation `depth` for the present cells in contact, whose
+    /// pressures may pull. Ends when each displacement on the contact deviates by at most
+    /// `tolerance`.
     pub fn solve_fixed(
         &mut self,
         depth: f64,
@@ -394,8 +406,8 @@ impl Grid {
         Ok(())
     }
 
-    /// Makes one step of the gradients on the present contact. `last_product` is the product of the
-    /// step before.
+    /// Makes one step of the conjugate gradients on the present contact. `last_product` is the
+    /// product of the step before.
     fn step(&mut self, given: Given, last_product: Option<f64>) -> Step {
         let gradient = self.find_gradient();
         let product = gradient.with_residual;
@@ -418,9 +430,9 @@ impl Grid {
         }
     }
 
-    /// Returns the mean over the contact of numbers with this total. Under a force the mean of the
-    /// residual over the contact is zero, and so is the mean of the step. Under an indentation
-    /// nothing is subtracted.
+    /// Returns the mean that is subtracted from values on the contact with the sum `total`. Under a
+    /// force the mean of the step must be zero, so the mean of the values is subtracted. Under an
+    /// indentation nothing is subtracted.
     fn mean_to_subtract(&self, given: Given, total: f64) -> f64 {
         match given {
             Given::MeanPressure(_) => total / self.count,
@@ -428,7 +440,7 @@ impl Grid {
         }
     }
 
-    /// Computes the gradient: the residual after the preconditioner.
+    /// Computes the gradient: the residual after the preconditioner has acted on it.
     fn find_gradient(&mut self) -> GradientSums {
         let Grid {
             cells,
@@ -462,8 +474,8 @@ impl Grid {
         }
     }
 
-    /// Computes the direction of a step, from the gradient less its `mean` on the contact and from
-    /// the part `carried` of the former direction, and the displacements by this direction.
+    /// Computes the direction of a step and the displacements by this direction. The direction is
+    /// the gradient minus `mean` on the contact, plus `carried` times the former direction.
     fn find_direction(&mut self, mean: f64, carried: f64) -> DirectionSums {
         let Grid {
             cells,
@@ -515,7 +527,8 @@ impl Grid {
     }
 }
 
-/// Returns the index of a neighbour in a row of `half` cells, after the cell if `is_upper` is true.
+/// Returns the index of a neighbour of a cell in a row of `half` cells. If `is_upper` is true, it
+/// is the cell after the given one; otherwise the cell before.
 fn neighbour(index: usize, is_upper: bool, half: usize, boundary: Boundary) -> usize {
     match (is_upper, boundary) {
         (true, Boundary::Periodic) => (index + 1) % half,
@@ -525,17 +538,17 @@ fn neighbour(index: usize, is_upper: bool, half: usize, boundary: Boundary) -> u
     }
 }
 
-/// Returns the bilinear interpolation in the middle of a quarter of a cell, between the number of
-/// the cell itself, of the two cells beside this quarter, and of the cell across its corner.
+/// Interpolates bilinearly at the middle of a quarter of a cell. The values are those of the cell
+/// itself, of the two cells beside this quarter, and of the cell across its corner.
 fn interpolated(corners: [f64; 4]) -> f64 {
     let [own, beside, above, across] = corners;
     0.0625 * (9.0 * own + 3.0 * (beside + above) + across)
 }
 
-/// Numbers that are summed side by side, in an order of their own.
+/// Number of separate partial sums. The processor computes them at the same time.
 const LANES: usize = 4;
 
-/// Returns the numbers in groups. The numbers of a grid, whose side is even, leave no rest.
+/// Divides values into groups. The values of a grid leave no rest because its side is even.
 fn groups<T>(numbers: &[T]) -> &[[T; LANES]] {
     numbers.as_chunks().0
 }
@@ -555,13 +568,13 @@ fn keep_larger(largest: &mut [f64; LANES], found: [f64; LANES]) {
     });
 }
 
-/// Returns the largest number of all lanes, at least 0.
+/// Returns the largest value of all lanes, at least 0.
 fn largest(lanes: [f64; LANES]) -> f64 {
     lanes.into_iter().fold(0.0, f64::max)
 }
 
-/// Sums over cells of what a function makes of their numbers, which are in double and in single
-/// precision.
+/// Sums over cells. A function computes the terms from the values of each cell, some of which are
+/// in double and some in single precision.
 struct Sums<const N: usize>([[f64; LANES]; N]);
 
 impl<const N: usize> Default for Sums<N> {
@@ -571,7 +584,7 @@ impl<const N: usize> Default for Sums<N> {
 }
 
 impl<const N: usize> Sums<N> {
-    /// The sums over all cells.
+    /// Returns the sums over all cells.
     fn of<const D: usize, const S: usize>(
         double: [&[f64]; D],
         single: [&[f32]; S],
@@ -582,7 +595,7 @@ impl<const N: usize> Sums<N> {
         sums.total()
     }
 
-    /// Adds as many cells as the shortest slice has.
+    /// Adds the terms of the cells to the sums. The shortest slice determines the number of cells.
     fn add<const D: usize, const S: usize>(
         &mut self,
         double: [&[f64]; D],
@@ -631,7 +644,7 @@ impl<const N: usize> Sums<N> {
     }
 }
 
-/// Solves a contact on nested grids, the finest one last, whose depths are set.
+/// Solves a contact on nested grids. The last grid is the finest one, and its depths must be set.
 pub fn press(
     grids: &mut [Grid],
     boundary: Boundary,

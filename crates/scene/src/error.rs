@@ -19,7 +19,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Values of a scene are out of their ranges. Each error has the field, the value and the
+    /// Values of a scene are out of their ranges. Each error states the field, the value and the
     /// allowed range.
     #[error(transparent)]
     Values(#[from] SceneErrors),

@@ -51,7 +51,8 @@ pub use simulation::stages::Simulation;
 pub use asperity_data::Warning;
 
 /// Finds the number of springs that a tolerance needs ([`choose`](discretisation::choose)), and
-/// measures how much time smaller errors cost ([`measure`](discretisation::measure)).
+/// measures how the computing time grows if the tolerance is smaller
+/// ([`measure`](discretisation::measure)).
 pub mod discretisation {
     pub use crate::accuracy::choice::{Choice, ChoiceError, choose, parse_tolerance};
     pub use crate::accuracy::estimate::Evidence;
@@ -61,7 +62,8 @@ pub mod discretisation {
 }
 
 /// The table [`FIELDS`](fields::FIELDS) describes each field of a scene: name, unit and allowed
-/// range. [`Scene::number`] and [`Scene::set_number`] read and set the numbers of one scene.
+/// range. [`Scene::number`] and [`Scene::set_number`] read and set a number of a scene by the path
+/// of its field.
 pub mod fields {
     pub use crate::scene::changes::Change;
     pub use crate::scene::effects::Effect;
@@ -102,15 +104,16 @@ pub mod library {
     pub use crate::scene::open::{is_file_name, is_path, open_argument};
 }
 
-/// Results of theories, for comparison with the model: closed forms for smooth bodies, the Everett
-/// function, and a check whether the waves of a sphere are too steep for the rule of Hess.
+/// Results of theories for comparison with the model. The module has closed forms for smooth bodies
+/// and the Everett function. It also checks whether the waves of a wavy sphere are too steep for
+/// the rule of Hess.
 pub mod theory {
     pub use crate::analysis::governing::SteepWaves;
     pub use crate::analysis::reversal_map::ReversalMap;
     pub use crate::reference::closed_form;
 }
 
-/// Force as a function of the displacement of an instrument of finite stiffness, which moves the
+/// Force as a function of the displacement of an instrument of finite stiffness that moves the
 /// body.
 pub mod instrument {
     pub use crate::analysis::instrument::{
@@ -118,7 +121,8 @@ pub mod instrument {
     };
 }
 
-/// Parts of the computation of a scene, which are called stages here, with their times and memory.
+/// Parts of the computation of a scene, with their times and memory. This module calls the parts
+/// stages; they are not loading stages.
 pub mod stages {
     pub use crate::simulation::outcome::{LineFacts, Timings};
     pub use crate::simulation::reach::{BeyondFullContact, Reach};

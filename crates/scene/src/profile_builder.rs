@@ -15,8 +15,8 @@ use asperity_surface::{EquivalentLine, Form};
 use std::sync::Arc;
 
 /// Builder of the one-dimensional profile that is equivalent to a body with a form and a roughness.
-/// By default the body is nominally flat and smooth. The order of the calls does not matter; of two
-/// values for the same quantity, the last one counts.
+/// By default the body is nominally flat and smooth. The order of the calls does not matter, except
+/// that the last of several values for the same quantity counts.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move};
@@ -41,16 +41,16 @@ pub struct ProfileBuilder {
     length: f64,
     points: usize,
     form: Option<Form>,
-    /// Members of a self-affine roughness, in the variant [`Roughness::SelfAffine`].
+    /// Self-affine roughness, whose members are set one by one.
     self_affine: Option<Roughness>,
-    /// Measured spectrum in memory.
+    /// Measured spectrum that replaces files.
     spectrum: Option<Arc<MeasuredRoughness>>,
-    /// Seed of the random phases of either roughness.
+    /// Seed of the random phases, for a self-affine and for a measured roughness.
     seed: u64,
 }
 
-/// Changes a member of the self-affine roughness. A roughness that begins here has no Hurst
-/// exponent yet.
+/// Changes a member of the self-affine roughness. If there is no roughness yet, the macro begins
+/// one without a Hurst exponent.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
@@ -62,7 +62,7 @@ macro_rules! with_member {
     }};
 }
 
-/// Self-affine roughness of which no member is given. A scene refuses it.
+/// Self-affine roughness without any member. A scene with this roughness is refused.
 const WITHOUT_MEMBERS: Roughness = Roughness::SelfAffine {
     hurst: f64::NAN,
     rms_height: None,
@@ -74,7 +74,8 @@ const WITHOUT_MEMBERS: Roughness = Roughness::SelfAffine {
 };
 
 impl ProfileBuilder {
-    /// Begins a profile of this length in m with this number of points, one for each spring.
+    /// Creates a builder for a profile with the length `length` in m and with `points` points, one
+    /// for each spring.
     #[must_use]
     pub fn new(length: f64, points: usize) -> Self {
         ProfileBuilder {
@@ -110,29 +111,29 @@ impl ProfileBuilder {
         with_member!(self, hurst, hurst)
     }
 
-    /// Sets the rms height of the self-affine roughness in m. Give either the rms height or the rms
-    /// gradient.
+    /// Sets the rms height of the self-affine roughness in m. A roughness needs either the rms
+    /// height or the rms gradient, not both.
     #[must_use]
     pub fn rms_height(self, rms_height: f64) -> Self {
         with_member!(self, rms_height, Some(rms_height))
     }
 
-    /// Sets the rms gradient of the self-affine roughness. Give either the rms gradient or the rms
-    /// height.
+    /// Sets the rms gradient of the self-affine roughness. A roughness needs either the rms
+    /// gradient or the rms height, not both.
     #[must_use]
     pub fn rms_gradient(self, rms_gradient: f64) -> Self {
         with_member!(self, rms_gradient, Some(rms_gradient))
     }
 
     /// Sets the first and the last mode of the self-affine roughness, as numbers of waves on the
-    /// length of the profile. Give either modes or wavelengths.
+    /// length of the profile. A roughness needs either modes or wavelengths, not both.
     #[must_use]
     pub fn modes(self, first: u64, last: u64) -> Self {
         with_member!(self, modes, Some((first, last)))
     }
 
-    /// Sets the longest and the shortest wavelength of the self-affine roughness in m. Give either
-    /// wavelengths or modes.
+    /// Sets the longest and the shortest wavelength of the self-affine roughness in m. A roughness
+    /// needs either wavelengths or modes, not both.
     #[must_use]
     pub fn wavelengths(self, longest: f64, shortest: f64) -> Self {
         with_member!(self, wavelengths, Some((longest, shortest)))
@@ -144,8 +145,8 @@ impl ProfileBuilder {
         with_member!(self, roll_off, Some(wavelength))
     }
 
-    /// Sets a roughness with a measured spectrum and random phases. A body with a self-affine
-    /// roughness as well is refused.
+    /// Sets a roughness with a measured spectrum and random phases. A body that also has a
+    /// self-affine roughness is refused.
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -198,7 +199,7 @@ impl ProfileBuilder {
     /// # Errors
     /// Returns [`Error::Values`] for values that a scene does not allow, and [`Error::Contact`] if
     /// the shortest wave has fewer than four points. Returns [`Error::Run`] if a surface or a form
-    /// cannot be used, or if the memory is too small.
+    /// cannot be used, or if there is not enough memory.
     pub fn build(&self) -> Result<Profile, Error> {
         let scene = self.scene(Modulus::effective(1.0)?, None, &[Move::ToTouch])?;
         if let Some(last) = scene.spectrum().map(|spectrum| spectrum.last)
@@ -216,9 +217,9 @@ impl ProfileBuilder {
     }
 
     /// Computes the profile of the form with `heights` in m as its roughness, one height for each
-    /// point. Of N points, the point of index ⌊N/2⌋ is on the axis of the form. The heights are
-    /// those of an equivalent line, not of a cut through a rough surface, whose spectrum
-    /// [`ProfileBuilder::spectrum`] takes.
+    /// point. Of N points, the point with the index ⌊N/2⌋ is on the axis of the form. The heights
+    /// must be those of an equivalent line. If the roughness was measured as a cut through a
+    /// surface, use the spectrum of the cut with [`ProfileBuilder::spectrum`].
     ///
     /// ```
     /// use asperity_scene::ProfileBuilder;
@@ -260,7 +261,7 @@ impl ProfileBuilder {
             }
         }
         let line = Line::from_roughness(heights, self.length, scene.form.as_ref(), 1.0);
-        // Without a form the heights may be those of the form.
+        // Without a form, the heights may themselves contain the form of the body.
         let form = if self.form.is_none() {
             NominalForm::Unstated
         } else {
@@ -269,8 +270,8 @@ impl ProfileBuilder {
         Ok(profile_of(&line.map_err(RunError::from)?, form)?)
     }
 
-    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`]
-    /// changes its other fields.
+    /// Returns a scene with this profile, modulus, adhesion and loading. [`CheckedScene::with`] can
+    /// change the other fields of the scene.
     ///
     /// # Errors
     /// Returns [`Error::Values`] if a value is out of its range.
@@ -294,8 +295,8 @@ impl ProfileBuilder {
         Ok(scene.checked()?)
     }
 
-    /// Returns the [`Governing`] parameters of a contact of this profile with this modulus and this
-    /// adhesion, such as κ and e_el/γ.
+    /// Returns the [`Governing`] parameters, such as κ and e_el/γ, of a contact of this profile
+    /// with this modulus and this adhesion.
     ///
     /// ```
     /// use asperity_contact::Modulus;
@@ -325,7 +326,7 @@ impl ProfileBuilder {
         Ok(self.simulation().make_line(&scene)?.2)
     }
 
-    /// Loads a contact with this profile by the stages `loading`, and returns all results.
+    /// Loads a contact with this profile through the stages `loading`, and returns all results.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};

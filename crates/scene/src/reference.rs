@@ -3,7 +3,7 @@
 use asperity_contact::ClosedForm;
 use asperity_surface::Form;
 
-/// Returns the exact solution (closed form) for the adhesive contact of a form that is a power law:
+/// Returns the closed-form solution for the adhesive contact of a form that is a power law:
 /// paraboloid, cone or power. The effective modulus is in Pa, the work of adhesion in J/m². Returns
 /// `None` for punches, wavy spheres and tables.
 ///
@@ -30,12 +30,15 @@ pub fn closed_form(
     })
 }
 
-/// Returns the adhesion force of a smooth body in N by a formula, after a preload in N. `form` is
-/// `None` for a flat body, `length` the apparent diameter in m. The works of adhesion on closing
-/// and on opening are in J/m².
+/// Returns the adhesion force in N of a smooth body after a preload in N, by a formula. `form` is
+/// `None` for a flat body, and `length` is the apparent diameter in m. The works of adhesion on
+/// closing and on opening are in J/m².
 ///
-/// Returns `None` for wavy spheres and tables, if the contact at pull-off is longer than the
-/// profile, or if the preload does not press the body beyond this contact.
+/// Returns `None` in three cases:
+///
+/// * the form is a wavy sphere or a table;
+/// * the contact at pull-off is longer than the profile;
+/// * the preload does not press the body beyond the contact at pull-off.
 pub fn smooth_adhesion_force(
     form: Option<&Form>,
     length: f64,

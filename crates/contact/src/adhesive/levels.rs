@@ -1,14 +1,14 @@
-//! Spans of neighbouring springs that one patch holds, and their levels. The level of a patch is
-//! the gap at which its edges lie. The length of the patch and its edge cells follow from the
-//! level.
+//! Spans and their levels. A span is a range of neighbouring springs that one patch contains. The
+//! level of a patch is the gap at which its edges lie. The length of the patch and its edge cells,
+//! the cells at its ends that are partly in contact, follow from the level.
 
 use crate::detachment::{DetachmentRule, Levels};
 use asperity_data::CompensatedSum;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// Rule for the edges of a contact patch. An edge lies either in the middle between two springs, or
-/// anywhere between them.
+/// Edge model: where an edge of a contact patch may lie, either only in the middle between two
+/// springs or anywhere between them.
 ///
 /// ```
 /// use asperity_contact::{Contact, Edges, Modulus, Move, Profile};
@@ -26,17 +26,17 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub enum Edges {
     /// Rule of Popov and Filippov (2012): a patch of n springs has the length n Δx. Its edges lie
-    /// in the middle between two springs. Errors of forces and energies are proportional to the
-    /// spacing Δx of the springs.
+    /// in the middle between two springs. Deviations of forces and energies from a continuous
+    /// profile are proportional to the spacing Δx of the springs.
     Grid,
-    /// The profile is straight between neighbouring springs, and an edge may lie at any place
-    /// between two springs. Errors of forces and energies are proportional to the square of the
-    /// spacing Δx of the springs, or to Δx under a flat punch.
+    /// The profile is straight between neighbouring springs, and an edge may lie anywhere between
+    /// two springs. Deviations of forces and energies from a continuous profile are proportional to
+    /// the square of the spacing Δx of the springs. Under a flat punch they are proportional to Δx.
     SubCell,
 }
 
 impl Edges {
-    /// Returns the name of the edge model in scene files.
+    /// Returns the name of the edge model as scene files have it.
     pub fn name(self) -> &'static str {
         match self {
             Edges::Grid => "Grid",
@@ -45,11 +45,11 @@ impl Edges {
     }
 }
 
-/// Springs `first..=last` of one patch, and their largest gap in m.
+/// A span: the springs `first..=last` of one patch, and their largest gap in m.
 ///
-/// In equilibrium each patch is a span whose two neighbouring springs have larger gaps than all its
-/// own springs. This holds under any loading history. Such a span is a subtree of the max-Cartesian
-/// tree of the gaps, in which the leftmost of equal gaps is nearest the root.
+/// In equilibrium the two springs beside each patch have larger gaps than all springs of the patch.
+/// This holds under any loading history. Each span is therefore a subtree of the max-Cartesian tree
+/// of the gaps. If gaps are equal, the leftmost one is nearest the root of that tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     pub gap: f64,
@@ -58,8 +58,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// Extends the span over neighbouring springs with gaps up to `level` in m, but not beyond the
-    /// springs of `limits`, the leftmost and the rightmost one.
+    /// Extends the span by neighbouring springs with gaps up to `level` in m. The span then stays
+    /// between the springs of `limits`, the leftmost and the rightmost spring that it may contain.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, limits: [u32; 2]) -> Self {
         let [leftmost, rightmost] = limits;
@@ -74,8 +74,9 @@ impl Span {
         span
     }
 
-    /// Returns the index of the wall. The wall is the spring with the smaller gap of the two
-    /// springs beside the span; it attaches next. `None` if the span fills the profile.
+    /// Returns the index of the wall, the spring beside the span that attaches next. Of the two
+    /// springs beside the span, the wall has the smaller gap. Returns `None` if the span fills the
+    /// profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         let left = self.first.checked_sub(1);
@@ -87,7 +88,7 @@ impl Span {
         }
     }
 
-    /// Returns this span extended by `wall`, the spring beside it that attaches next.
+    /// Returns this span extended by its wall, the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let mut span = *self;
@@ -100,7 +101,7 @@ impl Span {
         span
     }
 
-    /// Returns this span extended by its wall, or unchanged if it fills the profile.
+    /// Returns this span extended by its wall. If the span fills the profile, returns it unchanged.
     #[inline]
     pub fn grown(&self, gaps: &[f64]) -> Self {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
@@ -117,20 +118,22 @@ impl Span {
     }
 }
 
-/// Returns the smaller of two numbers that are not NaN. `f64::min` would check for NaN.
+/// Returns the smaller of two numbers, neither of which may be NaN. It is faster than `f64::min`,
+/// which checks for NaN.
 #[inline]
 pub fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 
-/// Returns the larger of two numbers that are not NaN.
+/// Returns the larger of two numbers, neither of which may be NaN.
 #[inline]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Returns the growth in 1/m of the share of a cell that fills over this height of the level in m.
-/// A cell that fills at once, or too fast for a number, has no growth.
+/// Returns the growth of the share of a cell in contact with the level, in 1/m. `height` in m is
+/// the rise of the level from an empty cell to a full one. If `height` is so small that its inverse
+/// is infinite, returns zero.
 #[inline]
 fn growth_over(height: f64) -> f64 {
     let growth = height.recip();
@@ -174,26 +177,28 @@ impl EdgeSum {
     }
 }
 
-/// Part of an edge cell that lies below the level of the edge. The cell reaches from the last
-/// spring of a span to the first spring outside.
+/// Part of an edge cell that lies below the level of the edge. An edge cell lies between the last
+/// spring of a span and the first spring outside.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
-    /// Gap in m of the first spring outside. It is infinite at the end of the foundation, which
-    /// lies half a cell away.
+    /// Gap in m of the first spring outside. It is infinite if the span reaches the end of the
+    /// foundation, which is half a cell away from the last spring.
     outside: f64,
     /// Share of the cell that lies at or below the level.
     pub share: f64,
-    /// Growth of the share with the level in 1/m; zero where the share is constant or jumps.
+    /// Growth of the share with the level in 1/m. It is zero if the share is constant or jumps.
     growth: f64,
-    /// 2 ∫ (t − c) dx over the part of the cell below the level t, in cells times metres.
+    /// 2 ∫ (t − c) dx over the part of the cell below the level t, in cells times metres, where c
+    /// is the gap.
     carries: f64,
-    /// ∫ (t − c)² dx over the part of the cell below the level t, in cells times m².
+    /// ∫ (t − c)² dx over the part of the cell below the level t, in cells times m², where c is the
+    /// gap.
     squares: f64,
 }
 
 impl EdgeCell {
     /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The
-    /// level is between the largest gap of the span and the gap of its wall.
+    /// level must lie between the largest gap of the span and the gap of its wall.
     #[inline]
     pub fn of_span(gaps: &[f64], span: &Span, level: f64) -> [Self; 2] {
         let before = if span.first > 0 {
@@ -208,14 +213,14 @@ impl EdgeCell {
         ]
     }
 
-    /// Creates the cell between the last spring of a span with the gap `inside` and the first
-    /// spring beside it with the gap `outside`. All values are in m.
+    /// Creates the cell between the last spring of a span, with the gap `inside`, and the first
+    /// spring beside it, with the gap `outside`. The gaps and the level are in m.
     #[inline]
     fn new(inside: f64, outside: f64, level: f64) -> Self {
         let height = outside - inside;
         let above = level - inside;
         if height == f64::INFINITY {
-            // At the end of the foundation half a cell has the gap of its spring everywhere.
+            // The half cell at the end of the foundation has the gap of its spring everywhere.
             return EdgeCell {
                 outside,
                 share: 0.5,
@@ -245,16 +250,16 @@ impl EdgeCell {
         }
     }
 
-    /// Computes ∫ (c − θ)² dx over the part of the cell below the level t = θ + `above` (m), in
-    /// cells times m².
+    /// Computes ∫ (c − θ)² dx in cells times m² over the part of the cell below the level t, where
+    /// c is the gap and θ = t − `above` an indentation in m.
     pub fn squares_below(&self, above: f64) -> f64 {
         (above * self.share - self.carries) * above + self.squares
     }
 }
 
 impl Levels {
-    /// Returns the levels of a span on a profile that is straight between springs, and its two edge
-    /// cells at the lowest level.
+    /// Returns the length of a span as a function of its level, on a profile that is straight
+    /// between springs. Also returns the two edge cells at the lowest level.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of_span(gaps, span, span.gap);
@@ -268,7 +273,8 @@ impl Levels {
         (levels, cells)
     }
 
-    /// Returns the height in m of the edges above the largest gap at an indentation in m.
+    /// Returns the height in m of the edges of a patch above its largest gap, at an indentation in
+    /// m.
     #[inline]
     pub fn rise<R: DetachmentRule>(&self, rule: R, indentation: f64) -> f64 {
         if self.growth <= 0.0 {
@@ -278,8 +284,8 @@ impl Levels {
         }
     }
 
-    /// Returns the height in m of free edges above the largest gap, limited to the levels of the
-    /// span. `above` is the indentation minus the largest gap in m.
+    /// Returns the height in m of the edges above the largest gap if the edges are free to move,
+    /// limited to the levels of the span. `above` is the indentation minus the largest gap in m.
     #[inline]
     fn free_rise<R: DetachmentRule>(&self, rule: R, above: f64) -> f64 {
         let rise = rule.free_rise(self, above);
@@ -288,8 +294,9 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Returns the indentation in m at which edges that are pinned at the height `rise` (m) begin
-    /// to move. The second value is true if the edges then slide, and false if they jump.
+    /// Returns the indentation in m at which pinned edges begin to move. The edges are pinned at
+    /// the height `rise` in m above the largest gap. The second value is true if the edges then
+    /// slide, and false if they jump.
     #[inline]
     pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -299,26 +306,27 @@ impl Levels {
     }
 }
 
-/// The two edge cells of a span. Their edges slide with the indentation, or are pinned at one
-/// level.
+/// The two edge cells of a span at all indentations. The edges either slide with the indentation or
+/// are pinned at one level.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<R> {
     levels: Levels,
     rule: R,
     /// Number of whole cells between the springs of the span.
     cells: f64,
-    /// Length of the edge cells in contact at the level of the largest gap, in cells.
+    /// Length in contact of both edge cells if the level equals the largest gap, in cells.
     edges: f64,
-    /// Compression of the edge cells in cells times m, where the level and the indentation equal
-    /// the largest gap.
+    /// Compression of the edge cells in cells times m, if the level and the indentation equal the
+    /// largest gap.
     compression: f64,
-    /// Squared compression of the edge cells in cells times m², also there.
+    /// Squared compression of the edge cells in cells times m², if the level and the indentation
+    /// equal the largest gap.
     squares: f64,
 }
 
 impl<R: DetachmentRule> Slider<R> {
-    /// Creates the edge cells of a span. `pin` is the height in m above the largest gap at which
-    /// the edges are pinned, or `None` if they slide.
+    /// Creates the edge cells of a span. If the edges are pinned, `pin` is their height in m above
+    /// the largest gap; if they slide, `pin` is `None`.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);
@@ -341,8 +349,9 @@ impl<R: DetachmentRule> Slider<R> {
         slider
     }
 
-    /// Creates the cell between two springs with these gaps in m. It fills from the smaller gap to
-    /// the larger one by a rule that bears no stretch.
+    /// Creates the cell between two springs with the gaps `left` and `right` in m. The contact
+    /// grows from the smaller gap to the larger one by the rule `no_stretch`, which allows no
+    /// stretch.
     #[inline]
     pub fn of_cell(left: f64, right: f64, no_stretch: R) -> Self {
         let gap = smaller(right, left);
@@ -356,8 +365,8 @@ impl<R: DetachmentRule> Slider<R> {
         Self::without_adhesion(levels, no_stretch)
     }
 
-    /// Creates the half cell at an end of the foundation, which has the gap of the last spring, in
-    /// m, everywhere. Its rule bears no stretch.
+    /// Creates the half cell at an end of the foundation. Its gap is everywhere `gap` in m, the gap
+    /// of the outermost spring. The rule `no_stretch` allows no stretch.
     pub fn half_cell(gap: f64, no_stretch: R) -> Self {
         let levels = Levels {
             gap,
@@ -395,23 +404,25 @@ impl<R: DetachmentRule> Slider<R> {
         }
     }
 
-    /// Returns ∫ Δl² dℓ from zero length to the length of the patch in cells times m², at an
-    /// indentation in m. It is the sum of the squared stretches with which springs attached as the
-    /// edges moved. It equals twice the surface energy of the patch over the stiffness of a spring.
+    /// Returns ∫ Δl² dℓ in cells times m², from zero length to the length of the patch at an
+    /// indentation in m. Δl is the largest stretch of a patch of length ℓ, so the integral is the
+    /// sum of the squared stretches with which springs attached at the moving edges. It equals
+    /// twice the surface energy of the patch divided by the stiffness of a spring.
     pub fn surface(&self, indentation: f64) -> f64 {
         let length = self.cells + self.edge_cells(indentation).length;
         self.rule.squares_up_to(length)
     }
 
     /// Returns the derivative of the compression of the edge cells with respect to the indentation
-    /// (m), in cells. It only grows with the indentation, so the force is convex between events.
+    /// (m), in cells. The derivative never falls while the indentation grows, so the force is
+    /// convex between events.
     #[inline]
     pub fn stiffness(&self, indentation: f64) -> f64 {
         let levels = self.levels;
         let above = indentation - levels.gap;
         let rise = levels.free_rise(self.rule, above);
         if !self.rule.slides(levels.growth) {
-            // Edges that do not move, or that bear no stretch.
+            // Edges that do not move, or that move without any stretch.
             return self.edges + levels.growth * rise;
         }
         self.rule.stiffness(&levels, above, rise) - self.cells

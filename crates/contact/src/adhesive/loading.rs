@@ -1,5 +1,6 @@
 //! Loading: finds the indentation at which each node of the contact tree closes, and lists the
-//! patches between these events.
+//! patches between these events. A run is a patch over a range of indentations in which its edges
+//! do not jump. A held patch is a patch that is in contact at the beginning of the loading.
 
 use super::levels::{Span, larger, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
@@ -13,14 +14,14 @@ use std::ops::Range;
 /// Closing thresholds of the nodes of a contact tree, for a loading from separation.
 ///
 /// A node closes when one of its two branches attaches the spring of the node. All springs of its
-/// subtree are then one patch. The threshold of node v is s_v = min over its branches u of max(s_u,
-/// φ on each span from u up to v), with φ of the module `run`.
+/// subtree then belong to one patch. The threshold of node v is s_v = min over its branches u of
+/// max(s_u, φ on each span from u up to v). The module `run` defines φ.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes.
     closes: Vec<f64>,
-    /// First and last spring that certainly attach with each node. The range widens while the
-    /// branches above are walked.
+    /// First and last spring that certainly attach when each node closes. The range widens while
+    /// the branches above the node are followed.
     known: Vec<[u32; 2]>,
     pub evaluations: u64,
 }
@@ -34,29 +35,29 @@ struct Loading<'a, const SLIDES: bool, R> {
     listed: RunList,
 }
 
-/// Beginning of a branch, from which the branch is followed upwards.
+/// The beginning of a branch of the contact tree, from which the walk up the branch starts.
 #[derive(Clone, Copy)]
 struct BranchStart {
     /// Indentation in m at which the branch begins.
     closes: f64,
-    /// First and last spring that certainly attach there.
+    /// First and last spring that certainly attach at this indentation.
     known: [u32; 2],
     gap: f64,
 }
 
-/// Result of following a branch up to the spring at which it merges.
+/// Result of a walk up a branch to the spring at which the branch merges.
 struct Reached {
-    /// Indentation in m at which the branch attaches that spring.
+    /// Indentation in m at which the branch attaches the spring at which it merges.
     closes: f64,
-    /// First and last spring that the branch certainly holds at its smallest span.
+    /// First and last spring that certainly belong to the smallest span of the branch.
     known: [u32; 2],
 }
 
-/// A branch visited on the walk down from the root.
+/// A branch that the walk down from the root of the tree visits.
 #[derive(Clone, Debug)]
 struct Visit {
     branch: Branch,
-    /// Indentation in m at which the branch merges into a larger patch.
+    /// Indentation in m at which the branch becomes part of a larger patch.
     merges: f64,
     /// Spring at which the branch merges.
     parent: usize,
@@ -64,17 +65,18 @@ struct Visit {
     held: Range<usize>,
 }
 
-/// A walk up one branch, from span to span.
+/// A walk up one branch of the contact tree, from span to span.
 struct Ascent {
     branch: Branch,
-    /// Indentation in m at which the branch merges into a larger patch.
+    /// Indentation in m at which the branch becomes part of a larger patch.
     merges: f64,
     span: Span,
-    /// Indentation in m from which the span is in contact.
+    /// Smallest indentation in m at which the span is in contact.
     closes: f64,
-    /// Height in m of the pinned edges of a held patch above its largest gap.
+    /// Height in m of the pinned edges above the largest gap, if the walk begins with a held patch
+    /// that is pinned.
     pin: Option<f64>,
-    /// Levels of the span below, while its run may go on.
+    /// Levels of the next smaller span, if its run may continue on the present span.
     below: Option<Levels>,
 }
 
@@ -100,8 +102,9 @@ impl Closing {
         Ok(closing)
     }
 
-    /// Finds where the left (`side` 0) or the right part (1) of a node attaches the spring of the
-    /// node. `child` is the node of that part, and any node if the part is a leaf.
+    /// Finds the indentation at which one part of a node attaches the spring of the node. `side` is
+    /// 0 for the left part and 1 for the right part. `child` is the node of the part; if the part
+    /// is a leaf, `child` may be any node.
     #[inline]
     fn close_part<const SLIDES: bool, R: DetachmentRule>(
         &mut self,
@@ -117,7 +120,8 @@ impl Closing {
             node.right
         };
         let is_leaf = size == 0;
-        // Both kinds of parts are read: the processor would often mispredict a branch.
+        // The code reads the values of a leaf and of a node and then chooses, because the processor
+        // would often mispredict a branch.
         let place = ground.tree.turns[2 * (node.rank as usize + side)];
         let lowest = ground.gaps[place as usize];
         let closes_of_child = self.closes[child];
@@ -143,8 +147,8 @@ impl Closing {
         reached
     }
 
-    /// Lists the runs of a loading in the order of [`Run`], from right to left. `held` are the
-    /// patches in contact at its beginning.
+    /// Lists the runs of a loading in the order that [`Run`] describes, from right to left. `held`
+    /// are the patches in contact at the beginning of the loading.
     pub fn list<const SLIDES: bool, R: DetachmentRule>(
         &self,
         ground: &Ground<'_, SLIDES, R>,
@@ -180,7 +184,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         [held.start..middle, middle..held.end]
     }
 
-    /// Returns the held patch of a range that lies on this very branch, not on a branch below it.
+    /// Returns the held patch of a range if it lies on the branch `branch` itself, and not on a
+    /// branch below.
     fn held_on(&self, held: &Range<usize>, branch: Branch) -> Option<&HeldPatch> {
         if held.len() != 1 {
             return None;
@@ -189,14 +194,14 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         (patch.branch == branch).then_some(patch)
     }
 
-    /// Finds when the nodes around held patches close. All other nodes close as on a loading from
-    /// separation.
+    /// Finds the indentations at which the nodes around held patches close. All other nodes close
+    /// as on a loading from separation.
     fn close_around(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let all = 0..self.held.len();
         let mut waiting = vec![(tree.root(), all)];
         let mut around = Vec::new();
-        // A node comes before those in its parts.
+        // The order ensures that a node comes before the nodes in its two parts.
         while let Some((branch, held)) = waiting.pop() {
             let Ok(node) = branch.origin() else {
                 continue;
@@ -226,8 +231,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Returns the beginning of a branch: the patch held on the branch, or else the span at which
-    /// the branch closes.
+    /// Returns the beginning of a branch: the patch held on the branch, if there is one, otherwise
+    /// the span at which the branch closes.
     fn start(&self, branch: Branch, held: Option<&HeldPatch>) -> BranchStart {
         let ground = self.ground;
         if let Some(patch) = held {
@@ -256,7 +261,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the runs of the loading, and finds the smallest indentation of full contact in m.
+    /// Lists the runs of the loading. Also finds the smallest indentation of full contact in m.
     fn list(&mut self) -> Result<(), ContactError> {
         let tree = self.ground.tree;
         let mut visits = vec![Visit {
@@ -270,14 +275,15 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
             let start = self.start(visit.branch, held.as_ref());
             let node = visit.branch.origin().ok();
             let lowest = node.map_or(start.gap, |node| tree.nodes[node].lowest);
-            // What is in contact already stays so, however far it is stretched.
+            // A branch with held patches is always visited, because on a loading springs in contact
+            // stay in contact under any stretch.
             if lowest >= visit.merges && visit.held.is_empty() {
                 continue;
             }
             if start.closes < visit.merges {
                 self.climb(&visit, start, held.and_then(|patch| patch.pin))?;
             }
-            // Nothing inside a held patch is listed.
+            // The parts of a branch with a held patch have no runs of their own.
             let (Some(node), None) = (node, held) else {
                 continue;
             };
@@ -296,8 +302,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the runs of one branch, the largest first. `pin` is the height in m of the pinned
-    /// edges of a held patch above its largest gap.
+    /// Lists the runs of one branch, the largest run first. `pin` is the height in m of pinned
+    /// edges above the largest gap if the branch begins with a held patch that is pinned.
     fn climb(
         &mut self,
         visit: &Visit,
@@ -341,7 +347,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the patch on the span that fills the profile.
+    /// Lists the patch whose span fills the whole profile.
     fn list_full_contact(&mut self, ascent: &Ascent) -> Result<(), ContactError> {
         self.listed.end = ascent.closes;
         if ascent.closes < ascent.merges {
@@ -352,7 +358,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
     }
 
     /// Lists the patch on the present span of a walk. Returns the indentation in m at which the
-    /// span attaches its wall, whose gap is `wall_gap` in m.
+    /// span attaches its wall, the next spring. `wall_gap` is the gap of the wall in m.
     #[inline]
     fn list_span(&mut self, ascent: &mut Ascent, wall_gap: f64) -> Result<f64, ContactError> {
         let ground = self.ground;
@@ -394,18 +400,18 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Follows a branch from its beginning up to the spring `parent`. The branch attaches that
-    /// spring at its largest φ (m), but not before it begins.
+    /// Follows a branch from its beginning up to the spring `parent`. The branch attaches this
+    /// spring at the largest φ (m) of its spans, but not before the branch begins.
     ///
-    /// On a span with n cells known inside, φ at a gap b is at most b − Δl(n). Most spans therefore
-    /// need no evaluation.
+    /// On a span that contains at least n cells, φ at the gap b is at most b − Δl_max(n). With this
+    /// bound, most spans need no evaluation of the rule.
     #[inline(never)]
     fn climb(&self, start: BranchStart, parent: usize, evaluations: &mut u64) -> Reached {
         let gaps = self.gaps;
         let mut span = self.lowest(start);
         let known = span.ends();
         let mut closes = start.closes;
-        // At the top first: φ is mostly largest there.
+        // The largest span first, because φ is mostly largest on this span.
         let top = self.below(&span, parent);
         if self.may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;
@@ -425,8 +431,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Reached { closes, known }
     }
 
-    /// Returns true if a span may attach a spring of this gap only above the indentation `closes`.
-    /// Both are in m.
+    /// Returns true if a span may attach a spring of this gap only above the indentation `closes`,
+    /// and false if it certainly does so at `closes`. Both values are in m.
     #[inline]
     fn may_rise(&self, closes: f64, gap: f64, span: &Span) -> bool {
         let need = gap - closes;
@@ -436,7 +442,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 .surely_bears(need, self.least_length(span.first, span.last))
     }
 
-    /// Returns the smallest span of a branch, around the springs that attach at its beginning.
+    /// Returns the smallest span of a branch. It contains the springs that attach at the beginning
+    /// of the branch.
     #[inline]
     fn lowest(&self, start: BranchStart) -> Span {
         let gap = start.gap;
@@ -451,7 +458,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Span { gap, first, last }
     }
 
-    /// Returns the largest span of a branch, which ends beside the spring `parent`.
+    /// Returns the largest span of a branch, which reaches up to the spring `parent`.
     fn below(&self, span: &Span, parent: usize) -> Span {
         let parent_gap = self.gaps[parent];
         let mut beside = *span;
@@ -466,5 +473,6 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 }
 
-/// A node fits half a cache line, so that its gap and its lowest gap are read together.
+/// A node fits into half a cache line, so that one access to memory reads its gap and its lowest
+/// gap.
 const _: () = assert!(size_of::<Node>() == 32);

@@ -1,9 +1,10 @@
 //! Adhesive contact: the exact force curve of a loading history with turning points.
 //!
-//! The local maxima of the gap form a `ContactTree`. A pass over the tree for a loading closes its
-//! nodes from below, and a pass for an unloading opens them from above. Both passes list *runs*:
-//! patches over ranges of indentation in which their edges move without a jump. Curves, extremes
-//! and energies are sums over the runs. Only the edge model defines the length of a patch.
+//! The local maxima of the gap form a `ContactTree`. A loading passes over the tree from the leaves
+//! to the root and finds where the nodes close. An unloading passes over the tree from the root to
+//! the leaves and finds where the nodes open. Both passes list *runs*. A run is a patch over a
+//! range of indentations in which its edges move without a jump. Curves, extremes and energies are
+//! sums over the runs. Only the edge model determines the length of a patch.
 
 pub(crate) mod levels;
 pub(crate) mod loading;
@@ -21,15 +22,17 @@ use crate::totals::SquareScale;
 use asperity_data::CompensatedSum;
 use levels::EdgeCell;
 
-/// The runs of a motion, and the ground on which they were listed.
+/// The runs of a motion, together with the profile, the tree and the rule with which they were
+/// listed.
 pub struct Runs<'a, const SLIDES: bool, R> {
     pub ground: Ground<'a, SLIDES, R>,
     pub runs: &'a [Run],
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
-    /// Returns the patches in contact at an indentation in m, from left to right. With `pins` each
-    /// has the height of its edges, which stay in place at the beginning of the next motion.
+    /// Returns the patches in contact at an indentation in m, from left to right. If `pins` is
+    /// true, each patch also has the height of its edges, because the edges stay in place at the
+    /// beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
         let runs = self.runs.iter().rev();
         runs.filter(move |run| run.is_at(indentation))
@@ -47,10 +50,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m;
-    /// `None` without a patch.
+    /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m.
+    /// Returns `None` if no patch is in contact.
     pub fn outermost(&self, indentation: f64) -> Option<[Span; 2]> {
-        // Of two separate runs the right one comes first.
+        // If two runs are separate, the right one comes first in the list.
         let rightmost = self.runs.iter().find(|run| run.is_at(indentation));
         let leftmost = self.runs.iter().rfind(|run| run.is_at(indentation));
         let outermost = [leftmost?, rightmost?];
@@ -58,10 +61,11 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which it is in
-    /// contact: −∞ for always, +∞ for never.
+    /// contact: −∞ if it is always in contact, +∞ if never.
     pub fn thresholds(&self) -> Vec<f64> {
         let mut thresholds = vec![f64::INFINITY; self.ground.gaps.len()];
-        // Larger patches come first; those inside have smaller thresholds.
+        // Larger patches come first in the list. The smaller patches inside them have smaller
+        // thresholds and overwrite the values.
         for run in self.runs {
             let bottom = self.ground.bottom(run);
             thresholds[bottom.first..=bottom.last].fill(run.from);
@@ -103,15 +107,15 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         tally.finish(&ground.tree.scale)
     }
 
-    /// Returns the runs with indentations above `low` and up to `high` in m.
+    /// Returns the runs that have indentations above `low` and up to `high` in m.
     #[inline]
     fn runs_between(&self, low: f64, high: f64) -> impl Iterator<Item = &Run> {
         let runs = self.runs.iter();
         runs.filter(move |run| run.from <= high && run.to > low)
     }
 
-    /// Adds the events and the sliding edges of the motion to the intervals in which an extreme or
-    /// a crossing is searched.
+    /// Adds the events and the moving edges of the motion to the intervals in which an extreme or a
+    /// crossing of the force is searched.
     pub fn search(&self, intervals: &mut Intervals<R>) {
         let ground = &self.ground;
         let (low, high) = intervals.ends();
@@ -136,8 +140,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     }
 }
 
-/// Sum of squared stretches ∫ (c − θ)² dx in cells times m². Whole springs or cells are summed as
-/// exact integers, edge cells as floating-point numbers.
+/// Sum of squared stretches ∫ (c − θ)² dx in cells times m², where c is the gap and θ the
+/// indentation. Whole springs or cells are summed as exact integers, edge cells as floating-point
+/// numbers.
 struct SquaredStretch {
     scale: SquareScale,
     whole: i128,
@@ -145,7 +150,7 @@ struct SquaredStretch {
 }
 
 impl SquaredStretch {
-    /// Creates an empty sum for indentations θ between `−largest` and `largest` in m.
+    /// Creates an empty sum for indentations from `−largest` to `largest` in m.
     fn new<const SLIDES: bool, R: DetachmentRule>(
         ground: &Ground<'_, SLIDES, R>,
         largest: f64,
@@ -158,7 +163,8 @@ impl SquaredStretch {
         }
     }
 
-    /// Adds (`sign` 1) or subtracts (−1) the squared stretches of a patch at an indentation in m.
+    /// Adds the squared stretches of a patch at an indentation in m if `sign` is 1, and subtracts
+    /// them if `sign` is −1.
     fn add<const SLIDES: bool, R: DetachmentRule>(
         &mut self,
         ground: &Ground<'_, SLIDES, R>,
@@ -173,8 +179,8 @@ impl SquaredStretch {
         } else {
             squares
         };
-        // The sum over all runs cancels down to the energy. Sums over a part of the runs may pass
-        // the range of integers.
+        // The sum over all runs is as small as the energy, because most terms cancel. The sum over
+        // a part of the runs may exceed the range of integers, so the addition wraps around.
         self.whole = self.whole.wrapping_add(signed_squares);
         self.edges.add(f64::from(sign) * remainder);
         if SLIDES {
@@ -187,14 +193,14 @@ impl SquaredStretch {
 
     fn total(mut self) -> f64 {
         self.edges.add(self.scale.in_metres(self.whole));
-        // No sum of squares is below zero, but for rounding.
+        // A sum of squares is negative only by rounding.
         self.edges.total().max(0.0)
     }
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Returns the level in m of the edges of a span, at an indentation that is not above the end
-    /// of its run.
+    /// Returns the level in m of the edges of a span at an indentation in m, which must not be
+    /// above the end of its run.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
@@ -203,7 +209,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
             return span.gap;
         };
         let wall_gap = self.gaps[wall];
-        // At the attachment of the wall the level is that of the wall, also after rounding.
+        // When the wall attaches, the level is exactly the gap of the wall. The formula for the
+        // level would give a rounded value.
         if !self.unloading && indentation >= self.attaches_at(span, wall_gap) {
             return wall_gap;
         }
@@ -212,14 +219,18 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
-    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach
-    /// at an indentation θ above `low` and up to `high` (m). It measures the energy that springs
-    /// release as they detach, and take as they attach under a stretch.
+    /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile that attach or detach
+    /// at an indentation θ above `low` and up to `high` (m). From this integral follows the energy
+    /// that springs release when they detach, or gain when they attach with a stretch.
     ///
-    /// A patch that forms at an indentation θ attaches all springs between its edges, except the
-    /// springs of the patches inside, which end at θ. When a patch splits, the same springs detach.
-    /// So most terms cancel in a sum over runs. What remains are the squared stretches at the
-    /// beginning of each run, minus those at its end, and the squares along its sliding edges.
+    /// When a patch forms at an indentation θ, all springs between its edges attach, except those
+    /// that are already in contact in smaller patches, whose runs end at θ. When a patch splits,
+    /// the same springs detach. In a sum over runs most terms therefore cancel. The remaining terms
+    /// are:
+    ///
+    /// * the squared stretches at the beginning of each run,
+    /// * minus the squared stretches at the end of each run,
+    /// * the squared stretches along the moving edges.
     pub fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         let ground = &self.ground;
         if ground.rule.bears_no_stretch() {
@@ -240,7 +251,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     }
 
     /// Returns the largest absolute value, in m, of the indentations at which the runs between
-    /// `low` and `high` (m) begin and end. Infinite ends do not count.
+    /// `low` and `high` (m) begin and end. Infinite indentations do not count.
     fn largest_event(&self, low: f64, high: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for run in self.runs_between(low, high) {
@@ -253,8 +264,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         largest
     }
 
-    /// Returns the smallest and the largest patch of a run in the range `low..high` of indentations
-    /// in m.
+    /// Returns the smallest and the largest patch of a run for indentations in the range
+    /// `low..high` in m.
     fn ends_of(&self, run: &Run, low: f64, high: f64) -> [SpanAtLevel; 2] {
         let ground = &self.ground;
         let top = if run.to > high {

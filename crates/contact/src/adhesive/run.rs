@@ -1,9 +1,11 @@
-//! Runs: patches over ranges of indentation in which their edges move without a jump. The two edge
-//! models give the length of a patch, its next attachment and its next detachment.
+//! Runs. A run is a patch over a range of indentations in which its edges move without a jump. The
+//! two edge models determine the length of a patch, its next attachment and its next detachment.
 //!
-//! A patch grows from span to span. On each span its level lies between the largest gap of the span
-//! and the gap of the wall, the spring that attaches next. The level gives the length ℓ, the only
-//! input of the rule of detachment, and the rule gives the largest stretch Δl_max(ℓ).
+//! A span is a range of springs that one patch contains. A patch grows from span to span. The level
+//! of a patch is the gap at which its edges lie. On each span the level lies between the largest
+//! gap of the span and the gap of the wall, the spring that attaches next. The length ℓ of the
+//! patch follows from the level. The rule of detachment gives the largest stretch Δl_max(ℓ), which
+//! depends on ℓ alone.
 //!
 //! * Whole springs, as Popov and Filippov (2012) count them: a patch of n springs has the length n
 //!   Δx at all levels of its span.
@@ -11,7 +13,7 @@
 //!   patch ends where the profile crosses the level of the patch. A patch at the level t is in
 //!   equilibrium at the indentation φ(t) = t − Δl_max(ℓ(t)). It grows while φ(t) ≤ d and recedes
 //!   while φ(t) ≥ d. On one span ℓ is linear in t, so φ is convex: it falls to its lowest value and
-//!   then rises. A patch rests only where φ rises.
+//!   then rises. A patch is stable only where φ rises.
 
 use super::levels::{EdgeCell, Slider, Span, larger};
 use super::tree::{Branch, ContactTree};
@@ -19,21 +21,22 @@ use crate::detachment::{DetachmentRule, Levels, ROUNDING};
 use crate::history::Patch;
 use crate::totals::ContactTotals;
 
-/// One patch over a range of indentations in which it grows from span to span, until it jumps,
-/// merges or splits.
+/// One patch over a range of indentations. In this range the patch grows from span to span. The
+/// range ends where the patch jumps, merges or splits.
 ///
-/// The runs of a motion are in the order of a walk through the contact tree from its root, right
-/// parts first. On each branch the larger patch comes first. So a run comes before the runs inside
-/// it, and of two separate runs the right one comes first.
+/// The runs of a motion are listed in the order of a walk through the contact tree from its root,
+/// right parts first. On each branch the larger patch comes first. A run therefore comes before the
+/// runs inside it, and if two runs are separate, the right one comes first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Lower bound of the indentations of the run in m, inclusive; −∞ for a patch in contact when a
-    /// loading begins.
+    /// Lower bound of the indentations of the run in m, inclusive; −∞ if the patch is in contact
+    /// when a loading begins.
     pub from: f64,
-    /// Upper bound of the indentations of the run in m, exclusive; +∞ for a patch in contact when
-    /// an unloading begins.
+    /// Upper bound of the indentations of the run in m, exclusive; +∞ if the patch is in contact
+    /// when an unloading begins.
     pub to: f64,
-    /// Height in m of pinned edges above the largest gap; NaN for edges that are free to move.
+    /// Height in m of pinned edges above the largest gap of the patch; NaN if the edges are free to
+    /// move.
     pub pin: f64,
     /// First and last spring of the smallest span of the run.
     pub bottom: [u32; 2],
@@ -42,7 +45,7 @@ pub struct Run {
     pub branch: Branch,
 }
 
-/// A patch in contact at the end of one motion, with which the next motion begins.
+/// A patch that is in contact where one motion ends and the next one begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldPatch {
     pub branch: Branch,
@@ -57,23 +60,24 @@ pub struct HeldPatch {
 #[derive(Debug)]
 pub struct RunList {
     pub runs: Vec<Run>,
-    /// On loading the smallest indentation of full contact, on unloading the smallest indentation
-    /// with contact, both in m.
+    /// On loading the smallest indentation of full contact in m; on unloading the smallest
+    /// indentation with any contact in m.
     pub end: f64,
     /// Number of evaluations of the rule of Hess.
     pub evaluations: u64,
 }
 
-/// Gaps, contact tree and rule of detachment for one direction of motion, the input of all passes
-/// over the tree.
+/// Input of all passes over the contact tree: gaps, tree and the rule of detachment for one
+/// direction of motion.
 ///
-/// With `SLIDES`, edges move between springs, and the force is curved between two events. Without
-/// `SLIDES` a patch of whole springs has one length at all levels of a span, and no edge cells.
+/// If `SLIDES` is true, edges move between springs, and the force is a curve between two events. If
+/// `SLIDES` is false, patches consist of whole springs: a patch has one length at all levels of a
+/// span, and no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool, R> {
     pub gaps: &'a [f64],
     pub tree: &'a ContactTree,
-    /// Rule of the direction of motion.
+    /// Rule of detachment for the direction of motion.
     pub rule: R,
     pub unloading: bool,
 }
@@ -99,7 +103,7 @@ impl Run {
         }
     }
 
-    /// Returns the height in m of pinned edges above the largest gap; `None` for free edges.
+    /// Returns the height in m of pinned edges above the largest gap; `None` if the edges are free.
     #[inline]
     pub fn pin(&self) -> Option<f64> {
         Some(self.pin).filter(|pin| !pin.is_nan())
@@ -117,8 +121,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         let first = ends[0] as usize;
         let last = ends[1] as usize;
         let gap_at_ends = larger(self.gaps[first], self.gaps[last]);
-        // Above the lowest span of a branch the largest gap is that of the outermost spring that
-        // attached last.
+        // For a span that is larger than the smallest span of the branch, the largest gap is the
+        // gap of the outermost spring that attached last.
         let gap = match branch.origin() {
             Ok(node) => larger(gap_at_ends, self.tree.nodes[node].gap),
             Err(_) => gap_at_ends,
@@ -136,29 +140,29 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Slider::new(self.gaps, span, self.rule, run.pin())
     }
 
-    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring,
-    /// whose gap is `wall` in m.
+    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring.
+    /// `wall` is the gap of the wall in m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
     /// Returns the level in m of the edges of a span at an indentation in m. `pin` is the height in
-    /// m of pinned edges above the largest gap.
+    /// m of pinned edges above the largest gap; `None` if the edges are free.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
     /// Returns the height in m of the edges above the largest gap, at an indentation in m. `pin` is
-    /// the height of pinned edges.
+    /// this height if the edges are pinned; `None` if the edges are free.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))
     }
 
-    /// Returns the totals of the whole springs of a span, or with `SLIDES` of its whole cells. The
-    /// span counts as one patch.
+    /// Returns the totals of the whole cells of a span if `SLIDES` is true, otherwise of its
+    /// springs. The span counts as one patch.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -172,11 +176,12 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations over which a run fills a span. Beyond it
-    /// the run fills the span `above`.
+    /// Returns the upper end, in m, of the indentations at which the patch of a run is this span.
+    /// Above it the patch is the next larger span `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
-        // An unloading reaches this span where the span above no longer holds its spring.
+        // On unloading, the patch shrinks to this span when the span above no longer bears the
+        // stretch of its outermost spring.
         if self.unloading {
             self.holds_to(&self.levels(above))
         } else {
@@ -184,7 +189,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations over which a run fills one of its spans.
+    /// Returns the upper end, in m, of the indentations at which the patch of a run is the span
+    /// `span`.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top {
@@ -193,9 +199,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns the level in m below which every spring beside a span certainly belongs to its
-    /// patch, at an indentation in m. It holds for loading and unloading, and saves evaluations of
-    /// the rule of Hess.
+    /// Returns a level in m. Every spring beside the span with a gap below this level certainly
+    /// belongs to the patch at this indentation in m, on loading and on unloading. This bound saves
+    /// evaluations of the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let stretch = self
@@ -204,9 +210,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         (indentation + stretch) - ROUNDING * (indentation.abs() + stretch)
     }
 
-    /// Calls `see` with each span of a run, from the smallest on, and the range of indentations in
-    /// m over which the run fills it. It stops when `see` returns true. Ranges below `low` (m) are
-    /// left out, and a range around `low` begins there.
+    /// Calls `see` with each span of a run, from the smallest to the largest, and with the range of
+    /// indentations in m at which the patch is this span. Stops when `see` returns true. Ranges
+    /// below `low` (m) are left out, and a range that contains `low` begins at `low`.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -222,8 +228,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the span of a run at an indentation in m; `from` is a span that the run fills at a
-    /// smaller indentation.
+    /// Returns the span of a run at an indentation in m. The search begins with the span `from`,
+    /// which must be the span of the run at a smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let mut span = from;
         while span.ends() != run.top {
@@ -265,15 +271,16 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns a lower bound in cells of the length of a span at its highest level.
+    /// Returns a lower bound, in cells, of the length of the span `first..=last` at its highest
+    /// level.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
-        // One of two edge cells is full at the highest level.
+        // At the highest level, one of the two edge cells is full.
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels attaches its wall,
-    /// whose gap is `wall` in m.
+    /// Returns the smallest indentation in m at which a span with these levels attaches its wall.
+    /// `wall` is the gap of the wall in m.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES {
@@ -284,22 +291,25 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         wall - self.rule.largest_stretch(length)
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels still holds its most
-    /// stretched spring. It is at most the largest gap of the span.
+    /// Returns the smallest indentation in m at which a span with these levels still bears the
+    /// stretch of its most stretched spring. The returned value is at most the largest gap of the
+    /// span.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
         let rule = self.rule;
         if !SLIDES {
-            // At this indentation the spring is stretched by just Δl_max and detaches, so the
-            // smallest that still holds it is the next number above; but a spring whose gap is
-            // closed stays under any rule.
+            // At the indentation `detaches` the stretch of the spring is exactly Δl_max and the
+            // spring detaches. The smallest indentation at which the spring stays is therefore the
+            // next floating-point number above. But a spring whose gap is closed stays in contact
+            // under any rule.
             let detaches = gap - rule.largest_stretch(levels.length);
             return detaches.next_up().min(gap);
         }
         // φ is smallest at the turning length.
         let excess = rule.turning_length(levels.growth) - levels.length;
-        // The choices are of values: the processor would often mispredict branches.
+        // Values are chosen instead of branches of the code, because the processor would often
+        // mispredict the branches.
         let lowest = excess / levels.growth;
         let most = levels.top - gap;
         let limited = if lowest < most { lowest } else { most };
@@ -308,33 +318,38 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         if holds < gap { holds } else { gap }
     }
 
-    /// Returns true if the edges pass without a jump from a span to the span extended by its wall.
+    /// Returns true if the edges pass without a jump from the span of `lower` to the next larger
+    /// span, whose levels are `upper`.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {
             return true;
         }
-        // φ rises from the lowest level of the upper span on, and that span adds no level cell.
+        // This is so if φ rises already at the lowest level of the upper span, and if the upper
+        // span begins with the length that the lower one has reached. The length differs if a cell
+        // with two equal gaps is added at once.
         let reached = lower.length_at(lower.top - lower.gap);
         self.rule.turning_length(upper.growth) < upper.length && upper.length - reached < 0.25
     }
 
     /// Computes ∫ (c − θ)² dx in cells times m² over the part of the profile that the edges pass
-    /// from one state of a run to a larger one. Here θ is the indentation at which an edge passes
-    /// the point, so c − θ is the largest stretch there.
+    /// between the state `lower` of a run and its larger state `upper`. θ is the indentation at
+    /// which an edge passes a point with the gap c, so c − θ is the largest stretch at this point.
     pub fn passed_squares(&self, lower: &SpanAtLevel, upper: &SpanAtLevel) -> f64 {
         if !SLIDES {
             let fewer = lower.span.springs() as f64;
             let more = upper.span.springs() as f64;
-            // Springs attach one by one to patches of `fewer` springs and more, and detach from
-            // those of `more` and fewer.
+            // On loading, springs attach one by one to patches of `fewer` up to `more − 1` springs.
+            // On unloading they detach one by one from patches of `more` down to `fewer + 1`
+            // springs.
             return if self.unloading {
                 self.rule.squares_of_patches(fewer + 1.0, more)
             } else {
                 self.rule.squares_of_patches(fewer, more - 1.0)
             };
         }
-        // Whole cells and shares are subtracted separately: as lengths they would lose digits.
+        // Whole cells and shares of cells are subtracted separately, because the difference of two
+        // long lengths would be less accurate.
         let fewer_cells = lower.whole_cells();
         let more_cells = upper.whole_cells();
         let smaller_share = lower.share_of_edges(self.gaps);
@@ -345,7 +360,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 }
 
-/// Springs that a patch holds, and the gap in m at which its edges lie.
+/// The springs of a patch, and the level of the patch: the gap in m at which its edges lie.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanAtLevel {
     pub span: Span,

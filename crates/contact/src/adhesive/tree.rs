@@ -1,33 +1,33 @@
-//! The contact tree: how the patches of a profile merge, over the local maxima of the gap alone.
+//! The contact tree: which patches of a profile can merge, and at which local maximum of the gap.
 
 use super::levels::{Edges, smaller};
 use crate::totals::{GapScale, sums_of_few};
 use asperity_data::{OutOfMemory, emptied, in_parallel, push, reserve};
 
-/// Number of springs above which a second thread saves more time than it costs.
+/// Smallest number of springs for which a second thread saves more time than it costs.
 pub const TWO_THREADS: usize = 1 << 17;
-/// Number of springs from one stored prefix sum to the next.
+/// Distance, in springs, between two stored prefix sums.
 const BLOCK: usize = 4;
-/// Number of springs whose gaps are compared together.
+/// Number of springs whose gaps are compared at the same time.
 const LANES: usize = 64;
 
-/// Tree of the places where patches of a profile can merge: one node for each local maximum of the
-/// gap inside the profile. For random profiles of N springs whose waves end at a shortest
-/// wavelength, the tree has 0.11 N to 0.26 N nodes.
+/// Tree of the local maxima of the gap inside the profile, at which patches can merge. Each local
+/// maximum is one node. For random profiles of N springs whose roughness has a shortest wavelength,
+/// the tree has 0.11 N to 0.26 N nodes.
 // Think of a level that rises from the smallest gap to the largest. The springs with gaps below the
 // level form patches. A patch appears where the level passes a local minimum of the gap, and two
-// patches merge where it passes a local maximum. Nodes are in post-order: the subtree of node j,
-// which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
+// patches merge where the level passes a local maximum. Nodes are in post-order: the subtree of
+// node j, which has `size` nodes, consists of the nodes `j + 1 − size ..= j`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactTree {
-    /// Local minima and maxima of the gap in turn along the profile; the first and the last are
-    /// minima.
+    /// Indices of the springs at the local minima and maxima of the gap, alternating from left to
+    /// right. The first and the last are minima.
     pub(super) turns: Vec<u32>,
     pub(super) nodes: Vec<Node>,
-    /// Sums before each `BLOCK`-th spring: of the gaps (or of the mean gaps of cells) in quanta,
-    /// and of their squares.
+    /// Prefix sums before each `BLOCK`-th spring, of the gaps in quanta and of their squares. If
+    /// `of_cells` is true, the sums are over the mean gaps of cells.
     sums: Vec<[i128; 2]>,
-    /// True if the sums are over the cells between springs rather than over springs.
+    /// True if the sums are over the cells between springs; false if they are over springs.
     of_cells: bool,
     pub(crate) scale: GapScale,
 }
@@ -38,21 +38,22 @@ pub struct Node {
     pub gap: f64,
     /// Smallest gap in the subtree of the node, in m.
     pub lowest: f64,
-    /// Number of the node among the local maxima along the profile, from 0.
+    /// Index of this local maximum among all local maxima, from left to right, from 0.
     pub rank: u32,
-    /// Number of nodes in the subtree of the node, itself included.
+    /// Number of nodes in the subtree of the node, including the node.
     pub size: u32,
     /// Number of nodes in the right part of the subtree.
     pub right: u32,
 }
 
-/// A patch below the rising level, from the local minimum or the merger at which it appears up to
-/// its next merger.
+/// A patch while the level rises: from the local minimum or the merger at which the patch appears
+/// up to the next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 
 impl Branch {
-    /// Returns the branch that begins at the local minimum with this number along the profile.
+    /// Returns the branch that begins at the local minimum with the index `rank`, counted from the
+    /// left end of the profile.
     #[inline]
     pub fn leaf(rank: usize) -> Self {
         Branch((rank as u32) << 1 | 1)
@@ -63,8 +64,8 @@ impl Branch {
         Branch((node as u32) << 1)
     }
 
-    /// Returns the node at which the branch begins, or as the error the number of its local
-    /// minimum.
+    /// Returns the node at which the branch begins. If it begins at a local minimum, returns `Err`
+    /// with the index of the minimum among all minima.
     #[inline]
     pub fn origin(self) -> Result<usize, usize> {
         let index = (self.0 >> 1) as usize;
@@ -76,7 +77,7 @@ impl Branch {
     }
 }
 
-/// A node that waits for its right part.
+/// A node whose right part is not complete yet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pending {
     gap: f64,
@@ -89,8 +90,8 @@ struct Pending {
 }
 
 impl Pending {
-    /// Returns the node with the index `index`, once its right part, which has the smallest gap
-    /// `lowest_on_right` in m, is complete.
+    /// Returns the finished node at the index `index` after its right part is complete.
+    /// `lowest_on_right` is the smallest gap of the right part in m.
     #[inline]
     fn finished(&self, lowest_on_right: f64, index: usize) -> Node {
         let index = index as u32;
@@ -105,8 +106,8 @@ impl Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree of 1 to 2^28 `gaps` (m, finite, at least zero) with the sums of an edge
-    /// model, in the memory of the former tree. `deepest` is the largest gap.
+    /// Builds the tree from 1 to 2^28 `gaps` (in m, finite, at least zero), with the sums that the
+    /// edge model needs, in the memory of the former tree. `deepest` is the largest gap.
     pub(crate) fn rebuild(
         mut self,
         gaps: &[f64],
@@ -133,7 +134,7 @@ impl ContactTree {
         self.nodes.len()
     }
 
-    /// Returns the branch that grows until it fills the profile.
+    /// Returns the branch of the patch that finally fills the whole profile.
     pub(crate) fn root(&self) -> Branch {
         match self.nodes.len() {
             0 => Branch::leaf(0),
@@ -141,7 +142,7 @@ impl ContactTree {
         }
     }
 
-    /// Returns the index of the spring at the local minimum with this number.
+    /// Returns the index of the spring at the local minimum with the index `rank` among all minima.
     #[inline]
     pub(crate) fn minimum(&self, rank: usize) -> usize {
         self.turns[2 * rank] as usize
@@ -173,8 +174,9 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns the sums of the gaps and of their squares over all springs (or cells) before this
-    /// spring. They have the units of [`ContactTotals`](crate::totals::ContactTotals).
+    /// Returns the sums of the gaps and of their squares over all springs to the left of `spring`,
+    /// or over the cells to the left of it. They have the units of
+    /// [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;
@@ -188,14 +190,14 @@ impl ContactTree {
         [sums[0] + rest[0], sums[1] + rest[1]]
     }
 
-    /// Finds the local minima and maxima. Of neighbours with equal gaps the right one counts as
-    /// lower.
+    /// Finds the local minima and maxima of the gap. If neighbours have equal gaps, the right one
+    /// counts as lower.
     fn find_turns(&mut self, gaps: &[f64]) -> Result<(), OutOfMemory> {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
         self.turns = emptied(std::mem::take(&mut self.turns), count / 4)?;
-        // One bit for each spring: 1 if the gap rises after it. The gap falls before the profile,
-        // and rises after it.
+        // One bit for each spring: 1 if the gap rises from this spring to the next. The gap counts
+        // as falling before the first spring and rising after the last one.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
             let springs = LANES.min(count - base);
@@ -211,7 +213,7 @@ impl ContactTree {
             reserve(&mut self.turns, LANES + 4)?;
             let found = turns.count_ones() as usize;
             let place = self.turns.len();
-            // Four at a time: their number is hard to foresee.
+            // Four turns at a time, because the processor cannot predict the number of turns well.
             for _ in 0..found.div_ceil(4) {
                 let mut four = [0_u32; 4];
                 for turn in &mut four {
@@ -231,7 +233,7 @@ impl ContactTree {
         let mut nodes = emptied(std::mem::take(&mut self.nodes), count)?;
         let mut pending: Vec<Pending> = Vec::new();
         let gap_at = |turn: usize| gaps[self.turns[turn] as usize];
-        // Smallest gap since the last local maximum that waits.
+        // Smallest gap since the local maximum that was added to `pending` last.
         let mut lowest = match self.turns.first() {
             Some(&spring) => gaps[spring as usize],
             None => 0.0,
@@ -297,7 +299,7 @@ fn sums_along(
 }
 
 /// Returns one bit for each of the last springs of a profile, at most `LANES`: 1 if the gap rises
-/// after the spring, as it does after the last one.
+/// after the spring. The bit of the last spring is 1.
 fn rises_at_end(gaps: &[f64]) -> u64 {
     let mut rises = 0;
     for lane in 0..gaps.len() {
@@ -307,7 +309,7 @@ fn rises_at_end(gaps: &[f64]) -> u64 {
     rises
 }
 
-/// Returns one bit for each spring: 1 if the gap rises from it to the next spring.
+/// Returns one bit for each spring: 1 if the gap rises from this spring to the next.
 #[inline]
 fn rises_of(gaps: &[f64; LANES + 1]) -> u64 {
     let mut rises = 0;
@@ -316,7 +318,7 @@ fn rises_of(gaps: &[f64; LANES + 1]) -> u64 {
         for (lane, bit) in bits.iter_mut().enumerate() {
             *bit = u8::from(gaps[8 * byte + lane + 1] > gaps[8 * byte + lane]);
         }
-        // Moves the lowest bits of eight bytes together.
+        // Collects the lowest bits of eight bytes in one byte.
         let packed = u64::from_le_bytes(bits).wrapping_mul(0x0102_0408_1020_4080) >> 56;
         rises |= packed << (8 * byte);
     }

@@ -1,5 +1,6 @@
 //! Unloading: finds the indentation at which each node of the contact tree opens, and lists the
-//! patches between these events.
+//! patches between these events. A run is a patch over a range of indentations in which its edges
+//! do not jump.
 
 use super::levels::{Span, smaller};
 use super::run::{Ground, HeldPatch, Run, RunList};
@@ -8,41 +9,46 @@ use crate::detachment::{DetachmentRule, Levels};
 use crate::error::ContactError;
 use asperity_data::push;
 
-/// Part of the contact at the beginning of the unloading whose runs are not listed yet.
+/// A part of the contact at the beginning of the unloading whose runs must still be listed.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     branch: Branch,
     first: u32,
     last: u32,
-    /// Indentation in m at which the larger patch around this part splits.
+    /// Indentation in m at which the larger patch that contains this part splits.
     opens: f64,
-    /// True for a whole patch held at the beginning of the unloading.
+    /// True if the part is a whole patch that is in contact at the beginning of the unloading.
     is_whole: bool,
 }
 
-/// The smallest span of a branch, at its node or at its local minimum.
+/// The smallest span of a branch of the contact tree. It lies around the node or the local minimum
+/// at which the branch begins.
 struct Bottom {
-    /// Gap in m of the node; −∞ at a local minimum.
+    /// Gap in m of the node at which the branch begins; −∞ if the branch begins at a local minimum.
     node_gap: f64,
-    /// Smallest gap in m of all springs below the branch.
+    /// Smallest gap in m of all springs in the subtree of the branch.
     lowest: f64,
-    /// Spring at the node or at the local minimum, the first of the span to detach.
+    /// Spring at the node or at the local minimum. Of the smallest span, this spring detaches
+    /// first.
     spring: usize,
 }
 
-/// A walk down one branch, from its largest span to its smallest one.
+/// A walk down one branch of the contact tree, from its largest span to its smallest one.
 struct Descent {
     branch: Branch,
     first: usize,
     last: usize,
     bottom: Bottom,
-    /// Indentation in m at which the span above splits; the present span is a patch below it.
+    /// Indentation in m at which the next larger span splits. Below this indentation the present
+    /// span is a patch.
     opens: f64,
-    /// True up to the first listed span of a patch held at the beginning of the unloading.
+    /// True for a patch that is in contact at the beginning of the unloading, until its first span
+    /// is listed.
     is_whole: bool,
-    /// Height in m of the pinned edges of a held patch above its largest gap.
+    /// Height in m of pinned edges above the largest gap of a patch that is in contact at the
+    /// beginning of the unloading; `None` if the edges are free.
     pin: Option<f64>,
-    /// Levels of the span above, while its run may go on.
+    /// Levels of the next larger span, if its run may continue on the present span.
     above: Option<Levels>,
 }
 
@@ -51,7 +57,7 @@ impl Descent {
         self.last + 1 - self.first
     }
 
-    /// Returns true if no smaller span belongs to the branch.
+    /// Returns true if the present span is the smallest span of the branch.
     #[inline]
     fn is_at_bottom(&self, gaps: &[f64]) -> bool {
         if self.bottom.node_gap == f64::NEG_INFINITY {
@@ -60,7 +66,7 @@ impl Descent {
         gaps[self.first] < self.bottom.node_gap && gaps[self.last] <= self.bottom.node_gap
     }
 
-    /// Takes the spring with the larger gap off one end of the span.
+    /// Removes the outermost spring with the larger gap from the span.
     #[inline]
     fn shrink(&mut self, gaps: &[f64]) {
         if gaps[self.first] >= gaps[self.last] {
@@ -72,12 +78,13 @@ impl Descent {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Lists the runs of an unloading from the indentation `from` (m) on. `held` are the patches in
-    /// contact there, from left to right.
+    /// Lists the runs of an unloading that begins at the indentation `from` (m). `held` are the
+    /// patches in contact at this indentation, from left to right.
     ///
-    /// A patch splits when its most stretched spring detaches. This happens as soon as the larger
-    /// patch around it has split and the rule no longer holds the spring: t_v = min(t of
-    /// the patch around v, smallest φ of v).
+    /// A patch v splits when its most stretched spring detaches. This happens when the larger patch
+    /// around v has split and the rule no longer allows the stretch of the spring. The indentation
+    /// of the split is therefore t_v = min(t of the patch around v, smallest φ of v), where φ is
+    /// defined in the module `run`.
     pub fn open(&self, held: &[HeldPatch], from: f64) -> Result<RunList, ContactError> {
         let mut listed = RunList {
             runs: Vec::new(),
@@ -104,9 +111,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Ok(listed)
     }
 
-    /// Returns false if no patch within `springs` springs can hold the spring of this `gap` (m)
-    /// below the indentation `opens` (m). `gap` is the smallest or the largest gap of the patch.
-    /// The length of the patch is at most the length of these springs and two edge cells.
+    /// Returns false if no patch within a range of `springs` springs can bear the stretch of a
+    /// spring with this `gap` (m) at indentations below `opens` (m). `gap` is the smallest or the
+    /// largest gap of the patch. A patch within the range has at most the length of these springs
+    /// plus two edge cells.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
@@ -135,9 +143,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one, and returns the
-    /// two parts that remain below its node. `pin` is the height in m of the pinned edges of a held
-    /// patch above its largest gap.
+    /// Lists the runs of one branch from its largest span down to its smallest one. Returns the two
+    /// parts that remain after the spring of its node has detached. `pin` is the height in m of
+    /// pinned edges above the largest gap of a patch that is in contact at the beginning.
     fn descend(
         &self,
         part: Part,
@@ -182,8 +190,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the patch on the present span of a walk, whose largest gap is `gap` in m, over the
-    /// indentations at which the span is a patch.
+    /// Lists the patch on the present span of a walk, for the indentations at which the span is a
+    /// patch. `gap` is the largest gap of the span in m.
     #[inline]
     fn list_span(
         &self,
@@ -222,7 +230,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 to = released;
             }
         }
-        // Pinned edges that jump as they are released have no run of free edges.
+        // If pinned edges jump as soon as they are released, there is no run with free edges.
         if leaves != to {
             match (listed.runs.last_mut(), descent.above) {
                 (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {
@@ -235,7 +243,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 )?,
             }
         }
-        // A run continues only from a level equal to the gap of the span.
+        // A run continues on the next smaller span only if the level falls to the largest gap of
+        // the present span.
         let goes_on = leaves == holds && leaves < to;
         descent.above = goes_on.then_some(levels);
         descent.opens = leaves;
@@ -244,8 +253,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Returns the two parts of the smallest span of a branch after the spring of its node has
-    /// detached.
+    /// Returns the two parts into which the smallest span of a branch splits when the spring of its
+    /// node detaches.
     fn parts_below(&self, descent: &Descent) -> [Option<Part>; 2] {
         let Ok(node) = descent.branch.origin() else {
             return [None; 2];

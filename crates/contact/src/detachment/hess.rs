@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 /// The rule of Hess, eqs. (3) and (10) of Popov and Filippov (2012): a patch of ℓ cells bears the
 /// stretch Δl = √(π ℓ Δx γ/E*) = s √ℓ.
 ///
-/// With y = √ℓ all roots are those of quadratic equations, since ℓ is linear in the level.
+/// ℓ is linear in the level. For y = √ℓ all searched values are therefore roots of quadratic
+/// equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HessRule {
     /// Largest stretch s in m of a patch one cell long.
@@ -18,22 +19,24 @@ pub struct HessRule {
 impl HessRule {
     /// Creates the rule for a work of adhesion γ in J/m².
     pub fn new(foundation: Foundation, work: f64) -> Self {
-        // The quotient γ/E* first: scaling both by one power of two then changes no bit.
+        // The quotient γ/E* is computed first: if γ and E* are both multiplied by the same power of
+        // two, no bit of the result changes.
         let range = work / foundation.effective_modulus;
         HessRule {
             stretch: (PI * foundation.spacing * range).sqrt(),
         }
     }
 
-    /// Returns √ℓ of a patch whose edges are free to move. `above` is the indentation minus the
-    /// largest gap in m.
+    /// Returns √ℓ of a patch whose edges are free to move. `above` is the indentation d minus the
+    /// largest gap of the patch in m.
     ///
-    /// The level is d + s y, and ℓ = length + growth (level − gap) is quadratic in y.
+    /// With y = √ℓ the level is d + s y. Since ℓ = length + growth (level − gap), the equation for
+    /// y is quadratic.
     #[inline]
     fn root(&self, levels: &Levels, above: f64) -> f64 {
         let half = 0.5 * self.stretch * levels.growth;
         let square = (half * half + levels.length) + levels.growth * above;
-        // A square that is not a number results from growth without bound; then only `half` counts.
+        // If the growth is too large, the square is not a number, and only `half` counts.
         half + if square > 0.0 { square.sqrt() } else { 0.0 }
     }
 }
@@ -49,7 +52,8 @@ impl DetachmentRule for HessRule {
         0.5 * self.stretch / cells.sqrt()
     }
 
-    // Squares in place of roots: most springs ask only these bounds.
+    // These bounds compare squares, which is faster than to compute roots. They decide for most
+    // springs.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
         stretch * stretch <= self.stretch * self.stretch * (1.0 - ROUNDING) * cells
@@ -84,14 +88,14 @@ impl DetachmentRule for HessRule {
     /// With y = √ℓ and k = s × growth the derivative is ℓ (2y − 3k)/(2y − k).
     #[inline]
     fn stiffness(&self, levels: &Levels, above: f64, rise: f64) -> f64 {
-        // The edges also slide at the ends of their levels, to one side at least.
+        // At the lowest and at the highest level the edges also slide, to at least one side.
         let root = self.root(levels, above);
         let fall = self.stretch * levels.growth;
         let rises = 2.0 * root - fall;
         if rises > 0.0 {
             levels.length_at(rise) * (2.0 * root - 3.0 * fall) / rises
         } else {
-            // The edges of a patch that is about to detach recede without bound.
+            // When a patch is about to detach, its edges recede infinitely fast.
             f64::NEG_INFINITY
         }
     }
@@ -114,17 +118,17 @@ impl DetachmentRule for HessRule {
 }
 
 impl Rules<HessRule> {
-    /// The rules without adhesion: the largest stretch is zero.
+    /// The rules of a contact without adhesion: no patch bears any stretch.
     pub const NO_ADHESION: Self = Rules {
         closing: HessRule { stretch: 0.0 },
         opening: HessRule { stretch: 0.0 },
     };
 
-    /// Creates the rules for the works of adhesion γ₁ on closing and γ₂ ≥ γ₁ on opening, both in
-    /// J/m².
+    /// Creates the rules from two works of adhesion in J/m²: γ₁ = `closing` where the interface
+    /// closes, and γ₂ = `opening` where it opens.
     ///
-    /// A γ₂ smaller than γ₁ is replaced by γ₁. Otherwise a spring would detach where it had just
-    /// attached.
+    /// If γ₂ is smaller than γ₁, it is replaced by γ₁. Otherwise a spring would detach as soon as
+    /// it has attached.
     pub fn from_works(foundation: Foundation, closing: f64, opening: f64) -> Self {
         let closing = HessRule::new(foundation, closing);
         let opening = HessRule::new(foundation, opening);

@@ -1,9 +1,10 @@
 //! Rules of detachment: how far the springs of a patch may be stretched, as a function of the
 //! length of the patch alone.
 //!
-//! A rule states its largest stretch Δl(ℓ) and the slope of Δl. All that the exact solver asks
-//! beyond that follows by bracketed searches and quadrature, so another rule is another file. A
-//! rule with closed roots, such as the rule of Hess, states them in place of the searches.
+//! A rule states its largest stretch Δl(ℓ) and the slope of Δl. The trait computes everything else
+//! that the exact solver needs by searches and numerical integration. Another rule therefore needs
+//! only another file. A rule with closed-form results, such as the rule of Hess, replaces the
+//! searches.
 
 mod hess;
 
@@ -14,20 +15,21 @@ use crate::history::Direction;
 use asperity_data::gauss_nodes_on_quarter_circle;
 use std::fmt::Debug;
 
-/// Rule of all contacts.
+/// The rule that all contacts use.
 pub type ContactRule = HessRule;
 
-/// Relative margin for rounding in bounds.
+/// Relative margin by which bounds allow for rounding.
 pub const ROUNDING: f64 = 1e-12;
 
-/// Number of nodes of the quadrature of squared stretches along a slide of the edges.
+/// Number of nodes of the numerical integration of squared stretches along a slide of the edges.
 const NODES: usize = 16;
 
-/// Largest number of doublings or halvings in the search of a bracket.
+/// Largest number of doublings or halvings until a search has enclosed the sought length.
 const MOST_DOUBLINGS: usize = 1000;
 
-/// Length of a patch on one span as a function of its level t in m: `length + growth (t − gap)`
-/// cells, for t from `gap` to `top`.
+/// Length of a patch on one span, in cells, as a function of its level t in m: `length + growth (t
+/// − gap)` for t from `gap` to `top`. A span is a range of springs that one patch contains, and the
+/// level is the gap at which the edges of the patch lie.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
     /// Largest gap of the span in m, the lowest level.
@@ -36,7 +38,8 @@ pub struct Levels {
     pub length: f64,
     /// Growth of the length with the level in cells per metre.
     pub growth: f64,
-    /// Highest level in m: the gap of the wall, or infinity where the span fills the profile.
+    /// Highest level in m: the gap of the next spring to attach; infinite if the span fills the
+    /// profile.
     pub top: f64,
 }
 
@@ -50,46 +53,51 @@ impl Levels {
 
 /// Largest stretch Δl(ℓ) of the springs of a patch of ℓ cells.
 ///
-/// The solver relies on three properties. Δl never falls with ℓ. Its slope never grows with ℓ, so
-/// that φ(t) = t − Δl(ℓ(t)), the indentation at which a patch at the level t is in equilibrium,
-/// falls and then rises on a span. And Δl to the power 5/4 is concave, so that the force is convex
-/// between two events; Δl = s ℓ^p is so for p up to 4/5.
+/// The solver relies on three properties:
+///
+/// 1. Δl never falls while ℓ grows.
+/// 2. The slope of Δl never grows while ℓ grows. Therefore φ(t) = t − Δl(ℓ(t)), the indentation at
+///    which a patch at the level t is in equilibrium, first falls and then rises on a span.
+/// 3. Δl to the power 5/4 is concave, so that the force is convex between two events. For Δl = s
+///    ℓ^p this holds if p is at most 4/5.
 pub trait DetachmentRule: Copy + Debug + PartialEq {
-    /// Returns the largest stretch Δl in m of a patch of this length in cells. Rounding keeps the
-    /// order: the value never falls with the length.
+    /// Returns the largest stretch Δl in m of a patch of the length `cells` in cells. The returned
+    /// value must never fall while the length grows, not even by rounding.
     fn largest_stretch(&self, cells: f64) -> f64;
 
     /// Returns the derivative of the largest stretch with respect to the length, in m per cell.
     fn slope(&self, cells: f64) -> f64;
 
-    /// Returns true if no patch bears any stretch: the contact has no adhesion.
+    /// Returns true if no patch bears any stretch, because the contact has no adhesion.
     #[inline]
     fn bears_no_stretch(&self) -> bool {
         self.largest_stretch(1.0) == 0.0
     }
 
-    /// Returns true if a patch of this length in cells bears a stretch in m, at least zero,
-    /// whatever the rounding. This bound and the next two save evaluations of the rule.
+    /// Returns true only if a patch of the length `cells` in cells certainly bears the stretch
+    /// `stretch` in m (at least zero), whatever the rounding. This bound and the next two save
+    /// evaluations of the rule.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
         stretch <= self.sure_stretch(cells)
     }
 
-    /// Returns false if a patch of this length in cells bears no stretch of this size in m,
-    /// whatever the rounding.
+    /// Returns false only if a patch of the length `cells` in cells certainly does not bear the
+    /// stretch `stretch` in m, whatever the rounding.
     #[inline]
     fn may_bear(&self, stretch: f64, cells: f64) -> bool {
         stretch < self.largest_stretch(cells) * (1.0 + ROUNDING)
     }
 
-    /// Returns a stretch in m that a patch of this length in cells bears, whatever the rounding.
+    /// Returns a stretch in m that a patch of the length `cells` in cells certainly bears, whatever
+    /// the rounding.
     #[inline]
     fn sure_stretch(&self, cells: f64) -> f64 {
         self.largest_stretch(cells) * (1.0 - ROUNDING)
     }
 
-    /// Returns the length in cells from which on φ rises with the level, for a growth of the length
-    /// in cells per metre. There slope × growth is 1.
+    /// Returns the smallest length in cells at which φ rises with the level. `growth` is the growth
+    /// of the length in cells per metre. At the returned length, slope × growth is 1.
     fn turning_length(&self, growth: f64) -> f64 {
         let rises = |cells: f64| self.slope(cells) * growth <= 1.0;
         let mut high = 1.0;
@@ -110,21 +118,22 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         0.0
     }
 
-    /// Returns true if the edges of a patch move with the indentation on a span with this growth in
-    /// cells per metre.
+    /// Returns true if the edges of a patch move with the indentation on a span. `growth` is the
+    /// growth of the length in cells per metre.
     #[inline]
     fn slides(&self, growth: f64) -> bool {
         growth > 0.0 && !self.bears_no_stretch()
     }
 
     /// Returns the height in m above the largest gap at which free edges are in equilibrium.
-    /// `above` is the indentation minus the largest gap in m. A height beyond the levels of the
-    /// span means the nearest of them.
+    /// `above` is the indentation minus the largest gap in m. If the returned height is outside the
+    /// levels of the span, the edges lie at the nearest level of the span.
     fn free_rise(&self, levels: &Levels, above: f64) -> f64 {
         if levels.growth <= 0.0 {
             return above + self.largest_stretch(levels.length);
         }
-        // φ minus the indentation. It falls up to the turning length, where no patch rests.
+        // `excess` is φ minus the indentation. φ falls up to the turning length, where no patch is
+        // stable.
         let excess = |rise: f64| (rise - above) - self.largest_stretch(levels.length_at(rise));
         let turning = (self.turning_length(levels.growth) - levels.length) / levels.growth;
         let lowest = turning.max(0.0);
@@ -138,33 +147,35 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         crossing(lowest, highest, excess)
     }
 
-    /// Returns the derivative of the compression of a patch with free edges with respect to the
-    /// indentation, in cells. `above` is the indentation minus the largest gap, and `rise` the
-    /// height of the edges above it, both in m.
+    /// Returns the derivative, in cells, of the compression of a patch with free edges with respect
+    /// to the indentation. `above` is the indentation minus the largest gap, and `rise` the height
+    /// of the edges above the largest gap, both in m.
     ///
-    /// The level t follows the indentation d by dt/dd = 1/(1 − Δl′ growth), and each edge that
-    /// advances attaches springs with the stretch Δl.
+    /// The level t changes with the indentation d by dt/dd = 1/(1 − Δl′ growth), and each edge that
+    /// moves attaches springs with the stretch Δl.
     fn stiffness(&self, levels: &Levels, _above: f64, rise: f64) -> f64 {
         let length = levels.length_at(rise);
         let steepness = self.slope(length) * levels.growth;
         if steepness >= 1.0 {
-            // The edges of a patch that is about to detach recede without bound.
+            // When a patch is about to detach, its edges recede infinitely fast.
             return f64::NEG_INFINITY;
         }
         length - levels.growth * self.largest_stretch(length) / (1.0 - steepness)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² from zero length to a length in cells.
+    /// Computes ∫ Δl² dℓ in cells times m² from zero length to the length `cells` in cells.
     fn squares_up_to(&self, cells: f64) -> f64 {
         self.squares_between(cells, cells)
     }
 
-    /// Computes ∫ Δl² dℓ in cells times m² between two lengths in cells, which have this difference
-    /// and this sum. A small difference then keeps its digits.
+    /// Computes ∫ Δl² dℓ in cells times m² between two lengths. The arguments are the difference
+    /// and the sum of the two lengths in cells, so that a small difference is as accurate as
+    /// possible.
     fn squares_between(&self, difference: f64, sum: f64) -> f64 {
         let shorter = 0.5 * (sum - difference);
         let mut integral = 0.0;
-        // ℓ = shorter + difference sin⁴ θ, since at zero length Δl may have no derivative.
+        // The substitution ℓ = shorter + difference sin⁴ θ keeps the integral accurate although Δl
+        // may have no derivative at zero length.
         for (angle, weight) in gauss_nodes_on_quarter_circle::<NODES>() {
             let (sine, cosine) = angle.sin_cos();
             let stretch = self.largest_stretch(shorter + difference * sine.powi(4));
@@ -173,8 +184,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         difference * integral
     }
 
-    /// Computes Σ Δl(n)² in m² over patches of n springs, from n = `first` to n = `last`; zero if
-    /// `last` is smaller.
+    /// Computes Σ Δl(n)² in m² over patches of n springs, from n = `first` to n = `last`. The sum
+    /// is zero if `last` is smaller than `first`.
     fn squares_of_patches(&self, first: f64, last: f64) -> f64 {
         let mut sum = 0.0;
         let mut springs = first;
@@ -187,8 +198,9 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
     }
 }
 
-/// Two rules of one kind: springs attach by one and detach by the other, which bears at least the
-/// same stretch. Between both limits the edges of a patch do not move.
+/// Two rules of the same kind: one for attachment (`closing`) and one for detachment (`opening`).
+/// The rule for detachment allows at least the same stretch. At stretches between the two limits
+/// the edges of a patch do not move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<R> {
     closing: R,
@@ -196,8 +208,8 @@ pub struct Rules<R> {
 }
 
 impl<R: DetachmentRule> Rules<R> {
-    /// Returns the rule for a direction: on unloading the stretch before a spring detaches, on
-    /// loading the stretch with which it attaches.
+    /// Returns the rule for a direction. On unloading it limits the stretch before a spring
+    /// detaches, and on loading the stretch with which a spring attaches.
     pub fn rule(&self, direction: Direction) -> R {
         match direction {
             Direction::Loading => self.closing,

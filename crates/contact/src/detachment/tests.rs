@@ -1,5 +1,6 @@
-//! The exact solver with rules that state no closed root: a power of the length against blind
-//! relaxation of the rules, and the searches against the closed roots of the rule of Hess.
+//! Tests of the exact solver with rules that have no closed-form results. A power of the length is
+//! compared with a plain relaxation by the rules, and the searches are compared with the
+//! closed-form results of the rule of Hess.
 
 use super::*;
 use crate::adhesive::Runs;
@@ -13,7 +14,7 @@ use crate::history::Patch;
 use crate::interval::Intervals;
 use proptest::prelude::*;
 
-/// Δl = s ℓ^p. Only the largest stretch and its slope are stated.
+/// A rule Δl = s ℓ^p that states only the largest stretch and its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PowerRule {
     stretch: f64,
@@ -30,7 +31,7 @@ impl DetachmentRule for PowerRule {
     }
 }
 
-/// The rule of Hess without its closed roots.
+/// The rule of Hess without its closed-form results.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SearchedHess(HessRule);
 
@@ -44,7 +45,8 @@ impl DetachmentRule for SearchedHess {
     }
 }
 
-/// A motion of a body on a profile, with its runs.
+/// A motion of a body on a profile, with its runs. A run is a patch over a range of indentations in
+/// which its edges do not jump.
 struct Leg<'a, const SLIDES: bool, R> {
     ground: Ground<'a, SLIDES, R>,
     runs: Vec<Run>,
@@ -121,7 +123,7 @@ impl Line {
     }
 }
 
-/// The rules of whole springs, swept blindly over all of them.
+/// The rules of whole springs, applied in plain sweeps over all springs.
 struct Relaxed<'a> {
     gaps: &'a [f64],
     holds: Vec<bool>,
@@ -173,10 +175,10 @@ impl Relaxed<'_> {
     }
 }
 
-/// Levels, in m, along which a patch is moved step by step.
+/// Step of the level, in m, by which a patch is moved.
 const STEP: f64 = 1e-4;
 
-/// A part of a straight profile between springs, below one level.
+/// A part of the profile that lies below one level. The profile is straight between springs.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     first: usize,
@@ -184,13 +186,13 @@ struct Part {
     level: f64,
 }
 
-/// The profile that is straight between springs, with patches moved step by step along levels.
+/// A profile that is straight between springs. Its patches are moved along levels by small steps.
 struct Stepped<'a> {
     gaps: &'a [f64],
 }
 
 impl Stepped<'_> {
-    /// Returns the parts of the springs `first..=last` below a level.
+    /// Returns the parts of the profile that lie below a level, among the springs `first..=last`.
     fn parts(&self, first: usize, last: usize, level: f64) -> Vec<Part> {
         let is_below = self.gaps[first..=last].iter().map(|&gap| gap <= level);
         let patches = Patch::of_springs(is_below);
@@ -219,7 +221,7 @@ impl Stepped<'_> {
         part.level - rule.largest_stretch(self.length(part))
     }
 
-    /// Returns the length in contact at an indentation of a loading from separation.
+    /// Returns the parts in contact at an indentation of a loading from separation.
     fn pressed(&self, rule: PowerRule, indentation: f64) -> Vec<Part> {
         let mut whole: Vec<Part> = Vec::new();
         let last_spring = self.gaps.len() - 1;
@@ -235,7 +237,7 @@ impl Stepped<'_> {
                 }
                 grown = next;
             }
-            // A patch within a larger one is the larger one.
+            // If a patch lies inside a larger one, both are the same patch.
             let is_within =
                 |inner: &Part, outer: &Part| outer.first <= inner.first && inner.last <= outer.last;
             if !whole.iter().any(|other| is_within(&grown, other)) {
@@ -246,7 +248,8 @@ impl Stepped<'_> {
         whole
     }
 
-    /// Returns the parts of held patches at an indentation of an unloading.
+    /// Returns the parts that are still in contact at an indentation of an unloading. `held` are
+    /// the patches at its beginning.
     fn pulled(&self, rule: PowerRule, indentation: f64, held: &[Part]) -> Vec<Part> {
         let mut waiting = held.to_vec();
         let mut patches = Vec::new();
@@ -279,7 +282,7 @@ fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-/// Gaps whose neighbours differ enough for steps of the level.
+/// Gaps that differ so much from each other that steps of the level find each of them.
 fn distinct_gaps() -> impl Strategy<Value = Vec<f64>> {
     let order = Just((0..9_usize).collect::<Vec<usize>>()).prop_shuffle();
     (order, prop::collection::vec(0.0..0.06_f64, 9)).prop_map(|(order, shifts)| {
@@ -311,7 +314,7 @@ fn hess(stretch: f64) -> HessRule {
 proptest! {
     #![proptest_config(cases(150))]
 
-    /// Whole springs, along a history of six motions.
+    /// Whole springs, on a loading history of six motions.
     #[test]
     fn a_power_of_the_length_agrees_with_blind_relaxation(
         gaps in gaps(40), rule in power_rules(), more in 1.0..2.0_f64,
@@ -342,7 +345,8 @@ proptest! {
         }
     }
 
-    /// The smallest force of an unloading is found between the points of any grid.
+    /// The search finds the smallest force of an unloading also between the points of a coarse
+    /// grid.
     #[test]
     fn a_power_of_the_length_has_exact_extremes(gaps in distinct_gaps(), rule in power_rules()) {
         let line = Line::new(&gaps, Edges::SubCell);
@@ -363,7 +367,7 @@ proptest! {
         prop_assert!((best.compression - there.compression).abs() <= 1e-9);
     }
 
-    /// Searched roots of the rule of Hess are its closed roots.
+    /// For the rule of Hess, searches find the same values as the closed-form results.
     #[test]
     fn searched_roots_are_the_closed_ones(
         stretch in 0.01..3.0_f64, gap in 0.0..1.0_f64, length in 0.1..40.0_f64, growth in 0.01..30.0_f64,
@@ -375,13 +379,14 @@ proptest! {
         let turning = closed.turning_length(growth);
         let is_near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * (1.0 + expected.abs());
         prop_assert!(is_near(searched.turning_length(growth), turning));
-        // A level at which the patch rests.
+        // A level at which the patch is stable.
         let lowest = ((turning - length) / growth).max(0.0);
         prop_assume!(lowest < height);
         let rise = lowest + share * (height - lowest);
         let above = rise - closed.largest_stretch(levels.length_at(rise));
         let found = [closed.free_rise(&levels, above), searched.free_rise(&levels, above)];
-        // Near the turning length the root is only as exact as a square root.
+        // Near the turning length, a rounding of the values changes the root by about the square
+        // root of this rounding.
         let tolerance = 1e-6;
         prop_assert!((found[0] - rise).abs() <= tolerance && (found[1] - rise).abs() <= tolerance);
         if share > 0.01 {
@@ -397,7 +402,8 @@ proptest! {
         prop_assert_eq!(searched.squares_of_patches(4.0, 3.0), 0.0);
     }
 
-    /// All of the solver, with searched roots and with closed ones.
+    /// The whole solver finds the same contact and the same energy with searches and with
+    /// closed-form results.
     #[test]
     fn the_solver_finds_the_same_with_searched_roots(gaps in gaps(30), stretch in 0.01..0.6_f64, turn in 0.0..1.2_f64) {
         let closed = hess(stretch);
@@ -423,7 +429,8 @@ proptest! {
 proptest! {
     #![proptest_config(cases(30))]
 
-    /// Edges between springs, whose length lies between the lengths of neighbouring indentations.
+    /// With edges between springs, the contact length at an indentation lies between the stepped
+    /// lengths at slightly smaller and slightly larger indentations.
     #[test]
     fn a_power_of_the_length_agrees_with_steps_of_the_level(
         gaps in distinct_gaps(), rule in power_rules(), more in prop_oneof![Just(1.0), 1.0..2.0_f64],
@@ -435,7 +442,7 @@ proptest! {
         let opening = PowerRule { stretch: rule.stretch * more, ..rule };
         let held = loading.held(turn, more > 1.0);
         let unloading: Leg<'_, true, _> = line.unloading(opening, &held, turn);
-        // A step of the level moves each edge by a part of a cell.
+        // A step of the level moves each edge by less than a cell.
         let slack = 20.0 * gaps.len() as f64 * STEP;
         let near = 3.0 * STEP;
         let is_between = |length: f64, less: &[Part], more: &[Part]| {
@@ -458,7 +465,7 @@ proptest! {
     }
 
     /// The stored energy is the sum of the work done on the body and of the energy that springs
-    /// gain as they attach. The energy released on unloading is not recovered as work.
+    /// gain when they attach. The energy released on unloading is not recovered as work.
     #[test]
     fn a_power_of_the_length_keeps_the_energy(gaps in distinct_gaps(), rule in power_rules()) {
         let line = Line::new(&gaps, Edges::SubCell);
@@ -483,7 +490,7 @@ proptest! {
     }
 }
 
-/// A span of one rule has edges that follow the indentation as the derivative states.
+/// The stated stiffness of the edge cells is the derivative of their compression.
 #[test]
 fn stiffness_is_the_derivative_of_the_compression() {
     let rule = PowerRule {

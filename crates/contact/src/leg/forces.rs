@@ -1,10 +1,11 @@
-//! Forces and energies of a leg: along a grid of indentations, at their extremes, and where a force
-//! is reached.
+//! Forces and energies of a leg: on a grid of indentations, at the extremes of the force, and at
+//! the indentation at which the force reaches a value.
 //!
-//! At an event springs attach or detach in a jump. There the force falls or remains the same as d
-//! grows; between two events it is convex. The contact at two indentations bounds the force between
-//! them. Springs that attach there are stretched, or they just touch and are then compressed by at
-//! most the width of the interval. Only intervals whose bounds allow the sought force are searched.
+//! At an event springs attach or detach in a jump. The force does not rise in such a jump while d
+//! grows; between two events the force is convex. The contact at two indentations therefore gives
+//! bounds of the force between them: springs that attach in between are either stretched, or just
+//! touch and are then compressed by at most the difference of the two indentations. A search
+//! examines only those intervals whose bounds allow the sought force.
 
 use super::{Leg, Patches};
 use crate::adhesive::levels::Edges;
@@ -17,14 +18,14 @@ use crate::thresholds::Thresholds;
 use asperity_data::CompensatedSum;
 
 /// Number of intervals of the grid on which extremes are searched. Each patch is evaluated at each
-/// grid point.
+/// point of the grid.
 pub(crate) const SEARCH_INTERVALS: usize = 256;
-/// Number of intervals whose events are listed together.
+/// Number of intervals whose events are listed at the same time.
 const AT_ONCE: usize = 16;
 /// Distance, in grid points, between the points that are evaluated first.
 const STRIDE: usize = 16;
 
-/// Ends of a motion at which the body is separated.
+/// States whether the body is separated at the beginning and at the end of a motion.
 #[derive(Clone, Copy)]
 pub(crate) struct SeparatedEnds {
     pub at_begin: bool,
@@ -50,19 +51,18 @@ impl Leg {
             .collect())
     }
 
-    /// Returns the energy in J that springs release on the part of this leg with indentations above
-    /// `low` and up to `high` in m.
-    /// [`LegRecord::released_energy`](crate::history::LegRecord::released_energy) defines this
-    /// energy.
+    /// Returns the energy in J that springs release on this leg at indentations above `low` and up
+    /// to `high` in m. [`LegRecord::released_energy`](crate::history::LegRecord::released_energy)
+    /// defines this energy.
     pub fn released_energy(&self, low: f64, high: f64) -> f64 {
         self.energy(self.squared_stretch(low, high))
     }
 
-    /// Returns the energy in J that this leg releases, for a sum of the squared stretches of
-    /// springs in m².
+    /// Converts a sum of the squared stretches of springs in m² to the energy in J that this leg
+    /// releases.
     pub(crate) fn energy(&self, squared_stretch: f64) -> f64 {
         let energy = 0.5 * self.contact.foundation.spring_stiffness() * squared_stretch;
-        // Not −0 where nothing attaches with a stretch.
+        // 0.0 − energy instead of −energy, so that an energy of zero is not −0.
         if self.direction == Direction::Loading {
             0.0 - energy
         } else {
@@ -74,8 +74,9 @@ impl Leg {
         Ok(self.sample(Grid::at(vec![indentation]))?[0])
     }
 
-    /// Returns the leg with the instrument as springs parallel to the contact. The force of both is
-    /// k D where D = d + F/k. A rigid instrument, whose displacement is the indentation, adds none.
+    /// Returns the leg together with the instrument, which counts as springs parallel to the
+    /// contact. Their common force is k D with D = d + F/k. If the instrument is rigid, its
+    /// displacement is the indentation, and no springs are added.
     fn with_instrument(&self) -> Self {
         let springs = self.contact.loading_stiffness / self.contact.foundation.spring_stiffness();
         Leg {
@@ -85,7 +86,7 @@ impl Leg {
     }
 
     /// Finds the indentation in m at which a motion from the indentation `from` (m) reaches its
-    /// goal. The returned goal is the separation if the contact is lost on the way.
+    /// goal. If the contact is lost before, the returned goal is the separation.
     pub(crate) fn reach(
         &self,
         goal: Goal,
@@ -110,8 +111,8 @@ impl Leg {
         Ok((end, goal))
     }
 
-    /// Returns the contact of a sampled unloading at which the displacement of the instrument is
-    /// smallest.
+    /// Returns the contact at which the displacement of the instrument is smallest, on a sampled
+    /// unloading.
     pub(crate) fn least_displaced(
         &self,
         sampled: &[ContactState],
@@ -122,7 +123,7 @@ impl Leg {
         self.state(leg.extreme(Extreme::Smallest, &sampled, work).indentation)
     }
 
-    /// Adds the instrument of this leg to the states of the contact.
+    /// Adds the springs that represent the instrument to the states of the contact.
     fn beside_instrument(&self, sampled: &[ContactState]) -> Vec<ContactState> {
         let states = sampled.iter();
         states.map(|state| state.beside(self.instrument)).collect()
@@ -130,7 +131,7 @@ impl Leg {
 
     /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of
     /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps. `extreme` is the extreme compression
-    /// of contact and instrument so far, `None` at the beginning of a motion.
+    /// so far, of contact and instrument together; `None` at the beginning of a motion.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],
@@ -168,7 +169,8 @@ impl Leg {
                 }
             }
         }
-        // The last loss of contact ends where nothing deflects the instrument.
+        // After the contact is lost, the instrument relaxes until no force deflects it. The energy
+        // of this last jump also counts.
         if separated.at_end {
             let free = low.indentation - reached / leg.instrument;
             area.add(0.5 * leg.instrument * free.max(0.0) * free);
@@ -177,8 +179,8 @@ impl Leg {
         self.contact.foundation.spring_stiffness() * area.total()
     }
 
-    /// Finds the indentation in m at which the force is `force` in N: the first one of a loading
-    /// from `from` on, or the last one of an unloading up to `from`.
+    /// Finds the indentation in m at which the force is `force` in N. On loading it is the smallest
+    /// such indentation from `from` upwards, and on unloading the largest one up to `from`.
     fn reach_force(&self, force: f64, from: f64, work: &mut Work) -> Result<f64, ContactError> {
         let stiffness = self.contact.foundation.spring_stiffness();
         let wanted = force / stiffness;
@@ -195,8 +197,8 @@ impl Leg {
         })
     }
 
-    /// Finds the first indentation in m, from `from` on, at which the compression of a loading is
-    /// `wanted` in m.
+    /// Finds the smallest indentation in m, at least `from`, at which the compression of a loading
+    /// is `wanted` in m.
     fn reach_on_loading(
         &self,
         wanted: f64,
@@ -208,8 +210,8 @@ impl Leg {
         if let Some(indentation) = self.first_at_least(&grid, wanted, work)? {
             return Ok(indentation);
         }
-        // Beyond full contact the force rises with all springs; a second step removes the rounding
-        // of the first.
+        // In full contact the force is linear in the indentation, so one step reaches the wanted
+        // force. A second step removes the rounding of the first.
         let mut indentation = complete;
         for _ in 0..2 {
             let full = self.state(indentation)?;
@@ -222,8 +224,8 @@ impl Leg {
         Ok(indentation)
     }
 
-    /// Computes the contact of this leg, beside the instrument in searches, at the points of a
-    /// grid.
+    /// Computes the contact of this leg at the points of a grid. In searches, the result includes
+    /// the springs that represent the instrument.
     pub(crate) fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut sampled = match &self.patches {
             Patches::Springs(thresholds) => Thresholds::new(&self.contact, thresholds).sample(grid),
@@ -237,11 +239,11 @@ impl Leg {
         Ok(sampled)
     }
 
-    /// Computes ∫ (c − θ)² dx in cells times m² over the parts of the profile that attach or detach
-    /// at an indentation θ above `low` and up to `high` (m).
+    /// Computes ∫ (c − θ)² dx in cells times m² over all parts of the profile, with the gap c, that
+    /// attach or detach at an indentation θ above `low` and up to `high` (m).
     pub(crate) fn squared_stretch(&self, low: f64, high: f64) -> f64 {
         match &self.patches {
-            // No spring is stretched.
+            // Without adhesion no spring is stretched.
             Patches::Springs(_) => 0.0,
             Patches::Runs(tree, runs) => {
                 along_runs!(self, tree, runs, along => along.squared_stretch(low, high))
@@ -249,7 +251,8 @@ impl Leg {
         }
     }
 
-    /// Returns the intervals between these ascending ends, with the events inside each.
+    /// Returns the intervals between these ends, which are in ascending order, with the events
+    /// inside each interval.
     fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval<ContactRule>> {
         if ends.is_empty() {
             return Vec::new();
@@ -277,7 +280,7 @@ impl Leg {
         work: &mut Work,
     ) -> ContactState {
         let mut best = extreme.among(leg);
-        // Without adhesion the force never falls.
+        // Without adhesion the force never falls, so an extreme lies at one of the points.
         if self.contact.has_adhesion() {
             let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
             for interval in &self.events(&chosen, work) {
@@ -287,9 +290,9 @@ impl Leg {
         best
     }
 
-    /// Finds the contact of the smallest force of an unloading between the ends of a grid. Points
-    /// of the grid are evaluated only between neighbours of a coarser grid whose bounds allow a
-    /// smaller force.
+    /// Finds the contact of the smallest force of an unloading between the ends of a grid. The
+    /// search first evaluates a coarser grid. It evaluates the other points of `grid` only where
+    /// the bounds of the force allow a smaller force.
     pub(crate) fn smallest(
         &self,
         grid: &Grid,
@@ -304,14 +307,14 @@ impl Leg {
     }
 
     /// Finds the smallest indentation in m, between the ends of a grid, at which the compression is
-    /// at least `wanted` in m.
+    /// at least `wanted` in m. Returns `None` if there is none.
     fn first_at_least(
         &self,
         grid: &Grid,
         wanted: f64,
         work: &mut Work,
     ) -> Result<Option<f64>, ContactError> {
-        // Nothing is sought after the first point with that compression.
+        // Intervals above the first point that has the wanted compression need no search.
         let may_lie = |first: Option<f64>, low: &ContactState, high: &ContactState| {
             high.indentation <= first.unwrap_or(f64::INFINITY) && upper_bound(low, high) >= wanted
         };
@@ -330,8 +333,8 @@ impl Leg {
         Ok(first)
     }
 
-    /// Evaluates a finer grid where needed. It adds to the sampled points `coarse` the points of
-    /// `grid` between two neighbours for which `may_lie` is true.
+    /// Adds the points of `grid` that lie between two neighbouring points of `coarse`, if `may_lie`
+    /// is true for these neighbours.
     fn refined(
         &self,
         grid: &Grid,
@@ -354,7 +357,7 @@ impl Leg {
     }
 
     /// Finds the largest indentation in m, between the ends of a sampled leg, at which the
-    /// compression is at most `wanted` in m.
+    /// compression is at most `wanted` in m. Returns `None` if there is none.
     fn last_at_most(&self, leg: &[ContactState], wanted: f64, work: &mut Work) -> Option<f64> {
         let last = leg.iter().rfind(|state| state.compression <= wanted);
         let last = last.map(|state| state.indentation);
@@ -371,7 +374,7 @@ impl Leg {
 }
 
 /// Returns the smallest indentation in m among the points of a sampled leg at which the compression
-/// is at least `wanted` in m.
+/// is at least `wanted` in m. Returns `None` if no point has this compression.
 fn first_point_at_least(leg: &[ContactState], wanted: f64) -> Option<f64> {
     let first = leg.iter().find(|state| state.compression >= wanted)?;
     Some(first.indentation)

@@ -13,8 +13,8 @@ use super::history::{Direction, Patch, Work};
 use super::totals::ContactTotals;
 use std::sync::Arc;
 
-/// A motion of a contact in one direction: the springs in contact, the force and the energy at each
-/// indentation.
+/// A motion of a contact in one direction. It gives the springs in contact, the force and the
+/// energy at each indentation.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Profile};
@@ -39,24 +39,24 @@ pub struct Leg {
     direction: Direction,
     patches: Patches,
     end: f64,
-    /// The instrument as a number of springs parallel to the contact, in searches; see
-    /// [`ContactState::beside`].
+    /// Number of springs parallel to the contact that represent the instrument in searches;
+    /// otherwise zero. See [`ContactState::beside`].
     instrument: f64,
-    /// Number of evaluations of the rule of Hess in the search of the patches.
+    /// Number of evaluations of the rule of Hess that were needed to find the patches.
     pub(super) evaluations: u64,
 }
 
 #[derive(Clone, Debug)]
 enum Patches {
-    /// Indentation in m from which each spring is in contact: without adhesion its gap. Empty where
-    /// nothing touches.
+    /// Smallest indentation in m at which each spring is in contact; without adhesion it is the gap
+    /// of the spring. Empty if nothing touches.
     Springs(Arc<Vec<f64>>),
-    /// Patches of an adhesive contact as runs: each patch over the indentations in which its edges
-    /// do not jump.
+    /// Patches of an adhesive contact as runs. A run is a patch over a range of indentations in
+    /// which its edges do not jump.
     Runs(Arc<ContactTree>, Arc<Vec<Run>>),
 }
 
-/// State of one contact patch at one indentation: its place, length, force and stretch.
+/// State of one contact patch at one indentation: its position, length, force and stretch.
 ///
 /// ```
 /// use asperity_contact::{Contact, Modulus, Move, Profile};
@@ -85,26 +85,27 @@ pub struct PatchState {
     /// Largest stretch Δl_max in m that a patch of this length bears, eq. (10) of Popov and
     /// Filippov (2012).
     pub largest_stretch: f64,
-    /// Largest stretch in the patch in m. With [`Edges::SubCell`] this is the stretch at its edges,
-    /// and with [`Edges::Grid`] the stretch of its most stretched spring.
+    /// Largest stretch in the patch in m. With [`Edges::SubCell`] it is the stretch at the edges of
+    /// the patch, and with [`Edges::Grid`] the stretch of the most stretched spring.
     pub most_stretched: f64,
 }
 
-/// A patch, and the height in m of its edges above its largest gap if they are pinned.
+/// A patch. If its edges are pinned, `pin` is their height in m above the largest gap of the patch.
 #[derive(Clone, Copy)]
 struct PinnedPatch {
     springs: Patch,
     pin: Option<f64>,
 }
 
-/// Springs that attach (a positive number) or detach at an indentation in m.
+/// Number of springs that attach (positive) or detach (negative) at an indentation in m.
 #[derive(Clone, Copy)]
 struct Event {
     indentation: f64,
     springs: f64,
 }
 
-/// Evaluates an expression on the runs of a leg, with the edge model of its contact as a constant.
+/// Evaluates an expression with the runs of a leg. The edge model of the contact becomes a constant
+/// of the compiled code.
 macro_rules! along_runs {
     ($leg:expr, $tree:expr, $runs:expr, $along:ident => $value:expr) => {
         match $leg.contact.edges {
@@ -123,8 +124,8 @@ macro_rules! along_runs {
 pub(crate) mod forces;
 
 impl Leg {
-    /// Adds to the work counts the pass over the tree for this leg, and its evaluations of the rule
-    /// of Hess.
+    /// Adds the work for this leg to the work counts: the pass over the tree and the evaluations of
+    /// the rule of Hess.
     pub(super) fn count(&self, work: &mut Work) {
         let contact = self.contact();
         if contact.has_adhesion()
@@ -151,8 +152,9 @@ impl Leg {
         }
     }
 
-    /// Creates a leg on which each spring touches at its threshold in m (−∞ always, +∞ never). The
-    /// leg is known up to the indentation `end` in m.
+    /// Creates a leg on which each spring is in contact at indentations from its threshold in m
+    /// upwards: −∞ if it is always in contact, +∞ if never. The leg is known up to the indentation
+    /// `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
@@ -187,7 +189,8 @@ impl Leg {
         Leg::apart(contact, Direction::Loading).list(tree, &[], f64::NEG_INFINITY)
     }
 
-    /// Computes the leg in the opposite direction that begins at an indentation in m of this leg.
+    /// Computes the leg in the opposite direction that begins at the indentation `indentation` in m
+    /// of this leg.
     ///
     /// # Errors
     /// Returns [`ContactError::Stepwise`] for a leg of the
@@ -209,8 +212,8 @@ impl Leg {
         }
     }
 
-    /// Lists the runs of this leg. `held` are the patches in contact at the indentation `from` in
-    /// m, where the leg begins.
+    /// Lists the runs of this leg. `held` are the patches in contact where the leg begins, at the
+    /// indentation `from` in m.
     fn list(
         self,
         tree: &Arc<ContactTree>,
@@ -244,7 +247,8 @@ impl Leg {
         self.contact.has_adhesion() && !thresholds.is_empty()
     }
 
-    /// Returns an error for a leg of the stepwise solver, which is known only at its steps.
+    /// Returns an error if the leg belongs to the stepwise solver, because such a leg is known only
+    /// at its steps.
     pub(super) fn refuse_stepwise(&self) -> Result<(), ContactError> {
         if self.is_stepwise() {
             Err(ContactError::Stepwise)
@@ -263,15 +267,16 @@ impl Leg {
         self.direction
     }
 
-    /// Returns the indentation in m at which the leg ends. On loading it is the smallest
-    /// indentation with all springs in contact. On unloading it is the smallest indentation with
-    /// any spring in contact. A leg of the stepwise solver ends at the indentation reached so far.
+    /// Returns the indentation in m at which the leg ends:
+    ///
+    /// * on loading, the smallest indentation with all springs in contact;
+    /// * on unloading, the smallest indentation with any spring in contact;
+    /// * for a leg of the stepwise solver, the indentation that the solver has reached.
     pub fn end(&self) -> f64 {
         self.end
     }
 
-    /// Returns the number of bytes of memory that this leg takes, without the memory of its
-    /// contact.
+    /// Returns the number of bytes of memory that this leg uses, without the memory of its contact.
     pub fn bytes(&self) -> usize {
         match &self.patches {
             Patches::Springs(thresholds) if self.is_stepwise() => {
@@ -318,8 +323,8 @@ impl Leg {
         }
     }
 
-    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps by about
-    /// `least` (N) or more, in ascending order.
+    /// Returns the indentations above `low` and up to `high` (m) at which the force jumps, in
+    /// ascending order. Jumps smaller than about `least` (N) are left out.
     pub fn jumps(&self, low: f64, high: f64, least: f64) -> Vec<f64> {
         let Patches::Runs(_, runs) = &self.patches else {
             return Vec::new();
@@ -353,20 +358,21 @@ impl Leg {
         jumps
     }
 
-    /// Returns about the jump of the force in N at events of one indentation.
+    /// Estimates the jump of the force in N for events that happen at one indentation.
     fn jump_of(&self, events: &[Event]) -> f64 {
         let mut most: f64 = 0.0;
         for event in events {
             most = most.max(event.springs.abs());
         }
         let change: f64 = events.iter().map(|event| event.springs).sum();
-        // The springs that attach or detach are stretched by about Δl(n).
+        // The stretch of the springs that attach or detach is about Δl_max of the largest patch
+        // concerned.
         let stretch = self.rule().largest_stretch(most);
         self.contact.foundation.spring_stiffness() * stretch * change.abs()
     }
 
     /// Returns for each spring of the profile the smallest indentation in m at which the spring is
-    /// in contact. It is −∞ for a spring that is always in contact, and +∞ for one that never is.
+    /// in contact: −∞ if it is always in contact, and +∞ if never.
     pub fn thresholds(&self) -> Vec<f64> {
         match &self.patches {
             Patches::Springs(thresholds) if thresholds.is_empty() => {
@@ -377,8 +383,8 @@ impl Leg {
         }
     }
 
-    /// Computes the state of one patch at an indentation in m. `number` counts the patches from the
-    /// left, from 0. Returns `None` if the number is not below the number of patches.
+    /// Computes the state of one patch at an indentation in m. `number` is the index of the patch
+    /// from left to right, from 0. Returns `None` if there is no patch with this index.
     pub fn patch_state(&self, indentation: f64, number: usize) -> Option<PatchState> {
         self.pinned_patches(indentation)
             .get(number)
@@ -457,8 +463,8 @@ impl Leg {
         }
     }
 
-    /// Returns true if the edges of patches keep their places at first when the direction changes.
-    /// They do where the rules of loading and unloading differ and edges lie between springs.
+    /// Returns true if the edges of patches stay in place at first when the direction changes. They
+    /// do so if the rules of loading and unloading differ and edges lie between springs.
     fn pins(&self) -> bool {
         self.contact.edges == Edges::SubCell && !self.contact.rules().is_one()
     }
@@ -483,7 +489,7 @@ impl Leg {
     }
 }
 
-/// Returns the number of springs from the first to the last of `ends`.
+/// Returns the number of springs from the first to the last index of `ends`.
 fn springs_between(ends: [u32; 2]) -> f64 {
     let [first, last] = ends;
     f64::from(last - first + 1)

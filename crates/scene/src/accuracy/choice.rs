@@ -1,4 +1,4 @@
-//! The smallest number of springs that reaches a tolerance, with either edge model.
+//! Search for the smallest number of springs that reaches a tolerance, with either edge model.
 
 use super::estimate::{Estimate, Evidence, own_errors};
 use super::solution::{Runs, Solution, Target, allowed_points, is_spent, is_too_coarse, refined};
@@ -13,14 +13,14 @@ use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
-/// Edge models. At the same number of springs the first one is preferred.
+/// Edge models. If both need the same number of springs, the first one is chosen.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
-/// Largest number of springs that is tried, or four times the number that the modes of the scene
-/// need, if that is larger.
+/// Largest number of springs that is tried. If the modes of the scene need more than a quarter of
+/// this number, the limit is four times the needed number.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or
-/// `0.1 %`. Returns an error message unless the tolerance is above 0 and below 1.
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1
+/// %`. Returns an error message unless the tolerance is above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;
@@ -35,8 +35,8 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Number of springs and edge model ([`Edges`]) with which the error of a scene stays within a
-/// tolerance, as found by [`choose`].
+/// Number of springs and edge model ([`Edges`]) with which the error of a scene is within a
+/// tolerance. [`choose`] returns a value of this type.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Largest allowed relative error of the quantity `target`.
@@ -45,14 +45,14 @@ pub struct Choice {
     pub target: Target,
     /// Chosen number of springs N.
     pub points: u64,
-    /// Chosen edge model: the edge of a patch may lie between two springs, or a patch consists of
-    /// whole springs.
+    /// Chosen edge model: either the edge of a patch may lie between two springs, or a patch
+    /// consists of whole springs.
     pub edges: Edges,
     /// Relative error of `target` with the chosen settings: the true error if a closed form exists,
     /// otherwise an estimate.
     pub error: f64,
-    /// True if `error` is the difference from a closed form, which is an exact formula for the
-    /// adhesion force.
+    /// True if `error` is the difference from a closed form, an exact formula for the adhesion
+    /// force.
     pub closed_form: bool,
     /// Largest number of springs that [`choose`] tried.
     pub finest: u64,
@@ -128,12 +128,12 @@ pub enum ChoiceError {
     /// The caller stopped the search.
     #[error("the search for springs was stopped")]
     Stopped,
-    /// Not even the largest number of springs that was tried reaches the tolerance.
+    /// The error exceeds the tolerance even with the largest number of springs that was tried.
     #[error("{}", unreached(.tolerance, .best))]
     Unreached {
         /// Requested tolerance, a relative error.
         tolerance: f64,
-        /// Settings with the smallest error that was found; `None` if no error is known.
+        /// Settings with the smallest error; `None` if no error is known.
         best: Option<Box<Choice>>,
     },
 }
@@ -156,10 +156,10 @@ fn unreached(tolerance: &f64, best: &Option<Box<Choice>>) -> String {
 }
 
 /// Finds the smallest power of two as the number of springs, and the edge model ([`Edges`]), with
-/// which the relative error of a scene is at most `tolerance`. This is the error of the adhesion
-/// force or, for a scene without a tensile force, of the force curve ([`Target::Curve`]). Names of
+/// which the relative error of a scene is at most `tolerance`. The error refers to the adhesion
+/// force or, for a scene without a tensile force, to the force curve ([`Target::Curve`]). Names of
 /// measured files are relative to `folder`. `trying` receives each number of springs before it is
-/// tried. The search ends when `stop` returns true.
+/// tried. The search ends if `stop` returns true.
 ///
 /// # Errors
 /// Returns an error if the tolerance is not above 0 and below 1, if it is not reached, if the scene
@@ -188,9 +188,9 @@ pub fn choose(
     if scene.numerics.solver != Solver::Exact {
         return Err(ChoiceError::Stepwise);
     }
-    // The number of springs is doubled until the error stays within the tolerance over at least two
-    // further doublings. Without a closed form adhesion forces are also compared under half and
-    // twice the loads, and the estimated error of the finest solution is added.
+    // The number of springs is doubled until the error is within the tolerance and stays so for at
+    // least two further doublings. Without a closed form, adhesion forces are also compared at half
+    // and at twice the loads, and the estimated error of the finest solution is added.
     let most = allowed_points(scene)
         .next()
         .map_or(0, |fewest| MOST_TRIED.max(4 * fewest));
@@ -209,7 +209,8 @@ pub fn choose(
         };
         tried.push(solved);
         error_of_finest = None;
-        // The error of the finest solution takes two more solutions, so it is estimated last.
+        // To estimate the error of the finest solution takes two more solutions, so this is done
+        // last.
         if choice_within(&tried, 0.0, tolerance).is_none() {
             continue;
         }
@@ -232,9 +233,9 @@ pub fn choose(
     Err(ChoiceError::Unreached { tolerance, best })
 }
 
-/// Solves a scene with this number of springs and each edge model. Returns `None`, and the error in
-/// `refused`, if an edge model has no solution with so few springs, or if memory or time do not
-/// suffice.
+/// Solves a scene with `points` springs and each edge model. Returns `None` if an edge model has no
+/// solution with so few springs, or if the memory or the time is not sufficient. `refused` then
+/// gets the error.
 fn solve_with_both_edges(
     scene: &CheckedScene,
     points: u64,
@@ -253,15 +254,15 @@ fn solve_with_both_edges(
     Ok(solutions.try_into().ok())
 }
 
-/// Returns the choice among solutions, given the error of the finest one, if its error is within
-/// the tolerance.
+/// Returns the best choice among the solutions if its error is within the tolerance; otherwise
+/// `None`. `error_of_finest` is the error of the finest solution.
 fn choice_within(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Option<Choice> {
     judge(tried, error_of_finest, tolerance).filter(|choice| choice.error <= tolerance)
 }
 
-/// Estimates the relative error of the finest solution with edges between springs, under the loads
-/// of the scene and around them. The error is 0 if the scene has a closed form, and `None` if it is
-/// unknown.
+/// Estimates the relative error of the finest solution with edges between springs, at the loads of
+/// the scene and at half and twice these loads. Returns 0 if the scene has a closed form, and
+/// `None` if the error is unknown.
 fn estimated_error(
     scene: &CheckedScene,
     runs: &mut Runs<'_>,
@@ -274,15 +275,16 @@ fn estimated_error(
     own_errors(scene, finest, runs)?[Target::of(finest) as usize]
 }
 
-/// Returns the choice among solutions with both edge models, given the error of the finest one. If
-/// none reaches the tolerance, it is the best whose error is confirmed. Returns `None` for too few
-/// solutions.
+/// Returns the choice among the solutions with both edge models. `error_of_finest` is the error of
+/// the finest solution. If no choice reaches the tolerance, returns the choice with the smallest
+/// confirmed error. Returns `None` if there are too few solutions.
 fn judge(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Option<Choice> {
     let mut candidates = Vec::new();
     for index in 0..EDGES.len() {
         candidates.extend(candidate(tried, index, error_of_finest, tolerance));
     }
-    // The first of equal choices: edges between springs.
+    // If both edge models need the same number of springs, the first one is chosen, with edges
+    // between springs.
     let fewest = candidates
         .iter()
         .filter(|choice| choice.error <= tolerance)
@@ -293,7 +295,8 @@ fn judge(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Optio
     fewest.or(best).cloned()
 }
 
-/// Returns the choice among the solutions with the edge model at an index of [`EDGES`].
+/// Returns the choice among the solutions with one edge model, which has the index `index` in
+/// [`EDGES`].
 fn candidate(
     tried: &[[Solution; 2]],
     index: usize,
@@ -330,8 +333,8 @@ fn candidate(
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 N: first error, and order of convergence, for
-    /// each edge model.
+    /// Solutions whose adhesion force converges to 1 N. `edges` has the first error and the order
+    /// of convergence for each edge model.
     fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
         let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,
@@ -343,7 +346,7 @@ mod tests {
             .collect()
     }
 
-    /// Gives each solution a closed form of 1 N.
+    /// Adds to each solution a closed form with the adhesion force 1 N.
     fn known(solutions: Vec<[Solution; 2]>) -> Vec<[Solution; 2]> {
         let known = |solution| Solution {
             closed_form: Some(1.0),
@@ -379,17 +382,17 @@ mod tests {
         let choice = judge(&known(tried(5)), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
-        // With the error of the finest solution.
+        // Here the error of the finest solution is added.
         let choice = judge(&tried(6), 0.005, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
         assert!((0.006..0.01).contains(&choice.error), "{choice:?}");
         assert_eq!(judge(&tried(2), 0.0, 0.01), None);
-        // Edges at the springs only if fewer springs suffice.
+        // Whole springs are chosen only if they need fewer springs.
         let choice = judge(&known(solutions(5, [(0.1, 2), (0.1, 2)])), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         let choice = judge(&known(solutions(5, [(0.5, 1), (0.1, 2)])), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
-        // The best confirmed choice if none suffices.
+        // If no choice reaches the tolerance, the best confirmed choice is returned.
         let choice = judge(&known(tried(4)), 0.0, 1e-6).unwrap();
         assert_eq!((choice.points, choice.edges), (32, Edges::SubCell));
         assert!((choice.error - 0.025).abs() < 1e-12);

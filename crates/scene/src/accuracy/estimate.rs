@@ -9,28 +9,34 @@ use serde::Serialize;
 use std::array;
 use std::path::Path;
 
-/// Largest number of springs of a solution that is only needed for an estimate.
+/// Largest number of springs of a further solution that serves only for an estimate.
 const MOST_SPRINGS: u64 = 1 << 23;
-/// Number of springs above which the Fourier transform takes most of the time of a solution.
+/// Number of springs above which the Fourier transform takes most of the computing time.
 const MANY_SPRINGS: u64 = 1 << 16;
 /// Numbers of springs of the two further solutions, as fractions of the number of springs of the
-/// scene. The second pair is for scenes whose waves need more springs than the first pair gives.
+/// scene. The second pair is used if the waves of the scene need more springs than the first pair
+/// has.
 const OTHERS: [[Ratio; 2]; 2] = [[ratio(7, 8), ratio(2, 3)], [ratio(3, 2), ratio(2, 1)]];
 /// Ratio of the estimated error to the larger of the two differences from the further solutions.
 ///
-/// The further solutions have edges between springs. A solution with whole springs differs from
-/// them by its whole error, which is of first order in the spacing. Solutions with whole springs on
-/// several grids may agree by chance. An error that falls with the square of the spacing is smaller
-/// than its difference from the solution with 2/3 of the springs. On rough profiles errors change
-/// sign by chance. On random scenes at least 95 of 100 true errors are within the estimate, and the
-/// median of estimate over true error is at most ten (`tests/program/estimates.rs`).
+/// The further solutions always have edges between springs, for two reasons. First, solutions with
+/// whole springs on several grids may agree by chance. Second, if the scene itself has whole
+/// springs, its solution differs from the further solutions by its whole error, which is of first
+/// order in the spacing.
+///
+/// An error that falls with the square of the spacing is smaller than the difference from the
+/// solution with 2/3 of the springs. On rough profiles, however, errors change sign by chance. With
+/// this factor, on random scenes at least 95 of 100 true errors are within the estimate, and the
+/// median of the ratio of the estimate to the true error is at most ten
+/// (`tests/program/estimates.rs`).
 const FACTOR: f64 = 4.0;
-/// Relative difference of adhesion forces above which F_a(F_n) may have a step.
+/// Relative difference of two adhesion forces above which F_a(F_n), the adhesion force as a
+/// function of the preload, may have a step between them.
 const STEP: f64 = 0.05;
-/// Factors between the loads of a scene and loads near them.
+/// Factors by which the loads of a scene are multiplied, to find out whether a step is nearby.
 const NEAR: [f64; 2] = [0.95, 1.05];
 
-/// Ratio of two numbers of springs.
+/// Ratio between two numbers of springs.
 #[derive(Clone, Copy)]
 struct Ratio {
     numerator: u64,
@@ -101,17 +107,20 @@ pub enum Evidence {
     Solutions(Vec<u64>),
 }
 
-/// Estimates the relative error that the finite number of springs causes in the adhesion force of
-/// `outcome`, the result of `scene`. If the loading has no tensile force, the function estimates
-/// the error of the force curve. Names of measured files are relative to `folder`.
+/// Estimates the relative error that the finite number of springs causes in `outcome`, the result
+/// of `scene`. The error refers to the adhesion force or, if the loading has no tensile force, to
+/// the force curve. Names of measured files are relative to `folder`.
 ///
 /// If a closed form exists, the estimate is the true error. Otherwise it follows from two further
 /// solutions with other numbers of springs, and the true error exceeds it in about 5 of 100 cases.
 ///
-/// Returns `None` if there is neither an adhesion force nor a force curve, if `stop` returns true,
-/// or if one of the two further solutions fails. Also returns `None` if the contact reaches the
-/// ends of the profile of a curved body: more springs would not come nearer to the forces of this
-/// body.
+/// Returns `None` in these cases:
+///
+/// * there is neither an adhesion force nor a force curve;
+/// * `stop` returns true;
+/// * one of the two further solutions fails;
+/// * the contact reaches the ends of the profile of a curved body, because more springs would then
+///   not lead to the forces of this body.
 ///
 /// ```
 /// use asperity_contact::{Modulus, Move};
@@ -146,8 +155,8 @@ pub fn estimate(
             evidence: Evidence::ClosedForm,
         });
     }
-    // If one of the first two numbers of springs is too small for the shortest wave, the scene is
-    // solved with about 3/2 and about 2 times as many springs as it has.
+    // If a smaller number of springs is too small for the shortest wave, the further solutions have
+    // about 3/2 and about 2 times as many springs as the scene.
     let mut runs = Runs::new(folder, stop);
     let further = further_solutions(&target.only(scene).ok()?, &mut |scene| {
         runs.solve(scene).ok()
@@ -175,14 +184,16 @@ pub fn estimate(
     })
 }
 
-/// Returns the larger one of the relative differences of two solutions from each other.
+/// Returns the relative difference between two solutions. Each of them serves as the reference
+/// once, and the larger result counts.
 fn difference(target: Target, solution: &Solution, own: &Solution) -> Option<f64> {
     let from_own = target.difference(solution, own)?;
     Some(from_own.max(target.difference(own, solution)?))
 }
 
-/// Returns true if the adhesion force of a further solution differs by a step, which is absent
-/// under loads near those of the scene.
+/// Returns true if the adhesion force of a further solution differs because of a step of F_a(F_n).
+/// `step` is the relative difference. It is due to a step if it is much smaller at loads near the
+/// loads of the scene.
 fn is_near_step(
     scene: &CheckedScene,
     step: Option<f64>,
@@ -198,8 +209,8 @@ fn is_near_step(
     })
 }
 
-/// Returns the difference of the adhesion force of a scene with its loads multiplied by a factor.
-/// Returns `None` if this scene has no solution.
+/// Returns the relative difference of the adhesion force after all loads of the scene are
+/// multiplied by `factor`. Returns `None` if the scene with these loads has no solution.
 fn difference_under_load(
     scene: &CheckedScene,
     factor: f64,
@@ -210,8 +221,8 @@ fn difference_under_load(
     difference(Target::AdhesionForce, &solution, own)
 }
 
-/// Estimates the errors of a solution with edges between springs, under the loads of the scene and
-/// around them.
+/// Estimates the errors of a solution with edges between springs, at the loads of the scene and at
+/// half and twice these loads.
 pub(super) fn own_errors(
     scene: &CheckedScene,
     finest: &Solution,
@@ -232,8 +243,8 @@ struct Further {
     solution: Solution,
 }
 
-/// Solves a scene with two other numbers of springs and edges between springs. Returns `None` if
-/// they are not allowed or have no solution.
+/// Solves a scene with two other numbers of springs, and with edges between springs. Returns `None`
+/// if these numbers are not allowed or if there is no solution.
 fn further_solutions(
     scene: &CheckedScene,
     solve: &mut dyn FnMut(&CheckedScene) -> Option<Solution>,
@@ -256,8 +267,8 @@ fn further_solutions(
     None
 }
 
-/// Returns the scene with about this ratio of its number of springs, and edges between springs.
-/// Returns `None` if the number is not allowed.
+/// Returns the scene with edges between springs and with about `ratio` times as many springs.
+/// Returns `None` if this number of springs is not allowed.
 fn with_springs(scene: &CheckedScene, ratio: Ratio) -> Option<CheckedScene> {
     let own = scene.numerics.points;
     let points = apart_from(own.saturating_mul(ratio.numerator) / ratio.denominator);
@@ -268,13 +279,14 @@ fn with_springs(scene: &CheckedScene, ratio: Ratio) -> Option<CheckedScene> {
     refined(scene, points, Edges::SubCell).ok()
 }
 
-/// Returns the smallest number of springs, at least `least`, that suits a Fourier transform: it has
-/// no prime factor above 13. The number is odd. Where the transform takes most of the time, it is
-/// twice an odd number, because an odd one would double that time.
+/// Returns the smallest number of springs, at least `least`, with which a Fourier transform is
+/// fast. It has no prime factor above 13. For few springs the number is odd. For many springs it is
+/// twice an odd number, because the transform takes most of the time and would take twice as long
+/// with an odd number.
 ///
-/// The springs of an even and of an odd number never have the same positions, wherever the axis of
-/// a form is. A power of two and twice an odd number have two positions in common. So equal heights
-/// never result from the positions alone.
+/// The positions of the springs then hardly coincide with those of the scene, wherever the axis of
+/// a form is. An even and an odd number have no position in common, and a power of two and twice an
+/// odd number have two. Equal heights therefore never result from equal positions.
 fn apart_from(least: u64) -> u64 {
     let factor = if least < MANY_SPRINGS { 1 } else { 2 };
     let first_odd = least.div_ceil(factor) | 1;
@@ -386,10 +398,11 @@ mod tests {
             evidence(&[("numerics.points", "1025")]),
             solutions(&[1573, 2079])
         );
-        // Few odd numbers suit a transform: none between 27 and 33.
+        // Few odd numbers suit a transform; between 27 and 33 there is none.
         let few = [("roughness.modes", "(1, 4)"), ("numerics.points", "33")];
         assert_eq!(evidence(&few), solutions(&[49, 75]));
-        // Whole springs and the step of the stepwise solver are errors, too.
+        // The estimate also covers the errors of whole springs and of the steps of the stepwise
+        // solver.
         let few = [("roughness.modes", "(1, 64)"), ("numerics.edges", "Grid")];
         let on = |points, solver| {
             let numerics = [("numerics.points", points), ("numerics.solver", solver)];
@@ -408,7 +421,8 @@ mod tests {
                 "{solver}: {stated} for {error}"
             );
         }
-        // No tensile force: the curve; and nothing without a contact.
+        // Without a tensile force the error refers to the curve. Without a contact there is no
+        // estimate.
         let bare = with(
             "pressure-sensitive",
             &[("adhesion", "None"), ("numerics.points", "4096")],

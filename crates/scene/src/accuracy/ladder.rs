@@ -1,6 +1,6 @@
-//! Cost of accuracy of one scene: solutions from coarse to fine within a budget of time. Each step
-//! of this ladder has twice the springs of the step before, with both edge models, and half the
-//! step of the stepwise solver.
+//! Cost of accuracy of one scene: solutions from coarse to fine within a limited time. The
+//! solutions form a ladder. Each rung has twice as many springs as the rung before, with both edge
+//! models, and the stepwise solver has half the step.
 
 use super::estimate::own_errors;
 use super::solution::{
@@ -17,39 +17,40 @@ use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Least ratio of the time that is left to the time of the last rung before another rung begins.
-/// The next rung takes about twice as long, the error of the finest solution as long as the last
-/// rung. A busy machine takes longer.
+/// Smallest ratio of the remaining time to the time of the last rung for which another rung is
+/// begun. The next rung takes about twice the time of the last one, and the error estimate of the
+/// finest solution about the same time as the last one. The rest is a reserve for a busy machine.
 const LATER: f64 = 4.0;
-/// Number of points of a compared curve, over all loading stages. With so many points sampling
-/// hides no error of the springs.
+/// Number of points of a force curve that is compared, for all loading stages together. With so
+/// many points, the distance of the points does not affect the measured errors.
 const COMPARED_POINTS: u64 = 1 << 16;
-/// Largest number of points of a compared loading stage.
+/// Largest number of points of one loading stage in a compared force curve.
 const MOST_COMPARED: u64 = 4096;
-/// Relative error below which errors cannot be distinguished from rounding.
+/// Relative error below which an error cannot be distinguished from rounding.
 const ROUNDING: f64 = 1e-14;
-/// Number of springs for the stepwise solver, unless the scene needs more.
+/// Number of springs for the stepwise solver. It is larger if the scene needs more springs.
 const STEPWISE_SPRINGS: u64 = 256;
-/// Number of steps of the coarsest run over its range of indentations.
+/// Number of steps with which the coarsest solution of the stepwise solver passes the range of
+/// indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Largest number of runs that time one setting, and the time in s after which no further run
-/// begins.
+/// Largest number of computations that time one setting, and the time in s after which no further
+/// computation begins.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
-/// Number of points of the Fourier transform whose time is the unit of time.
+/// Number of points of the Fourier transform that serves as the unit of computing time.
 const TRANSFORM_POINTS: usize = 1 << 20;
 
-/// Progress of [`measure`], which measures errors and computing times of a scene and passes this to
-/// its argument `watch`.
+/// Progress of [`measure`], which measures errors and computing times of a scene. [`measure`]
+/// passes values of this type to its argument `watch`.
 pub enum Progress<'a> {
-    /// Setting that is varied next, with its next value as text, such as `512 springs`.
+    /// Setting that is tried next, with its value as text, such as `512 springs`.
     Trying(Knob, &'a str),
-    /// Table of the solutions so far. The errors in the table are relative to the finest of these
-    /// solutions.
+    /// Table of the solutions so far. The errors in the table are relative to the finest solution
+    /// so far.
     Rows(&'a CostTable),
 }
 
-/// Solutions of a scene from coarse to fine, within a budget of time.
+/// Solutions of a scene from coarse to fine, within a limited time.
 struct Ladder<'a> {
     scene: &'a CheckedScene,
     folder: &'a Path,
@@ -58,29 +59,29 @@ struct Ladder<'a> {
     table: CostTable,
 }
 
-/// Value of a setting, and the scene with it.
+/// One value of a setting, and the scene with this value.
 struct Setting {
     knob: Knob,
     value: f64,
     scene: CheckedScene,
 }
 
-/// Row without errors yet, which has setting and times, and its solution.
+/// One solution and its row of the table. The row has the setting and the times, but no errors yet.
 struct Rung {
     row: Row,
     solution: Solution,
 }
 
-/// Time of a measurement.
+/// Limits the time of a measurement.
 struct Clock<'a> {
     begun: Instant,
-    /// Time in s that the measurement may take.
+    /// Time in s that the whole measurement may take.
     budget: f64,
     stop: &'a dyn Fn() -> bool,
 }
 
 impl Clock<'_> {
-    /// Returns the time in s that is left; 0 if the measurement was stopped.
+    /// Returns the remaining time in s; 0 if the caller has stopped the measurement.
     fn left(&self) -> f64 {
         if (self.stop)() {
             0.0
@@ -90,14 +91,13 @@ impl Clock<'_> {
     }
 }
 
-/// Measures the errors of a scene and the times of its computation, with more and more springs and,
-/// for the stepwise [`Solver`], with smaller and smaller steps. The measurement ends when the time
-/// `budget` is spent. Names of measured files are relative to `folder`. `watch` receives each
-/// setting before it is tried, and the table so far.
+/// Measures the errors of a scene and the computing times, with more and more springs. For the
+/// stepwise [`Solver`] it also measures them with smaller and smaller steps. The measurement ends
+/// when the time `budget` is used up. Names of measured files are relative to `folder`. `watch`
+/// receives each setting before it is tried, and the table so far.
 ///
-/// # Errors
-/// Returns a message if the scene cannot be computed, if the budget is too small for two solutions,
-/// or if `stop` returned true.
+/// Returns an error message if the scene cannot be computed, if the budget is too small for two
+/// solutions, or if `stop` returned true.
 pub fn measure(
     scene: &CheckedScene,
     folder: &Path,
@@ -150,7 +150,7 @@ pub fn measure(
     ))
 }
 
-/// Returns the scene with as many curve points as a comparison of curves needs.
+/// Returns the scene with as many points of the force curve as a comparison of curves needs.
 fn compared(scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
     scene.with(|scene| scene.numerics.samples = compared_samples(scene))
 }
@@ -161,8 +161,8 @@ fn compared_samples(scene: &Scene) -> u64 {
 }
 
 impl Ladder<'_> {
-    /// Adds rungs while there is time. Returns the error with which too few springs were refused,
-    /// if there was one.
+    /// Adds rungs while there is time. If a scene was refused because it had too few springs,
+    /// returns this error.
     fn climb(
         &mut self,
         clock: &Clock<'_>,
@@ -172,7 +172,8 @@ impl Ladder<'_> {
         let mut last_seconds = 0.0;
         for points in allowed_points(self.scene) {
             let before = clock.left();
-            // The first two may take all of the time, so that a comparison is possible.
+            // The first two rungs may take all of the time, because a comparison needs two
+            // solutions.
             let needed = if self.finest().is_some() {
                 LATER * last_seconds
             } else {
@@ -210,15 +211,16 @@ impl Ladder<'_> {
         Ok(refused)
     }
 
-    /// Estimates the errors of the finest solution, if there are two solutions.
+    /// Estimates the errors of the finest solution. Returns `None` if there are fewer than two
+    /// solutions.
     fn own_errors(&self) -> Option<Errors> {
         let [finest, _] = self.finest()?;
         let mut runs = Runs::new(self.folder, self.is_over);
         own_errors(&compared(self.scene).ok()?, finest, &mut runs)
     }
 
-    /// Returns the settings with this number of springs. The step of the stepwise solver is halved
-    /// from rung to rung, once the exact reference solution is known.
+    /// Returns the settings of the rung with `points` springs. The step of the stepwise solver is
+    /// halved from rung to rung; this begins when the exact solution for comparison is known.
     fn settings(&self, points: u64) -> Vec<Setting> {
         let mut settings = Vec::new();
         for (knob, edges) in [
@@ -237,7 +239,8 @@ impl Ladder<'_> {
         settings
     }
 
-    /// Returns the next step of the stepwise solver; `None` without an exact solution.
+    /// Returns the next step of the stepwise solver. Returns `None` if the exact solution for
+    /// comparison is not known yet.
     fn next_step(&self) -> Option<Setting> {
         let exact = self.exact()?;
         let mut lowest = f64::INFINITY;
@@ -278,8 +281,9 @@ impl Ladder<'_> {
         Ok(Rung { row, solution })
     }
 
-    /// Measures the times of a few whole runs of a scene, at least one, in which nothing is reused.
-    /// Returns `None` if no time is left.
+    /// Measures the times of several complete computations of a scene, in which no earlier result
+    /// is used again. Returns `None` if not even one computation was possible in the remaining
+    /// time.
     fn time(&self, scene: &CheckedScene) -> Option<Timing> {
         let begun = Instant::now();
         let mut seconds = Vec::new();
@@ -299,23 +303,24 @@ impl Ladder<'_> {
         self.rungs.iter().filter(move |rung| rung.row.knob == knob)
     }
 
-    /// Returns the reference for steps: the exact solution with as many springs as the stepwise
-    /// solver has.
+    /// Returns the reference for the steps of the stepwise solver: the exact solution with the same
+    /// number of springs.
     fn exact(&self) -> Option<&Solution> {
         self.rungs_of(Knob::GridSprings)
             .map(|rung| &rung.solution)
             .find(|solution| solution.points >= STEPWISE_SPRINGS)
     }
 
-    /// Returns the two finest solutions with edges between springs, the finest first.
+    /// Returns the two finest solutions with edges between springs, the finest one first.
     fn finest(&self) -> Option<[&Solution; 2]> {
         let mut rungs = self.rungs_of(Knob::SubCellSprings).rev();
         Some([&rungs.next()?.solution, &rungs.next()?.solution])
     }
 
-    /// Computes the errors of all rows, relative to the finest solution or the closed form. Errors
-    /// of steps are relative to the exact solution. The error of the reference itself is `own`, or
-    /// twice the last differences. Returns false for fewer than two solutions.
+    /// Computes the errors of all rows. They are relative to the closed form or the finest
+    /// solution; the errors of steps are relative to the exact solution. `own` has the errors of
+    /// the reference itself. If it is `None`, twice the differences between the two finest
+    /// solutions are used instead. Returns false if there are fewer than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
         let Some([finest, last]) = self.finest() else {
             return false;
@@ -329,12 +334,14 @@ impl Ladder<'_> {
         if closed_form {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
-        // With few springs each of them is a jump, which is late by up to one distance of samples.
+        // With few springs, each of them causes a jump of the force, and the curve may show the
+        // jump late by one distance between its points.
         let mut errors_of_exact: Errors = [None; 4];
         errors_of_exact[Target::Curve as usize] = Some(1.0 / compared_samples(self.scene) as f64);
         let mut rows: Vec<Row> = Vec::new();
         for knob in Knob::ALL {
-            // The difference of the finest solution from itself is zero, which is not its error.
+            // The finest solution has no difference from itself, although its error is not zero.
+            // The estimated error of the reference is therefore a lower limit.
             let (reference, floors) = match (knob, self.exact()) {
                 (Knob::Step, Some(exact)) => (exact, errors_of_exact),
                 _ => (&reference, errors),
@@ -359,8 +366,8 @@ impl Ladder<'_> {
     }
 }
 
-/// Returns the errors of a setting where they exceed the errors of the reference, with orders of
-/// convergence relative to the row before.
+/// Returns the errors of a setting and their orders of convergence relative to the row before. An
+/// error that does not exceed the error of the reference is marked as not resolved.
 fn resolved(
     errors: Errors,
     floors: Errors,
@@ -392,22 +399,23 @@ fn resolved(
     figures
 }
 
-/// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) between two errors; the
-/// second solution is `ratio` times as fine. Returns `None` if the order has no meaning.
+/// Returns the observed order of convergence ln(coarse/fine)/ln(ratio) from two errors. The setting
+/// of the second error is `ratio` times as fine as the setting of the first. Returns `None` if the
+/// order is not a finite number.
 fn observed_order(coarse: f64, fine: f64, ratio: f64) -> Option<f64> {
     let order = (coarse / fine).ln() / ratio.ln();
     (coarse > 0.0 && fine > 0.0 && order.is_finite()).then_some(order)
 }
 
-/// Measures the shortest time in s of one real Fourier transform of 2^20 points, which is planned
-/// before.
+/// Measures the shortest time in s of one real Fourier transform of 2^20 points. The time to plan
+/// the transform does not count.
 fn time_of_transform() -> Option<f64> {
     let transform = plan_real_forward(TRANSFORM_POINTS);
     let mut points = transform.make_input_vec();
     let mut modes = transform.make_output_vec();
     let mut scratch = transform.make_scratch_vec();
     let mut shortest = None;
-    // The first run is not measured.
+    // The first transform is not timed.
     for run in 0..=MOST_RUNS {
         for (index, point) in points.iter_mut().enumerate() {
             *point = (index % 17) as f64;

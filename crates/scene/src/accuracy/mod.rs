@@ -1,13 +1,13 @@
-//! Errors of a scene, and the cost of smaller errors.
+//! Errors of a scene, and the computing time that smaller errors need.
 //!
-//! [`estimate()`](estimate::estimate) estimates the error of one outcome.
-//! [`choose()`](choice::choose) finds the number of springs for a tolerance.
-//! [`measure()`](ladder::measure) solves a scene from coarse to fine, with both edge models and
-//! with the stepwise solver, and compares errors with times.
+//! * [`estimate()`](estimate::estimate) estimates the error of one outcome.
+//! * [`choose()`](choice::choose) finds the number of springs for a tolerance.
+//! * [`measure()`](ladder::measure) solves a scene from coarse to fine, with both edge models and
+//!   with the stepwise solver, and compares errors with times.
 //!
-//! Errors are relative to a [`CostReference`](table::CostReference). It is the adhesion force in
-//! closed form if the scene has one, otherwise the finest solution with edges between springs,
-//! whose own error is estimated.
+//! Errors are relative to a [`CostReference`](table::CostReference). If the scene has a closed
+//! form, the reference is the adhesion force by this formula. Otherwise it is the finest solution
+//! with edges between springs, whose own error is estimated.
 
 pub(crate) mod choice;
 pub(crate) mod estimate;

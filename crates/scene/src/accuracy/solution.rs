@@ -14,22 +14,23 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 pub(super) const FEWEST: u64 = 16;
-/// Factors between the loads of a scene and the loads around them.
+/// Factors by which the loads of a scene are multiplied, to compare solutions at smaller and larger
+/// loads.
 const AROUND: [f64; 2] = [0.5, 2.0];
 
-/// Relative errors or differences of [`crate::accuracy::table::CostTable::QUANTITIES`], in that
-/// order; `None` for a missing quantity.
+/// Relative errors or differences of the [`crate::accuracy::table::CostTable::QUANTITIES`], in
+/// their order. `None` if a quantity is missing.
 pub(super) type Errors = [Option<f64>; 4];
 
-/// Forces, energy, contact length and force curve of one solution. A value of zero has no relative
-/// error and is left out.
+/// Forces, energy, contact length and force curve of one solution. A value of zero is stored as
+/// `None`, because it has no relative error.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Solution {
     pub points: u64,
     pub adhesion_force: Option<f64>,
     /// Adhesion force in closed form in N, if the scene has one.
     pub closed_form: Option<f64>,
-    /// Adhesion forces under half and twice the loads in N, where they were computed.
+    /// Adhesion forces in N at half and at twice the loads, if they were computed.
     pub around: Vec<Option<f64>>,
     pub dissipated_energy: Option<f64>,
     pub contact_length: Option<f64>,
@@ -50,8 +51,8 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference. An adhesion force in closed form replaces the computed
-    /// one.
+    /// Returns this solution as a reference. If it has an adhesion force in closed form, this force
+    /// replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         let mut reference = self.clone();
         if self.closed_form.is_some() {
@@ -61,9 +62,9 @@ impl Solution {
         reference
     }
 
-    /// Returns the relative differences from a reference. The difference of the adhesion force is
-    /// the largest over all loads that both have. An error that changes sign from load to load is
-    /// then not small by chance.
+    /// Returns the relative differences of this solution from a reference. For the adhesion force,
+    /// the largest difference at all loads counts at which both solutions have a force. An error
+    /// that changes its sign between two loads then does not seem small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
             self.error_of_adhesion_force(reference),
@@ -87,13 +88,14 @@ impl Solution {
     }
 }
 
-/// Returns a value of which a relative error exists.
+/// Returns the value if a relative error can refer to it, which means that it is finite and not
+/// zero.
 fn unless_zero(value: f64) -> Option<f64> {
     (value != 0.0 && value.is_finite()).then_some(value)
 }
 
-/// Returns the relative error of a value, which is zero if it is missing; `None` without a
-/// reference.
+/// Returns the relative error of a value. A missing value counts as zero. Returns `None` if the
+/// reference is missing.
 fn error_of(value: Option<f64>, reference: Option<f64>) -> Option<f64> {
     Some(relative_error(value.unwrap_or(0.0), reference?))
 }
@@ -129,18 +131,19 @@ impl Target {
         }
     }
 
-    /// Returns the scene reduced to what this quantity needs.
+    /// Returns the scene with only those settings that the computation of this quantity needs.
     pub(super) fn only(self, scene: &CheckedScene) -> Result<CheckedScene, SceneErrors> {
         scene.with(|scene| {
             scene.observe.clear();
             if self == Target::AdhesionForce {
-                // The adhesion force is an exact extreme.
+                // The adhesion force is an exact extreme, so it does not depend on the number of
+                // points of the curve.
                 scene.numerics.samples = FEW_SAMPLES;
             }
         })
     }
 
-    /// Returns the relative difference of the quantity from a reference.
+    /// Returns the relative difference of this quantity between a solution and a reference.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
         solution.errors(reference)[self as usize]
     }
@@ -163,8 +166,8 @@ pub(super) fn refined(
     })
 }
 
-/// Returns the scene with all positive target forces and indentations multiplied by a factor.
-/// Returns `None` if there are none, or if a product is out of range.
+/// Returns the scene with all positive target forces and indentations multiplied by `factor`.
+/// Returns `None` if there are no such targets, or if a product is out of range.
 pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> {
     let mut loaded = Scene::clone(scene);
     for stage in &mut loaded.loading {
@@ -180,7 +183,7 @@ pub(super) fn loaded(scene: &CheckedScene, factor: f64) -> Option<CheckedScene> 
     loaded.checked().ok()
 }
 
-/// Returns true if a scene has target forces or indentations that [`loaded`] multiplies.
+/// Returns true if a scene has targets that [`loaded`] multiplies.
 pub(super) fn has_loads(scene: &Scene) -> bool {
     scene.loading.iter().any(|stage| match *stage {
         Move::ToForce(target) | Move::ToIndentation(target) => target > 0.0,
@@ -188,18 +191,19 @@ pub(super) fn has_loads(scene: &Scene) -> bool {
     })
 }
 
-/// Returns the powers of two that the scene allows as its number of springs, ascending.
+/// Returns all powers of two that the scene allows as its number of springs, in ascending order.
 pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> {
     let powers = std::iter::successors(Some(FEWEST), |points| points.checked_mul(2));
     let is_allowed = |points| refined(scene, points, scene.numerics.edges).is_ok();
-    // Skips numbers too small for the modes, then stops at those too large for the field.
+    // Skips powers that are too small for the modes. Stops at the first power that is too large for
+    // the field.
     powers
         .take(40)
         .skip_while(move |&points| !is_allowed(points))
         .take_while(move |&points| is_allowed(points))
 }
 
-/// Runs of scenes that reuse an unchanged profile.
+/// Computes scenes one after the other. If the profile does not change, it is used again.
 pub(super) struct Runs<'a> {
     simulation: Simulation,
     stop: &'a dyn Fn() -> bool,
@@ -220,7 +224,7 @@ impl<'a> Runs<'a> {
         Ok(Solution::of(scene, &outcome))
     }
 
-    /// Solves a scene, and computes the adhesion forces under the loads around its own.
+    /// Solves a scene. Also computes its adhesion forces at half and at twice the loads.
     pub(super) fn solve_around(&mut self, scene: &CheckedScene) -> Result<Solution, RunError> {
         let mut solution = self.solve(scene)?;
         let scene = Target::of(&solution).only(scene)?;
@@ -242,7 +246,7 @@ impl<'a> Runs<'a> {
     }
 }
 
-/// Returns true if memory or time did not suffice.
+/// Returns true if the error means that the memory or the time was not sufficient.
 pub(super) fn is_spent(error: &RunError) -> bool {
     use RunError::{Contact, OutOfMemory, Surface};
     matches!(
@@ -253,8 +257,8 @@ pub(super) fn is_spent(error: &RunError) -> bool {
     )
 }
 
-/// Returns true if there are too few springs: none is under the body, or their contact does not
-/// reach the end of a stage.
+/// Returns true if the error means that there are too few springs: either no spring lies under the
+/// body, or the contact of the springs does not reach the end of a stage.
 pub(super) fn is_too_coarse(error: &RunError) -> bool {
     match error {
         RunError::Contact(error) => error.is_out_of_reach(),
@@ -273,9 +277,12 @@ fn longest_contact(outcome: &Outcome) -> f64 {
     longest
 }
 
-/// Returns the adhesion force of a scene in closed form in N. `outcome` is the solution of the
-/// scene. Returns `None` unless a smooth body is pulled beyond the indentation of its smallest
-/// force, on a profile longer than its contact.
+/// Returns the adhesion force of a scene by a closed form in N. `outcome` is the solution of the
+/// scene. Returns `None` unless three conditions hold:
+///
+/// * the body is smooth and has a closed form;
+/// * the body is pulled beyond the indentation of its smallest force;
+/// * the profile is longer than the contact.
 fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let work = outcome.governing.adhesive_work()?;
     if scene.roughness.is_some() {
@@ -287,7 +294,7 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     let pulled = &legs[Branch::last_unloading(legs)?.stages];
     let passes =
         pulled.first()?.start() >= limits.pull_off && pulled.last()?.end_in_contact().is_none();
-    // Lengths are sums with rounding errors.
+    // The contact length is a sum with rounding errors, so the comparison has a margin.
     let is_inside = longest_contact(outcome) <= limits.widest * (1.0 + 1e-9);
     if !passes || !is_inside {
         return None;
@@ -301,9 +308,9 @@ fn closed_form_adhesion(scene: &Scene, outcome: &Outcome) -> Option<f64> {
     )
 }
 
-/// Limits within which a closed form of a smooth body holds.
+/// Limits within which the closed form of a smooth body holds.
 struct Limits {
-    /// Indentation of the smallest force in m.
+    /// Indentation in m at which the force is smallest.
     pull_off: f64,
     /// Largest contact length in m.
     widest: f64,
@@ -330,7 +337,8 @@ impl Limits {
         let (radius, _) = body.force_controlled_pull_off();
         Some(Limits {
             pull_off: body.indentation(radius),
-            // An edge of the contact at the end of the profile is no longer the body's own.
+            // If the contact reaches the end of the profile, its edge no longer depends on the form
+            // of the body.
             widest: length - 2.0 * outcome.line.spacing,
         })
     }
@@ -339,8 +347,8 @@ impl Limits {
 /// Number of indentations at which the forces of a loading stage are compared.
 const COMPARED: usize = 2048;
 
-/// Force curve of each loading stage as points of indentation (m) and force (N), ascending in
-/// indentation.
+/// Force curve of each loading stage. The points consist of indentation (m) and force (N) and are
+/// in ascending order of the indentation.
 pub(super) type ForceCurve = Vec<Vec<[f64; 2]>>;
 
 pub(super) fn force_curve(history: &History) -> ForceCurve {
@@ -359,10 +367,11 @@ fn ascending_points(leg: &LegRecord) -> Vec<[f64; 2]> {
     points
 }
 
-/// Returns the mean difference of the forces of a loading stage from a reference at equal
-/// indentations, divided by the largest force of the reference. The largest of all stages counts. A
-/// jump that is late by a hundredth of the range of indentations counts a hundredth of its height.
-/// Returns `None` if the reference has no forces or another number of stages.
+/// Returns the difference between a force curve and a reference: the mean absolute difference of
+/// the forces at equal indentations, divided by the largest absolute force of the reference. The
+/// loading stage with the largest difference counts. A jump that is late by a hundredth of the
+/// range of indentations therefore counts as a hundredth of its height. Returns `None` if the
+/// reference has no forces, or if the numbers of stages differ.
 pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f64> {
     let largest = reference
         .iter()
@@ -379,8 +388,8 @@ pub(super) fn difference(curve: &ForceCurve, reference: &ForceCurve) -> Option<f
     Some(most)
 }
 
-/// Returns the mean absolute difference in N of the forces of two curves at the indentations of the
-/// second one. Returns `None` if a curve has no points.
+/// Returns the mean absolute difference in N between the forces of two curves, at indentations of
+/// the second curve. Returns `None` if a curve has no points.
 fn mean_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> Option<f64> {
     let first = reference.first()?[0];
     let last = reference.last()?[0];
@@ -392,8 +401,8 @@ fn mean_difference(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> Option<f64> {
     Some(sum / COMPARED as f64)
 }
 
-/// Returns the force of a curve at an indentation, and beyond the ends the force at the end.
-/// Returns `None` without points.
+/// Returns the force of a curve at an indentation. Beyond an end of the curve, returns the force at
+/// this end. Returns `None` if the curve has no points.
 fn force(curve: &[[f64; 2]], indentation: f64) -> Option<f64> {
     let above = curve
         .partition_point(|point| point[0] < indentation)
@@ -434,7 +443,8 @@ mod tests {
         );
         assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
         assert!(closed_form("kendall-punch", &[]).is_some());
-        // Not pulled off, a profile that is too short, no adhesion, rough.
+        // Four scenes without a closed form: not pulled off, profile too short, no adhesion, rough
+        // body.
         let held = "[ToForce(1e-4), ToIndentation(0.0)]";
         assert_eq!(closed_form("jkr-sphere", &[("loading", held)]), None);
         assert_eq!(closed_form("jkr-sphere", &[("length", "2.0e-5")]), None);
@@ -471,7 +481,7 @@ mod tests {
         let flat = |force: f64| curve(&[[0.0, force], [2.0, force]]);
         let wrong = difference(&flat(-4.1), &flat(-4.0)).unwrap();
         assert!((wrong - 0.025).abs() < 1e-15, "{wrong}");
-        // A curve that ends early continues with its last force.
+        // Beyond its end, the shorter curve continues with its last force.
         let short = curve(&[[0.0, 0.0], [1.0, 1.0]]);
         let long = curve(&[[0.0, 0.0], [2.0, 2.0]]);
         let wrong = difference(&short, &long).unwrap();

@@ -1,4 +1,4 @@
-//! Table of the errors and times of a scene from coarse to fine.
+//! Table of the errors and computing times of a scene, from coarse to fine.
 
 use crate::accuracy::solution::has_loads;
 use crate::scene::model::{Numerics, Scene, Solver};
@@ -7,7 +7,7 @@ use asperity_data::{format_rounded, grouped, median, slope};
 use serde::{Serialize, Serializer};
 use strum::IntoStaticStr;
 
-/// Number of finer solutions that must confirm an error.
+/// Number of finer solutions that must confirm that an error is within a bound.
 pub(super) const REFINEMENTS: usize = 2;
 
 /// Relative errors for which [`CostTable::answer`] states numbers of springs and times.
@@ -19,11 +19,11 @@ const TARGETS: [(f64, &str); 2] = [(0.01, "1 %"), (0.001, "0.1 %")];
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Knob {
-    /// Number of springs N, where the edge of a patch may lie between two springs
-    /// ([`Edges::SubCell`]).
+    /// Number of springs N with edges between springs: the edge of a patch may lie between two
+    /// springs ([`Edges::SubCell`]).
     SubCellSprings,
-    /// Number of springs N, where a patch consists of whole springs as in Popov and Filippov (2012)
-    /// ([`Edges::Grid`]).
+    /// Number of springs N with whole springs: a patch consists of whole springs as in Popov and
+    /// Filippov (2012) ([`Edges::Grid`]).
     GridSprings,
     /// Step Δd of the indentation in m, by which the stepwise [`Solver`] moves the body.
     Step,
@@ -33,7 +33,7 @@ impl Knob {
     /// All settings, in the order of [`CostTable::rows`].
     pub const ALL: [Knob; 3] = [Knob::SubCellSprings, Knob::GridSprings, Knob::Step];
 
-    /// Returns the setting in words, such as `whole springs N`.
+    /// Returns the name of the setting for users, such as `whole springs N`.
     pub fn name(self) -> &'static str {
         match self {
             Knob::SubCellSprings => "springs N, edges between springs",
@@ -43,20 +43,20 @@ impl Knob {
     }
 }
 
-/// Times that several computations of a scene with the same setting have taken.
+/// Computing times of a scene, from several computations with the same setting.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Timing {
     /// Shortest time in s.
     pub minimum: f64,
     /// Median time in s.
     pub median: f64,
-    /// Number of timed runs.
+    /// Number of timed computations.
     pub runs: usize,
 }
 
 impl Timing {
-    /// Computes the shortest and the median time from the times of some runs in s. Returns `None`
-    /// for an empty list.
+    /// Computes the shortest and the median time from the times of several computations in s.
+    /// Returns `None` for an empty list.
     pub fn of(mut seconds: Vec<f64>) -> Option<Self> {
         let minimum = seconds.iter().copied().reduce(f64::min)?;
         Some(Timing {
@@ -77,8 +77,8 @@ pub struct ErrorFigure {
     /// springs, the smallest error is the estimated error of the reference
     /// ([`CostReference::errors`]).
     pub resolved: bool,
-    /// Order of convergence p from the previous row to this row: a setting that is r times as fine
-    /// makes the error r^p times smaller. `None` unless `resolved` is true in both rows.
+    /// Order of convergence p from the previous row to this row: if the setting becomes r times as
+    /// fine, the error becomes r^p times smaller. `None` unless `resolved` is true in both rows.
     pub order: Option<f64>,
 }
 
@@ -104,16 +104,16 @@ pub struct Row {
 }
 
 /// Solution to which the errors in a [`CostTable`] are relative: the finest solution with
-/// [`Edges::SubCell`]. An exact formula for the adhesion force, if there is one, replaces the
-/// adhesion force of this solution. Rows with a [`Knob::Step`] are compared with the exact solution
-/// with equally many springs.
+/// [`Edges::SubCell`]. If there is an exact formula for the adhesion force, this force replaces the
+/// adhesion force of the solution. Rows of [`Knob::Step`] are compared with the exact solution that
+/// has the same number of springs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct CostReference {
     /// Number of springs of the finest solution.
     pub springs: u64,
     /// Adhesion force of the reference in N; `None` without a tensile force.
     pub adhesion_force: Option<f64>,
-    /// True if `adhesion_force` is from an exact formula.
+    /// True if `adhesion_force` was computed by an exact formula.
     pub closed_form: bool,
     /// Estimated relative errors of the reference itself, one for each of the
     /// [`CostTable::QUANTITIES`].
@@ -139,11 +139,11 @@ pub struct CostTable {
     pub transform_seconds: f64,
     /// Reference solution, to which the errors in the rows are relative.
     pub reference: CostReference,
-    /// Rows of all settings: one [`Knob`] after the other, and the rows of each from coarse to
-    /// fine.
+    /// Rows of all settings, one [`Knob`] after the other. For each [`Knob`] the rows are in the
+    /// order from coarse to fine.
     pub rows: Vec<Row>,
-    /// Values of the settings, in words such as `512 springs`, that have no row because time or
-    /// memory did not suffice.
+    /// Values of settings that have no row because the time or the memory was not sufficient, as
+    /// text such as `512 springs`.
     pub left_out: Vec<String>,
 }
 
@@ -159,7 +159,7 @@ impl CostTable {
         "contact_length",
     ];
 
-    /// Returns the rows in which this setting is varied, from coarse to fine.
+    /// Returns the rows in which the setting `knob` is varied, from coarse to fine.
     pub fn rows_of(&self, knob: Knob) -> impl DoubleEndedIterator<Item = &Row> {
         self.rows.iter().filter(move |row| row.knob == knob)
     }
@@ -175,10 +175,13 @@ impl CostTable {
         }
     }
 
-    /// Returns true if the error of the adhesion force in each row with springs is the largest at
-    /// half, once and twice the loads of `scene`, whose table this is. Returns false if it is the
-    /// error at the loads of the scene alone: with an exact formula of the adhesion force, which
-    /// holds at any load, without an adhesion force, or without target forces and indentations.
+    /// Returns true if the error of the adhesion force in each row with springs is the largest
+    /// error at half, once and twice the loads of `scene`, to which this table belongs. Returns
+    /// false if it is the error at the loads of the scene alone. This is so in three cases:
+    ///
+    /// * an exact formula gives the adhesion force, which holds at any load;
+    /// * there is no adhesion force;
+    /// * the scene has no target forces or indentations.
     pub fn is_over_loads(&self, scene: &Scene) -> bool {
         self.reference.adhesion_force.is_some() && !self.reference.closed_form && has_loads(scene)
     }
@@ -201,10 +204,10 @@ impl CostTable {
         Some(rows[first_within(errors, bound)?])
     }
 
-    /// Returns the computing time in s and the main error of the scene with `numerics`,
-    /// interpolated between two rows. Returns `None` if the number of springs or the step lies
-    /// outside the range of the rows, or if the rows of the stepwise solver have another number of
-    /// springs.
+    /// Returns the computing time in s and the main error that a scene has with the settings
+    /// `numerics`, interpolated between two rows. Returns `None` if the number of springs or the
+    /// step is outside the range of the rows. Also returns `None` if the rows of the stepwise
+    /// solver have another number of springs.
     pub fn between_rows(&self, numerics: &Numerics) -> Option<(f64, f64)> {
         let (knob, setting) = match (numerics.solver, numerics.edges) {
             (Solver::Stepwise { step }, _) => (Knob::Step, step),
@@ -261,8 +264,8 @@ impl CostTable {
         slope(&points).map(f64::abs)
     }
 
-    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each states how many springs
-    /// this error needs with either edge model, and how long the computation takes.
+    /// Returns one sentence for a main error of 1 % and one for 0.1 %. Each sentence states how
+    /// many springs this error needs with either edge model, and how long the computation takes.
     pub fn answer(&self) -> Vec<String> {
         let quantity = if self.reference.adhesion_force.is_some() {
             "the adhesion force"
@@ -278,7 +281,8 @@ impl CostTable {
         sentences
     }
 
-    /// States how many springs keep the main error within a bound, and the time that they take.
+    /// Returns a phrase that states how many springs keep the main error within a bound, and their
+    /// computing time.
     fn springs_within(&self, knob: Knob, edges: &str, bound: f64) -> String {
         if let Some(row) = self.first_row_within(knob, bound) {
             let springs = grouped(row.springs);
@@ -298,16 +302,16 @@ impl CostTable {
     }
 }
 
-/// Time and main error of a row, over the logarithm of its setting.
+/// Time and main error of a row, with the logarithm of its setting.
 struct CostPoint {
     logarithm: f64,
     seconds: f64,
     error: f64,
 }
 
-/// Returns the index of the first error, from coarse to fine, from which on all are within a bound.
-/// At least two finer errors must confirm it, because an error that changes sign may be small by
-/// chance.
+/// Returns the index of the first error after which no error exceeds a bound, in the order from
+/// coarse to fine. At least two finer errors must also be within the bound, because an error that
+/// changes its sign may be small by chance.
 pub(super) fn first_within(
     errors: impl DoubleEndedIterator<Item = Option<f64>>,
     bound: f64,

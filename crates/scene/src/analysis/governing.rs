@@ -1,9 +1,9 @@
 //! Parameters that compare roughness and adhesion, κ of eq. (11) and e_el/γ, and limits of the rule
 //! of Hess.
 //!
-//! The rule holds for short-ranged attraction, which the Tabor number measures, and for profiles
-//! that rise everywhere. Attraction of finite range dissipates less energy. In three dimensions the
-//! hysteresis vanishes at a Tabor number near 1.
+//! The rule holds under two conditions: the attraction is short-ranged, as a large Tabor number
+//! indicates, and the profile rises everywhere from its summit. Attraction of finite range
+//! dissipates less energy. In three dimensions the hysteresis vanishes at a Tabor number near 1.
 
 use crate::scene::adhesion::{Adhesion, RoughnessParameter, Strength};
 use crate::scene::model::{Roughness, Scene};
@@ -34,8 +34,8 @@ pub struct Governing {
     pub effective_modulus: f64,
     /// Work of adhesion γ in J/m²; `None` without adhesion.
     pub work_of_adhesion: Option<f64>,
-    /// Energy γ₁ per area gained where the interface closes, in J/m²; `None` if it is not given and
-    /// thus equals γ.
+    /// Energy γ₁ per area gained where the interface closes, in J/m². `None` if the scene does not
+    /// state it; then it equals γ.
     pub closing_work: Option<f64>,
     /// Rms height h, rms gradient ⟨∇z⟩ and rms curvature of the roughness; `None` for a smooth
     /// profile.
@@ -49,17 +49,17 @@ pub struct Governing {
 }
 
 impl Governing {
-    /// Tabor number ([`Self::tabor_number`]) below which the model overestimates the dissipated
-    /// energy.
+    /// Limit of the Tabor number ([`Self::tabor_number`]). Below this limit the model overestimates
+    /// the dissipated energy.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::JKR_TABOR_NUMBER;
 
     /// Derives the parameters of a scene. A self-affine roughness needs `unit`, the [`Amplitude`]
     /// of its profile when scaled to an rms height of 1 m. A measured roughness needs `measured`,
     /// the amplitude of the surface.
     pub fn of(scene: &Scene, unit: Option<Amplitude>, measured: Option<Amplitude>) -> Self {
-        // A given κ yields γ = h⟨∇z⟩E*/κ², a given e_el/γ yields γ from e_el = E* h² q̄/4. Here q̄
-        // is the mean wave number of the roughness in rad/m, weighted by the squared amplitudes of
-        // the waves.
+        // If the scene states κ, γ = h⟨∇z⟩E*/κ². If it states e_el/γ, γ follows from e_el = E* h²
+        // q̄/4. Here q̄ is the mean wave number of the roughness in rad/m, weighted by the squared
+        // amplitudes of the waves.
         Governing {
             effective_modulus: scene.material.effective_modulus(),
             amplitude: measured.or_else(|| self_affine_amplitude(scene, unit?)),
@@ -89,8 +89,9 @@ impl Governing {
         }
     }
 
-    /// Returns the value of κ or e_el/γ with an adhesion: the given value, or else the value that
-    /// follows from the work of adhesion.
+    /// Returns the value of κ or e_el/γ with the adhesion `adhesion`. If the adhesion states this
+    /// parameter, returns the stated value; otherwise the value that follows from the work of
+    /// adhesion.
     fn parameter_of(&self, adhesion: Adhesion, parameter: RoughnessParameter) -> Option<f64> {
         if let Some((given, value)) = adhesion.parameter()
             && given == parameter
@@ -100,8 +101,8 @@ impl Governing {
         value_of(parameter, self.energy(parameter)?, self.work_of(adhesion)?)
     }
 
-    /// Returns the work of adhesion of `adhesion` on this profile in J/m²; `None` if a parameter
-    /// gives it and there is no roughness.
+    /// Returns the work of adhesion of `adhesion` on this profile in J/m². Returns `None` if the
+    /// adhesion is stated by κ or e_el/γ and the profile is smooth.
     fn work_of(&self, adhesion: Adhesion) -> Option<f64> {
         match adhesion.strength {
             Strength::Work { opening, .. } => Some(opening),
@@ -109,14 +110,14 @@ impl Governing {
         }
     }
 
-    /// Returns the work of adhesion in J/m² at which κ or e_el/γ, as `parameter` states, has this
-    /// value; `None` without roughness.
+    /// Returns the work of adhesion in J/m² for which κ or e_el/γ has the value `value`.
+    /// `parameter` states which of the two is meant. Returns `None` without roughness.
     pub fn work_for(&self, parameter: RoughnessParameter, value: f64) -> Option<f64> {
         Some(self.energy(parameter)? / parameter.energy_over_work(value))
     }
 
-    /// Returns the value of κ or e_el/γ in this contact, as `parameter` states; `None` without
-    /// roughness or adhesion.
+    /// Returns the value of κ or e_el/γ of this contact. `parameter` states which of the two is
+    /// meant. Returns `None` without roughness or adhesion.
     pub fn parameter(&self, parameter: RoughnessParameter) -> Option<f64> {
         match parameter {
             RoughnessParameter::Kappa => self.kappa,
@@ -130,21 +131,23 @@ impl Governing {
         self.energy(RoughnessParameter::ElasticEnergyRatio)
     }
 
-    /// Returns the energy per area in J/m² whose ratio to the work of adhesion defines the
-    /// parameter: h⟨∇z⟩E* for κ, e_el for e_el/γ. Returns `None` without roughness.
+    /// Returns the energy per area in J/m² of which a parameter is made: the ratio of this energy
+    /// to the work of adhesion is κ² or e_el/γ. The energy is h⟨∇z⟩E* for κ and e_el for e_el/γ.
+    /// Returns `None` without roughness.
     pub fn energy(&self, parameter: RoughnessParameter) -> Option<f64> {
         self.amplitude
             .map(|amplitude| energy_of(parameter, amplitude, self.effective_modulus))
     }
 
-    /// Returns E* h L in N, the unit of force in Pohrt, Popov and Filippov (2012), with the rms
-    /// height h and the length L of the profile in m. Returns `None` without roughness.
+    /// Returns E* h L in N, the unit of force of Pohrt, Popov and Filippov (2012). h is the rms
+    /// height of the roughness in m, and L = `length` is the length of the profile in m. Returns
+    /// `None` without roughness.
     pub fn force_unit(&self, length: f64) -> Option<f64> {
         Some(self.effective_modulus * self.amplitude?.rms_height * length)
     }
 
-    /// Returns a builder of a contact of `profile` with this effective modulus and these works of
-    /// adhesion.
+    /// Returns a builder for a contact of `profile` with the effective modulus and the works of
+    /// adhesion of these parameters.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] if the effective modulus is out of its range.
@@ -165,10 +168,10 @@ impl Governing {
         self.work_of_adhesion.filter(|&work| work > 0.0)
     }
 
-    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene, with the radius of curvature ρ
-    /// of the summits, the work of adhesion γ on opening, the effective modulus E* and the range z₀
-    /// of the attraction. Returns `None` without adhesion, and for bodies such as cones, which have
-    /// no ρ.
+    /// Returns the Tabor number μ = (ργ²/(E*²z₀³))^(1/3) of a scene. Here ρ is the radius of
+    /// curvature of the summits, γ the work of adhesion on opening, E* the effective modulus and z₀
+    /// the range of the attraction. Returns `None` without adhesion. Also returns `None` for bodies
+    /// such as cones, which have no radius of curvature.
     pub fn tabor_number(&self, scene: &Scene) -> Option<f64> {
         let radius = curvature_radius(scene.form.as_ref(), self)?;
         let work = self.adhesive_work()?;
@@ -178,8 +181,8 @@ impl Governing {
     }
 }
 
-/// Returns the amplitude of a self-affine roughness; `None` for any other roughness. `unit` is its
-/// amplitude when scaled to an rms height of 1 m.
+/// Returns the amplitude of a self-affine roughness; `None` for any other roughness. `unit` is the
+/// amplitude of the same roughness scaled to an rms height of 1 m.
 fn self_affine_amplitude(scene: &Scene, unit: Amplitude) -> Option<Amplitude> {
     let Some(Roughness::SelfAffine {
         rms_height,
@@ -206,22 +209,23 @@ fn energy_of(parameter: RoughnessParameter, amplitude: Amplitude, effective_modu
     }
 }
 
-/// Returns the value of a parameter from its energy and the work of adhesion, both in J/m². Returns
-/// `None` if adhesion is so small that the value overflows.
+/// Returns the value of κ or e_el/γ from the energy of the parameter and the work of adhesion, both
+/// in J/m². Returns `None` if the work of adhesion is so small that the value is not a finite
+/// number.
 fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64> {
     let value = parameter.of_energy_over_work(energy / work);
     (work > 0.0 && value.is_finite()).then_some(value)
 }
 
-/// Returns the radius of curvature ρ of the summits in m; `None` for smooth flat bodies, cones and
-/// power laws.
+/// Returns the radius of curvature ρ of the summits in m. Returns `None` for smooth flat bodies,
+/// cones and power laws, which have none.
 ///
-/// ρ = 2/z″ with the rms curvature z″ of the profile. z″ is the rms Laplacian of the surface, twice
-/// its mean curvature. A paraboloid of radius R has the profile x²/R and thus ρ = R. A crest of a
-/// sphere with waves has the curvature 1/R + 4π²A/λ². On a rough form the squares of both
-/// curvatures add.
+/// ρ is 2/z″, where z″ is the rms curvature of the profile. z″ is also the rms Laplacian of the
+/// surface, twice its mean curvature. A paraboloid of radius R has the profile x²/R, so that ρ = R.
+/// A crest of a sphere with waves of amplitude A and wavelength λ has the curvature 1/R + 4π²A/λ².
+/// If a form is rough, the squares of the curvatures of form and roughness add.
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
-    // A flat face has the curvature of the flat end of a punch.
+    // A flat face has the same curvature, zero, as the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
     let of_roughness = governing
         .amplitude
@@ -272,7 +276,7 @@ impl SteepWaves {
         let stretch = governing.adhesive_work()? / governing.effective_modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
-        // Without a finite factor there is next to no adhesion.
+        // If the factor is not finite, there is almost no adhesion.
         (ratio < Self::LEAST_RATIO && jkr_factor.is_finite())
             .then_some(SteepWaves { ratio, jkr_factor })
     }
@@ -294,7 +298,7 @@ mod tests {
         mean_wave_number: 0.5,
     });
 
-    /// The parameters of a scene with E* = 4 Pa and the given roughness and adhesion; `None` for no
+    /// The parameters of a scene with E* = 4 Pa. If `amplitude` is `None`, the scene has no
     /// roughness.
     fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
         let roughness = amplitude.map_or_else(String::new, |amplitude| {
@@ -315,7 +319,7 @@ mod tests {
 
     #[test]
     fn work_and_parameters_follow_from_each_other() {
-        // h⟨∇z⟩E* = 72, and 72/2 is the square of 6. E* h² q̄/4 = 4.5.
+        // With h⟨∇z⟩E* = 72 J/m² and γ = 2 J/m², κ² is 36. E* h² q̄/4 is 4.5 J/m².
         let expected = Governing {
             effective_modulus: 4.0,
             work_of_adhesion: Some(2.0),
@@ -357,7 +361,7 @@ mod tests {
             (without.work_of_adhesion, without.kappa, without.amplitude),
             (None, None, ROUGH)
         );
-        // A parameter that overflows.
+        // The value of the parameter is not a finite number.
         assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
     }
 
@@ -397,7 +401,7 @@ mod tests {
 
     #[test]
     fn quantities_follow_from_plain_numbers() {
-        // π γ E* L³ = 750 π, and ρ γ²/(E*² z₀³) = 27.
+        // Here π γ E* L³ is 750 π, and ρ γ²/(E*² z₀³) is 27.
         let force = asperity_contact::ClosedForm::ideal_adhesion_force(2.0, 3.0, 5.0);
         assert!((force - (750.0 * PI).sqrt()).abs() < 1e-13, "{force}");
         let number = tabor_number(6.0, 3.0, 0.5, 2.0);
@@ -450,7 +454,8 @@ mod tests {
             0.3e-9,
         );
         assert!((of(&rough).unwrap() / expected - 1.0).abs() < 1e-12);
-        // A sphere with a radius far larger than that of the summits has almost no effect.
+        // The radius of this sphere is far larger than the radius of the summits, so the sphere has
+        // almost no effect.
         let sphere = rough.set("form", "Paraboloid(radius: 10.0)").unwrap();
         assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-6);
     }

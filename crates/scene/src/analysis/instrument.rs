@@ -1,15 +1,19 @@
-//! Force over the displacement D = d + F/k of a compliant instrument, from the force curve of a
-//! loading stage.
+//! Force as a function of the displacement D = d + F/k of a compliant instrument, computed from the
+//! force curve of a loading stage.
 //!
-//! On one stage the contact depends on the indentation d alone. While D grows, d(D) is the smallest
-//! d at which the running maximum of d + F(d)/k reaches D. While D falls, it is the largest d at
-//! which the running minimum reaches D. Where dF/dd < −k, d + F(d)/k turns back, and the body jumps
-//! at constant D to the next d at which the instrument can hold it.
+//! In one stage the contact depends on the indentation d alone.
+//!
+//! * While D grows, the body is at the smallest d at which the largest value of d + F(d)/k so far
+//!   reaches D.
+//! * While D falls, the body is at the largest d at which the smallest value of d + F(d)/k so far
+//!   reaches D.
+//! * Where dF/dd < −k, d + F(d)/k turns back. There the body jumps at constant D to the next d at
+//!   which the instrument can hold it.
 
 use asperity_contact::{Branch, CurvePoint, Direction, Figures, History, LegRecord};
 
-/// Point of the force curve of an instrument of stiffness k: displacement D, indentation d and
-/// force F, with D = d + F/k.
+/// Point of the force curve of an instrument with the stiffness k: the displacement D = d + F/k,
+/// the indentation d and the force F.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplacementPoint {
     /// Displacement D of the instrument in m, with D = 0 at first touch.
@@ -21,7 +25,7 @@ pub struct DisplacementPoint {
 }
 
 /// Force of one loading stage as a function of the displacement of the instrument, linear between
-/// the computed points. Where the instrument cannot hold the body, the body jumps to another
+/// the computed points. If the instrument cannot hold the body, the body jumps to another
 /// indentation at constant displacement.
 ///
 /// ```
@@ -44,20 +48,20 @@ pub struct DisplacementPoint {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DisplacementCurve {
-    /// Points in the order of the stage, along which D never turns back. Two neighbours with the
-    /// same D are the ends of a jump.
+    /// Points in the order of the stage. The displacement D never turns back along the points. If
+    /// two neighbours have the same D, the body jumps from one to the other.
     points: Vec<DisplacementPoint>,
     /// 1 if D grows along the stage, −1 if D falls.
     sign: f64,
-    /// Whether the body is separated before the first point, and whether it is separated after the
-    /// last one.
+    /// Two values: true if the body is separated before the first point, and true if it is
+    /// separated after the last point.
     free: [bool; 2],
 }
 
 impl DisplacementCurve {
-    /// Computes the curve of a loading stage for an instrument of this stiffness in N/m; an
-    /// infinite stiffness means a rigid instrument. `curve` has at least one point. Its
-    /// indentations grow on loading and fall on unloading.
+    /// Computes the curve of a loading stage for an instrument of the stiffness `stiffness` in N/m.
+    /// An infinite stiffness means a rigid instrument. `curve` must have at least one point. Its
+    /// indentations must grow on loading and fall on unloading.
     pub fn new(direction: Direction, curve: &[CurvePoint], stiffness: f64) -> Self {
         let sign = sign_of(direction);
         let mut points: Vec<DisplacementPoint> = Vec::with_capacity(curve.len());
@@ -72,7 +76,8 @@ impl DisplacementCurve {
                 points.push(next);
                 continue;
             };
-            // Distances in the direction of the stage by which the displacement has turned back.
+            // Distances by which a displacement lies behind the reached displacement, in the
+            // direction of the stage.
             let from_behind = sign * (reached.displacement - from.displacement);
             let next_behind = sign * (reached.displacement - next.displacement);
             if next_behind > 0.0 {
@@ -96,7 +101,7 @@ impl DisplacementCurve {
         }
     }
 
-    /// Returns the points in the order in which the stage passes them.
+    /// Returns the points in the order of the motion.
     pub fn points(&self) -> &[DisplacementPoint] {
         &self.points
     }
@@ -107,17 +112,17 @@ impl DisplacementCurve {
             .chunk_by(|one, next| one.displacement != next.displacement)
     }
 
-    /// Returns the two points of each jump of the body: before the jump, and after it at the same
-    /// displacement.
+    /// Returns the two points of each jump of the body: the point before the jump, and the point
+    /// after it at the same displacement.
     pub fn jumps(&self) -> impl Iterator<Item = &[DisplacementPoint]> {
         self.points
             .windows(2)
             .filter(|ends| ends[0].displacement == ends[1].displacement)
     }
 
-    /// Returns the point of the curve at a displacement in m, at a jump the point before it. Beyond
-    /// an end of the stage the force is zero if the bodies are separated at that end; otherwise the
-    /// function returns `None`.
+    /// Returns the point of the curve at a displacement in m. At a jump it is the point before the
+    /// jump. If the displacement is beyond an end of the stage and the bodies are separated at this
+    /// end, the force is zero. If they are in contact at this end, returns `None`.
     pub fn at(&self, displacement: f64) -> Option<DisplacementPoint> {
         if !displacement.is_finite() {
             return None;
@@ -157,7 +162,7 @@ impl DisplacementCurve {
 }
 
 impl DisplacementPoint {
-    /// Interpolates linearly between this point at share 0 and another point at share 1.
+    /// Interpolates linearly: `share` 0 gives this point and `share` 1 gives the point `to`.
     fn towards(&self, to: &DisplacementPoint, share: f64) -> Self {
         let between = |from: f64, to: f64| from + share * (to - from);
         DisplacementPoint {
@@ -168,9 +173,9 @@ impl DisplacementPoint {
     }
 }
 
-/// Returns the displacement of the instrument in m for each point of a loading stage. This is the
-/// largest value of d + F/k at this point and all points before it; on unloading it is the smallest
-/// value. Here d is the indentation, F the force and k the `stiffness` in N/m.
+/// Returns the displacement of the instrument in m for each point of a loading stage. On loading it
+/// is the largest value of d + F/k at this point and all points before it; on unloading it is the
+/// smallest value. Here d is the indentation, F the force and k the `stiffness` in N/m.
 pub fn displacements(leg: &LegRecord, stiffness: f64) -> impl Iterator<Item = f64> {
     let sign = sign_of(leg.direction);
     leg.curve
@@ -196,7 +201,7 @@ pub struct InstrumentFigures {
     /// Stiffness k of the instrument in N/m.
     pub stiffness: f64,
     /// Displacement of the instrument in m at which the body jumps off in the last unloading;
-    /// `None` without a pull-off.
+    /// `None` if there is no pull-off.
     pub pull_off_displacement: Option<f64>,
     /// Area in J that the force encloses as a function of the displacement: the energy dissipated
     /// in the contact plus the energy lost in jumps of the instrument. `None` if the bodies are not
@@ -205,8 +210,8 @@ pub struct InstrumentFigures {
 }
 
 impl InstrumentFigures {
-    /// Computes these results from the force curves of a loading, its forces and energies, and the
-    /// stiffness in N/m.
+    /// Computes the figures of the instrument from the history of a loading, its forces and
+    /// energies, and the stiffness in N/m.
     pub fn of(history: &History, figures: &Figures, stiffness: f64) -> Self {
         let jump_energy: f64 = history.legs.iter().map(|leg| leg.jump_energy).sum();
         InstrumentFigures {
@@ -217,8 +222,8 @@ impl InstrumentFigures {
     }
 }
 
-/// Returns the smallest displacement in m of the last unloading at which springs touch; `None`
-/// without a pull-off.
+/// Returns the smallest displacement in m of the last unloading at which the body is in contact.
+/// Returns `None` if there is no pull-off.
 fn pull_off_displacement(legs: &[LegRecord], stiffness: f64) -> Option<f64> {
     Branch::pull_off(legs)?;
     let unloading = Branch::last_unloading(legs)?;

@@ -1,4 +1,5 @@
-//! Results derived from a scene and its loading: κ and e_el/γ, regimes, force over displacement.
+//! Results derived from a scene and its loading: κ and e_el/γ, regimes, and the force as a function
+//! of the displacement.
 
 pub(crate) mod governing;
 pub(crate) mod instrument;

@@ -5,22 +5,23 @@ use crate::scene::model::{Roughness, Scene};
 use asperity_data::Warning;
 use asperity_surface::Form;
 
-/// Facts about the profile of a scene that its fields do not state.
+/// Facts about the profile of a scene that follow from the measured surface and not from the
+/// fields.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MeasuredFacts {
     /// Length of the scan in m.
     pub scan: f64,
-    /// Rms height of the surface, and rms height of the profile made from it, in m.
+    /// Rms height of the surface in m, and rms height in m of the profile that was made from it.
     pub rms_heights: [f64; 2],
-    /// Number of the longest waves on the profile; `None` for a profile that is not random.
+    /// How many of the longest waves fit on the profile; `None` if the profile is not random.
     pub long_waves: Option<f64>,
 }
 
 impl Scene {
-    /// Returns the premises of the model that this scene does not meet, as far as they are known
-    /// without computing it. The list [`Outcome::warnings`](crate::Outcome::warnings) has these
-    /// premises and those that depend on the results, such as a contact that ends inside the
-    /// profile. What depends on a measured surface is known only from an outcome.
+    /// Returns a warning for each premise of the model that this scene does not meet, as far as
+    /// this is known without computing the scene. The list
+    /// [`Outcome::warnings`](crate::Outcome::warnings) also has the warnings that depend on the
+    /// results, such as a contact that reaches the ends of the profile, and on a measured surface.
     ///
     /// ```
     /// use asperity_contact::{Modulus, Move};
@@ -45,8 +46,8 @@ impl Scene {
         self.warnings_of(&Governing::of(self, unit, None), None)
     }
 
-    /// Returns the premises that this scene does not meet, with its governing parameters and what
-    /// is known of its measured surface.
+    /// Returns a warning for each premise that this scene does not meet. `governing` has its
+    /// governing parameters, and `measured` the facts about its measured surface, if it has one.
     pub(crate) fn warnings_of(
         &self,
         governing: &Governing,
@@ -81,8 +82,9 @@ impl Scene {
         warnings
     }
 
-    /// Returns the doubt about measured heights that are used as the profile itself. A doubt that
-    /// depends on the heights is that of [`Profile::doubt`](asperity_contact::Profile::doubt).
+    /// Returns a warning if measured heights are the profile itself and the scene also has a form.
+    /// [`Profile::doubt`](asperity_contact::Profile::doubt) returns a warning that depends on the
+    /// heights.
     fn heights_as_profile(&self) -> Option<Warning> {
         let has_form = self.form.is_some();
         (self.measured_as_line() && has_form).then_some(Warning::HeightsAsProfile)
@@ -94,7 +96,8 @@ impl Scene {
         Some(Warning::FallingProfile { from })
     }
 
-    /// Returns a warning if the waves used differ from the wavelengths stated.
+    /// Returns a warning if the waves of the profile differ from the wavelengths that the scene
+    /// states.
     fn rounded_waves(&self) -> Option<Warning> {
         let Some(Roughness::SelfAffine {
             wavelengths: Some((longest, shortest)),
@@ -109,23 +112,24 @@ impl Scene {
         Warning::of_waves([longest, shortest], used)
     }
 
-    /// Returns the number of the longest waves of a random roughness on the flat face of a body;
-    /// `None` for a body that is not nominally flat.
+    /// Returns how many of the longest waves of a random roughness fit on the flat face of the
+    /// body. Returns `None` if the body is not nominally flat.
     fn long_waves(&self, measured: Option<MeasuredFacts>) -> Option<f64> {
         let share_of_length = match &self.form {
             None => 1.0,
             Some(form) => 2.0 * form.flat_end()? / self.length,
         };
         let waves = match self.spectrum() {
-            // Above the roll-off the waves of the profile are lower the longer they are.
+            // At wavelengths above the roll-off, the waves of the profile become lower with the
+            // wavelength.
             Some(spectrum) => (spectrum.first as f64).max(spectrum.roll_off_mode),
             None => measured?.long_waves?,
         };
         Some(waves * share_of_length)
     }
 
-    /// Returns the number of springs on the shortest wave of a random roughness; `None` where it is
-    /// not stated.
+    /// Returns the number of springs for each shortest wave of a random roughness. Returns `None`
+    /// if the scene does not state the shortest wave.
     fn springs_per_wave(&self) -> Option<f64> {
         match self.roughness.as_ref()? {
             Roughness::SelfAffine { .. } => {

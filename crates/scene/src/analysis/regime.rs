@@ -1,11 +1,12 @@
-//! Regimes of adhesion (Fig. 4) of a loading.
+//! Regimes of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)).
 
 use asperity_contact::Figures;
 use serde::Serialize;
 use strum::IntoStaticStr;
 
-/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)): how strongly the adhesion
-/// force depends on the preload. [`Regime::of_loading`] has the conditions of each regime.
+/// Regime of adhesion of a loading (Fig. 4 of Popov and Filippov (2012)). It states how strongly
+/// the adhesion force depends on the preload. [`Regime::of_loading`] has the conditions of each
+/// regime.
 ///
 /// ```
 /// use asperity_contact::Figures;
@@ -33,19 +34,19 @@ pub enum Regime {
 }
 
 impl Regime {
-    /// Smallest ratio of the adhesion force without a preload to the adhesion force after the
-    /// preload at which a loading can be pressure-insensitive; see [`Regime::of_loading`].
+    /// Condition for a pressure-insensitive loading: the adhesion force without a preload, divided
+    /// by the adhesion force after the preload, is at least this value; see [`Regime::of_loading`].
     pub const INSENSITIVE_SHARE: f64 = 0.5;
 
-    /// Share of the adhesion force of the smooth body below which an adhesion force counts as zero;
-    /// see [`Regime::of_loading`].
+    /// Limit below which an adhesion force counts as zero, as a share of the adhesion force of the
+    /// smooth body; see [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
-    // While κ grows by a factor of about three, the adhesion force without a preload falls from one
-    // half to one twentieth of the smooth adhesion force. Another share would therefore move the
-    // boundary of the regime only a little.
+    // This value has little effect on the limit of the regime. When κ grows by a factor of about
+    // three, the adhesion force without a preload falls from one half to one twentieth of the
+    // smooth adhesion force.
 
-    /// Largest ratio F_a/F_n of the adhesion force to the preload at which a loading counts as
-    /// non-adhesive, unless it is pressure-insensitive.
+    /// Limit of the ratio F_a/F_n of the adhesion force to the preload. If the ratio does not
+    /// exceed the limit, a loading counts as non-adhesive, unless it is pressure-insensitive.
     pub const NEGLIGIBLE_COEFFICIENT: f64 = 0.01;
 
     /// All regimes: pressure-insensitive, pressure-sensitive and non-adhesive, in this order.
@@ -63,12 +64,16 @@ impl Regime {
     /// in N of the same body without roughness. Both are `None` for a contact without adhesion,
     /// which is non-adhesive.
     ///
-    /// F_a is the adhesion force and F_n the preload of this loading. The regime is
-    /// pressure-insensitive if `turned` is above zero, at least [`Regime::INSENSITIVE_SHARE`] of
-    /// F_a and at least [`Regime::VANISHING_SHARE`] of `smooth`. Otherwise the regime is
-    /// non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A loading without a
-    /// preload is also non-adhesive if F_a is below [`Regime::VANISHING_SHARE`] of `smooth`. All
-    /// other loadings are pressure-sensitive.
+    /// F_a is the adhesion force and F_n the preload of this loading. The conditions are, in this
+    /// order:
+    ///
+    /// 1. The regime is pressure-insensitive if `turned` is above zero, at least
+    ///    [`Regime::INSENSITIVE_SHARE`] of F_a and at least [`Regime::VANISHING_SHARE`] of
+    ///    `smooth`.
+    /// 2. The regime is non-adhesive if F_a/F_n is at most [`Regime::NEGLIGIBLE_COEFFICIENT`]. A
+    ///    loading without a preload is also non-adhesive if F_a is below
+    ///    [`Regime::VANISHING_SHARE`] of `smooth`.
+    /// 3. All other loadings are pressure-sensitive.
     pub fn of_loading(figures: &Figures, turned: Option<f64>, smooth: Option<f64>) -> Option<Self> {
         let preload = figures.preload.unwrap_or(0.0);
         match (figures.adhesion_force, turned, smooth) {
@@ -101,8 +106,8 @@ impl Regime {
         self.into()
     }
 
-    /// Returns a text with two regimes of the same body, such as
-    /// `pressure-sensitive (d=0), insensitive (F=0)`. This regime follows from F_a(d=0), and
+    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0),
+    /// insensitive (F=0)`. The regime `self` follows from F_a(d=0), and the regime
     /// `after_zero_force` from F_a(F=0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
@@ -144,10 +149,12 @@ mod tests {
     fn thresholds_belong_to_the_stronger_regime() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
         for (turned, adhesion, preload, smooth, expected) in [
-            // Half of the adhesion needs no pressing; slightly less does not count.
+            // Half of the adhesion force without a preload is enough for this regime; slightly less
+            // is not.
             (0.5, 1.0, 5.0, 1.0, insensitive),
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
-            // A twentieth of the smooth body's adhesion exists; slightly less has vanished.
+            // A twentieth of the adhesion force of the smooth body is enough; slightly less counts
+            // as zero.
             (Regime::VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
             (
                 Regime::VANISHING_SHARE.next_down(),
@@ -159,7 +166,7 @@ mod tests {
             (0.2, 0.1, 1.0, 4.0, insensitive),
             (0.19, 0.1, 1.0, 4.0, sensitive),
             (0.0, 0.0, 0.0, 0.0, non_adhesive),
-            // A hundredth of the preload is negligible; slightly more is not.
+            // An adhesion force of a hundredth of the preload is negligible; slightly more is not.
             (0.0, Regime::NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
             (
                 0.0,
@@ -168,8 +175,8 @@ mod tests {
                 1.0,
                 sensitive,
             ),
-            // Without a preload adhesion below a twentieth of the smooth body's is none; a
-            // twentieth is some.
+            // Without a preload, less than a twentieth of the adhesion force of the smooth body
+            // counts as no adhesion.
             (
                 0.01,
                 Regime::VANISHING_SHARE.next_down(),

@@ -8,8 +8,8 @@ use std::ops::RangeInclusive;
 /// begins. The forces are known at equally spaced indentations, the grid points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReversalMap {
-    /// Grid points: indentations in m, equally spaced and ascending. From index `below` on, each
-    /// grid point is also a turning point.
+    /// Grid points: indentations in m, equally spaced and ascending. Each grid point with the index
+    /// `below` or a larger index is also a turning point.
     pub points: Vec<f64>,
     /// Number of grid points below the first turning point.
     pub below: usize,
@@ -19,7 +19,7 @@ pub struct ReversalMap {
 }
 
 impl ReversalMap {
-    /// Allowed range for the number of turning points.
+    /// Allowed numbers of turning points.
     pub const TURNING_POINTS: RangeInclusive<usize> = 8..=512;
 
     /// Returns the indentations of the turning points in m.
@@ -33,15 +33,16 @@ impl ReversalMap {
         (self.points[self.points.len() - 1] - self.points[0]) / intervals as f64
     }
 
-    /// Returns the force in N at the grid point of index `point`, on the unloading from the turning
-    /// point of index `turn`; `None` if the grid point is above the turning point.
+    /// Returns the force in N on the unloading from the turning point with the index `turn`, at the
+    /// grid point with the index `point`. Returns `None` if the grid point is above the turning
+    /// point.
     pub fn force(&self, turn: usize, point: usize) -> Option<f64> {
         self.reversals.get(turn)?.forces.get(point).copied()
     }
 
     /// Returns the Everett function E(d_r, d) = ½ (F(d_r) − F(d_r, d)) in N. F(d_r) is the force at
-    /// the turning point d_r of index `turn`. F(d_r, d) is the force at the grid point d of index
-    /// `point` on the unloading from d_r. Returns `None` if d is above d_r.
+    /// the turning point d_r, which has the index `turn`. F(d_r, d) is the force on the unloading
+    /// from d_r at the grid point d, which has the index `point`. Returns `None` if d is above d_r.
     pub fn everett(&self, turn: usize, point: usize) -> Option<f64> {
         let reversal = self.reversals.get(turn)?;
         Some(0.5 * (reversal.turn.force - self.force(turn, point)?))
@@ -53,7 +54,7 @@ mod tests {
     use super::*;
     use asperity_contact::CurvePoint;
 
-    /// A map from a force as a function of the turning point and the indentation.
+    /// A map whose forces are given by a function of the turning point and the indentation.
     fn map(force: impl Fn(f64, f64) -> f64) -> ReversalMap {
         let points: Vec<f64> = (0..20).map(|index| 0.25 * f64::from(index) - 2.0).collect();
         let below = 8;

@@ -68,8 +68,8 @@ impl RoughnessParameter {
             .find(|parameter| [parameter.name(), parameter.path()].contains(&name))
     }
 
-    /// Returns the ratio of an elastic energy per area to the work of adhesion at this value of the
-    /// parameter. For κ the ratio is h⟨∇z⟩E*/γ = κ², for e_el/γ it is the value itself.
+    /// Returns the ratio of the elastic energy per area to the work of adhesion, from the value of
+    /// this parameter. For κ the ratio is h⟨∇z⟩E*/γ = κ²; for e_el/γ the ratio is the value itself.
     pub fn energy_over_work(self, value: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => value.powi(2),
@@ -77,8 +77,8 @@ impl RoughnessParameter {
         }
     }
 
-    /// Returns the value of the parameter at which [`energy_over_work`](Self::energy_over_work) is
-    /// `ratio`.
+    /// Returns the value of the parameter for which [`energy_over_work`](Self::energy_over_work)
+    /// returns `ratio`.
     pub fn of_energy_over_work(self, ratio: f64) -> f64 {
         match self {
             RoughnessParameter::Kappa => ratio.sqrt(),
@@ -92,9 +92,10 @@ impl RoughnessParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "AdhesionText", into = "AdhesionText")]
 pub struct Adhesion {
-    /// Strength of the adhesion, given by a work of adhesion or by κ or e_el/γ.
+    /// Strength of the adhesion, given by a work of adhesion or by one of the parameters κ and
+    /// e_el/γ.
     pub strength: Strength,
-    /// Range z₀ of the attraction in m; `None` means 0.3 nm. Only the Tabor number depends on it.
+    /// Range z₀ of the attraction in m; `None` means 0.3 nm. Only the Tabor number depends on z₀.
     pub range: Option<f64>,
 }
 
@@ -102,22 +103,23 @@ pub struct Adhesion {
 /// follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strength {
-    /// Work of adhesion. Its value may be smaller where the interface closes than where the
-    /// interface opens.
+    /// Work of adhesion. It may be smaller where the interface closes than where the interface
+    /// opens.
     Work {
         /// Work of adhesion γ in J/m²: energy per area that opens the interface.
         opening: f64,
-        /// Energy per area γ₁ gained where the interface closes, in J/m², at most `opening`; `None`
-        /// if both are equal.
+        /// Energy per area γ₁ in J/m² that is gained where the interface closes, at most `opening`.
+        /// `None` if γ₁ equals `opening`.
         closing: Option<f64>,
     },
-    /// One of κ and e_el/γ with its value, from which the work of adhesion follows.
+    /// One of the parameters κ and e_el/γ with its value. The work of adhesion follows from this
+    /// value.
     Parameter(RoughnessParameter, f64),
 }
 
 impl Adhesion {
-    /// Returns the range z₀ of the attraction in m. If none is given, it is 0.3 nm, an interatomic
-    /// distance.
+    /// Returns the range z₀ of the attraction in m. If the scene does not state it, returns 0.3 nm,
+    /// an interatomic distance.
     pub fn attraction_range(&self) -> f64 {
         self.range.unwrap_or(0.3e-9)
     }
@@ -168,7 +170,8 @@ impl Adhesion {
         }
     }
 
-    /// Returns the given work of adhesion γ₁ on closing in J/m²; `None` if none is given.
+    /// Returns the work of adhesion γ₁ on closing in J/m², if the scene states it; otherwise
+    /// `None`.
     pub fn closing_work(&self) -> Option<f64> {
         if let Strength::Work { closing, .. } = self.strength {
             closing
@@ -177,7 +180,7 @@ impl Adhesion {
         }
     }
 
-    /// Returns true if a work of adhesion on closing is given.
+    /// Returns true if the scene states a work of adhesion on closing.
     pub fn has_two_works(&self) -> bool {
         self.closing_work().is_some()
     }
@@ -213,8 +216,8 @@ impl Adhesion {
 }
 
 impl Adhesion {
-    /// Returns an adhesion with another number, which has the name of a field such as `work`.
-    /// `None` is a contact without adhesion, which gets an adhesion of this number alone.
+    /// Returns the adhesion with another value of the number `name`, such as `work`. If `adhesion`
+    /// is `None`, the contact had no adhesion, and the new adhesion has only this number.
     pub(super) fn with_number(
         adhesion: Option<Adhesion>,
         name: &str,
@@ -234,7 +237,7 @@ impl Adhesion {
     }
 }
 
-/// Adhesion as written in a file, whose fields may contradict each other.
+/// Adhesion as written in a file. Its fields may contradict each other.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "Adhesion")]
 struct AdhesionText {

@@ -1,4 +1,4 @@
-//! Differences between two scenes, in words.
+//! Differences between two scenes as text for users.
 
 use super::document::Document;
 use super::field::{Field, choice_in_words, target_field};
@@ -35,7 +35,7 @@ fn symbol_or_name(field: &Field) -> &'static str {
     }
 }
 
-/// Returns the value of a single field with its unit, and a choice in words: `50 mJ/m²`,
+/// Returns the value of a single field with its unit, or a choice as users read it: `50 mJ/m²`,
 /// `sub-cell`, `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
     if ["None", "[]"].contains(&value) {
@@ -51,7 +51,7 @@ fn value_in_words(field: &Field, value: &str) -> String {
     }
 }
 
-/// Returns a field as its value, and a group as its choice and its given values:
+/// Returns a field as its value, and a group as its choice and the values that the scene states:
 /// `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
 fn in_words(scene: &Scene, field: &Field) -> String {
     let value = field.written(scene).unwrap_or_default();
@@ -82,8 +82,8 @@ fn in_words(scene: &Scene, field: &Field) -> String {
 
 impl Document {
     /// Lists the fields whose values differ between this scene and `other`, except title, notes and
-    /// version. If the scenes have different choices of a group of fields, such as the forms cone
-    /// and sphere, the whole group is one entry.
+    /// version. If a group of fields has different choices in the two scenes, such as the forms
+    /// cone and sphere, the whole group is one entry.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -109,7 +109,8 @@ impl Document {
     }
 }
 
-/// Returns the changed stages of two loadings, or both loadings where they are shorter.
+/// Returns the stages that differ between two loadings. If the numbers of stages differ, or if the
+/// list of changes would be longer than the loading, returns both loadings as one change.
 fn changed_stages(before: &[Move], after: &[Move]) -> Vec<Change> {
     let mut changes = Vec::new();
     for (index, (from, to)) in before.iter().zip(after).enumerate() {
@@ -119,7 +120,7 @@ fn changed_stages(before: &[Move], after: &[Move]) -> Vec<Change> {
     }
     let from = loading_text(before, format_quantity);
     let to = loading_text(after, format_quantity);
-    // A change takes the room of its value and of some fourteen characters.
+    // A change takes the space of its value and of about fourteen further characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
     if before.len() == after.len() && length < 14 + from.len() {
         return changes;

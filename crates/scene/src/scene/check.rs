@@ -1,8 +1,9 @@
-//! Invalid values of a scene. Each field is checked against its range. Then fields are checked
-//! against each other: values may contradict each other, exclude each other, or be too few.
+//! Invalid values of a scene. First each field is checked against its range. Then fields are
+//! checked against each other, because values may contradict or exclude each other, or a value may
+//! be missing.
 //!
 //! No check allocates memory in proportion to a value of the scene. A scene of excessive size is
-//! therefore refused before anything is built.
+//! therefore refused before any large array is made.
 
 use super::adhesion::{Adhesion, Strength};
 use super::errors::SceneError;
@@ -19,11 +20,12 @@ use asperity_contact::{Edges, Move};
 use asperity_data::{is_control, round_to};
 use asperity_surface::{Form, Unit};
 
-/// Largest number of curve points of all loading stages together. Such a curve still fits the
-/// memory of a small machine.
+/// Largest number of curve points of all loading stages together. A curve of this size fits into
+/// the memory of a small machine.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// Returns all errors of a scene in the order of its fields; none for a scene that can be computed.
+/// Returns all errors of a scene in the order of its fields. The list is empty if the scene is
+/// valid.
 pub fn check(scene: &Scene) -> Vec<SceneError> {
     let mut found = Found {
         scene,
@@ -43,7 +45,7 @@ pub fn check(scene: &Scene) -> Vec<SceneError> {
     found.errors
 }
 
-/// Returns the invalid part of a text and what is allowed; `None` for a valid text.
+/// Returns the invalid part of a text and the allowed values; `None` if the text is valid.
 fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     let range = if let Range::Text { .. } = field.range {
         field.range
@@ -53,7 +55,7 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     let Range::Text { least, most, lines } = range else {
         return None;
     };
-    // Control characters would reach the terminal of any reader of the scene.
+    // Control characters in a text would change the terminal of anyone who reads the scene.
     let forbidden = text
         .chars()
         .find(|sign| is_control(*sign) && !(lines && *sign == '\n'));
@@ -72,10 +74,10 @@ fn wrong_text(field: &Field, text: &str) -> Option<(String, String)> {
     }
 }
 
-/// Number of digits of a limit that follows from other values.
+/// Number of digits of a limit that is computed from other values.
 const LIMIT_DIGITS: usize = 8;
 
-/// Returns the largest allowed number as text, rounded down.
+/// Returns an upper limit as text, rounded down so that the shown value is allowed.
 fn largest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
     ron_float(if near > value {
@@ -85,7 +87,7 @@ fn largest(value: f64) -> String {
     })
 }
 
-/// Returns the smallest allowed number as text, rounded up.
+/// Returns a lower limit as text, rounded up so that the shown value is allowed.
 fn smallest(value: f64) -> String {
     let near = round_to(value, LIMIT_DIGITS);
     ron_float(if near < value {
@@ -106,16 +108,16 @@ struct Found<'s> {
 }
 
 impl Found<'_> {
-    /// Returns true if an error of this field, or of a field inside it, was found.
+    /// Returns true if an error of the field at `path`, or of a field inside it, was found.
     fn has(&self, path: &str) -> bool {
         self.errors
             .iter()
             .any(|error| is_within(&error.field, path))
     }
 
-    /// Adds an error of the field `path` unless the condition is met or one of the fields that it
-    /// compares, `compared`, has an error already. `allowed` is empty if `message` contains the
-    /// allowed values; the value of a group is not repeated.
+    /// Adds an error about the field `path` if the condition `is_met` is false. No error is added
+    /// if one of the `compared` fields already has one. `allowed` is empty if `message` contains
+    /// the allowed values. If the field is a group, its value is not repeated in the error.
     fn require(
         &mut self,
         is_met: bool,
@@ -278,7 +280,8 @@ impl Found<'_> {
         self.check_depth(form);
     }
 
-    /// Checks that a flat end is not wider than the profile, and that springs lie under it.
+    /// Checks that the flat end of a punch is not wider than the profile, and that at least one
+    /// spring lies under it.
     fn check_flat_end(&mut self, radius: f64) {
         let scene = self.scene;
         let half = scene.length / 2.0;
@@ -306,13 +309,15 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the body is not deeper at the ends of the profile than any indentation.
+    /// Checks that the depth of the body at the ends of the profile is within the range of
+    /// indentations.
     fn check_depth(&mut self, form: &Form) {
         let scene = self.scene;
         let half = scene.length / 2.0;
         let depth = form.depth_within(scene.length);
         let wave_depth = form.wave_depth(half);
-        // The first number of a form is its size; waves may be higher than their sphere.
+        // The first number of a form determines its depth. For a wavy sphere, the waves may be
+        // deeper than the sphere.
         let is_size = |field: &&Field| {
             if wave_depth > depth {
                 field.path == "form.amplitude"
@@ -362,8 +367,8 @@ impl Found<'_> {
         }
     }
 
-    /// Checks the units of a measured surface, and that a profile is one row or one column of one
-    /// file: several files have a common spectrum and no profile.
+    /// Checks the units of a measured surface. Also checks that a profile is one row or one column
+    /// of a single file, because several files have a common spectrum but no common profile.
     fn check_measured(&mut self, measured: &Measured) {
         let units = [
             ("roughness.unit", &measured.unit),
@@ -396,8 +401,8 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the waves fit the length, that the springs resolve them, and that the roll-off
-    /// lies among them.
+    /// Checks that the waves fit on the length, that the springs resolve them, and that the
+    /// roll-off wavelength is between the longest and the shortest wave.
     fn check_waves(
         &mut self,
         modes: Option<(u64, u64)>,
@@ -458,8 +463,8 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the springs resolve the shorter one of the given wavelengths, whose mode is
-    /// `last`.
+    /// Checks that the springs resolve the shortest of the given wavelengths. `last` is the mode of
+    /// this wavelength.
     fn check_shortest_wave(&mut self, last: u64) {
         let points = self.scene.numerics.points;
         let most = points / 2;
@@ -475,14 +480,15 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the work of adhesion on closing does not exceed the work on opening, and that a
-    /// parameter has a roughness.
+    /// Checks that the work of adhesion on closing does not exceed the work on opening. Also checks
+    /// that κ or e_el/γ is given only for a rough body.
     fn check_adhesion(&mut self) {
         let Some(Adhesion { strength, .. }) = self.scene.adhesion else {
             return;
         };
         match strength {
-            // A spring that attaches with more energy than it detaches with would detach at once.
+            // If the work on closing were larger than the work on opening, a spring would detach as
+            // soon as it has attached.
             Strength::Work { opening, closing } => {
                 let allowed = format!("0 to {} J/m²", largest(opening));
                 self.require(
@@ -601,7 +607,7 @@ mod tests {
                 "requires youngs_modulus, which is missing",
             ),
             ("material=()", "give youngs_modulus with poisson_ratio, or"),
-            // Nearly −1: E* is enormous, though E and ν are in their ranges.
+            // For ν near −1, E* is out of its range although E and ν are within theirs.
             (
                 "material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)",
                 "material = E* = 5.0",
@@ -692,7 +698,8 @@ mod tests {
                 "form=Punch(radius: 5.1e-5)",
                 "a punch is not wider than the line",
             ),
-            // Below a quarter of the spacing the diameter is nearer to no cell than to one.
+            // If the radius is less than a quarter of the spacing, the diameter is rounded to zero
+            // cells.
             (
                 "form=Punch(radius: 5.8e-9)",
                 "no spring lies under the punch",

@@ -9,7 +9,8 @@ use super::model::{FEW_SAMPLES, Observer, Scene};
 use super::text::index::Text;
 use serde::Serialize;
 
-/// A scene whose values are valid. A `CheckedScene` can be read like a [`Scene`].
+/// A scene whose values are valid. A `CheckedScene` has all fields of a [`Scene`], for reading
+/// only.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -32,8 +33,9 @@ impl Scene {
 }
 
 impl Scene {
-    /// Removes what forces and energies do not depend on: the title, the notes, the [`Observer`]s,
-    /// and all points of the force curve except two on each loading stage.
+    /// Removes the parts of the scene that do not affect forces and energies: the title, the notes
+    /// and the [`Observer`]s. The number of points of the force curve is reduced to two for each
+    /// loading stage.
     pub fn strip(&mut self) {
         self.title.clear();
         self.notice.clear();
@@ -43,8 +45,8 @@ impl Scene {
 }
 
 impl CheckedScene {
-    /// Checks a scene that was read from a text. Errors show numbers that are not finite as they
-    /// are written: `1e999`.
+    /// Checks a scene that was read from a text. If a number is not finite, the error message shows
+    /// it as the text states it, such as `1e999`.
     pub(super) fn of(
         scene: Scene,
         text: Option<&Text>,
@@ -63,7 +65,7 @@ impl CheckedScene {
         Ok(CheckedScene(scene))
     }
 
-    /// Returns this scene after `change`, checked anew.
+    /// Returns this scene after the function `change` has changed it, checked again.
     ///
     /// # Errors
     /// Returns an error for each value that the change makes invalid.
@@ -81,7 +83,8 @@ impl CheckedScene {
         scene.checked()
     }
 
-    /// Returns this scene with another seed of the random phases, if the profile is random.
+    /// Returns this scene with another seed of the random phases. If the profile is not random, the
+    /// scene does not change.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> CheckedScene {
         let mut scene = self.0.clone();
@@ -89,8 +92,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene without the parts that its forces and energies do not depend on, as
-    /// [`Scene::strip`] removes them.
+    /// Returns this scene without the parts that [`Scene::strip`] removes, because they do not
+    /// affect forces and energies.
     pub fn stripped(&self) -> CheckedScene {
         let mut scene = self.0.clone();
         scene.strip();
@@ -107,8 +110,8 @@ impl CheckedScene {
         CheckedScene(scene)
     }
 
-    /// Returns this scene with each name of a measured file replaced by the name that `rename`
-    /// returns.
+    /// Returns this scene with other names of measured files: `rename` gets each name and returns
+    /// the new one.
     #[must_use]
     pub fn with_files_named(&self, rename: impl Fn(&str) -> String) -> CheckedScene {
         let mut scene = self.0.clone();

@@ -2,14 +2,14 @@
 
 use std::ffi::OsStr;
 
-/// Returns `word` as it must be written for a POSIX shell to read it as one word: in quotes if it
-/// needs them.
+/// Returns `word` as it must be written so that a POSIX shell reads it as one word. It is in quotes
+/// if it needs them.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let is_plain = word
         .chars()
         .all(|sign| sign.is_alphanumeric() || "_-./:,+@%=".contains(sign));
-    // zsh takes a word that starts with = for the path of a command.
+    // zsh interprets a word that starts with = as the path of a command, so the word needs quotes.
     if !word.is_empty() && !word.starts_with('=') && is_plain {
         word.into_owned()
     } else {

@@ -1,5 +1,5 @@
-//! Values in RON that fields have if a scene file leaves them out. The table of fields shows these
-//! values, and the types of a scene begin with them.
+//! Values in RON of the fields that a scene file leaves out. The table of fields shows these
+//! defaults, and the types of a scene use them.
 
 use super::text::read_ron;
 use serde::de::DeserializeOwned;
@@ -17,7 +17,7 @@ pub(super) const EDGES: &str = "SubCell";
 /// Default of `numerics.samples`.
 pub(super) const SAMPLES: &str = "512";
 
-/// Returns one of the defaults as a value of its type.
+/// Converts the RON text of a default to a value of its type.
 pub(super) fn read_default<T: DeserializeOwned>(default: &str) -> T {
     read_ron(default).expect("a default of this type")
 }

@@ -1,9 +1,9 @@
-//! The words of a built-in scene: its title, its notice and the comments of its text.
+//! Descriptions in a built-in scene: its title, its notice and the comments of its text.
 //!
-//! They describe the values of the scene, so a change of a value on which the solution depends
-//! removes the notice and the comment beside the value, and marks the title as that of a changed
-//! scene. The words come back with the values. The words of any other scene are those of its
-//! author, and stay.
+//! They describe the values of the scene. If a value on which the solution depends is changed, the
+//! notice and the comment beside the value are therefore removed, and the title states that the
+//! scene is changed. If the value is changed back, the descriptions come back. In any other scene
+//! the author has written the descriptions, so they always stay.
 
 use std::sync::OnceLock;
 
@@ -17,8 +17,8 @@ use super::statements::describes;
 use super::text::index::{Text, is_within};
 use super::typed::with_typed;
 
-/// Returns true if a scene, as it was opened, is a built-in one. The text may be another, as that
-/// of a table of results.
+/// Returns true if a scene, as it was opened, has the values of a built-in scene. Its text may
+/// differ from the built-in text, for example in a table of results.
 fn is_built_in(opened: &Scene) -> bool {
     static BUILT_IN: OnceLock<Vec<Scene>> = OnceLock::new();
     BUILT_IN.get_or_init(built_in_scenes).contains(opened)
@@ -40,7 +40,8 @@ fn have_same_solution(first: &Scene, second: &Scene) -> bool {
     first == second
 }
 
-/// Returns true if a field of the root, such as `material`, differs between two scenes.
+/// Returns true if a field inside `group`, a top-level field such as `material`, differs between
+/// two scenes.
 fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
     FIELDS
         .iter()
@@ -48,15 +49,15 @@ fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
         .any(|field| field.value(first) != field.value(second))
 }
 
-/// Title of a scene that was a built-in one before it was changed. `name` is the name of its file
-/// or the built-in name.
+/// Title of a changed built-in scene. `name` is the name of its file or of the built-in scene.
 fn title_of_changed(name: &str) -> String {
     format!("{name}, changed")
 }
 
 impl Document {
-    /// Returns the text of this document with the words that are true of its values; `None` if the
-    /// present text has them, or if the words are those of another author.
+    /// Returns the text of this document with those descriptions that are true for its values.
+    /// Returns `None` if the present text already has them, or if another author has written the
+    /// descriptions.
     pub(super) fn text_with_true_words(&self) -> Option<Text> {
         let opened = read(self.opened(), |_| Origin::Scene).ok()?;
         if !self.is_changed() || !is_built_in(&opened) {
@@ -69,8 +70,8 @@ impl Document {
         }
     }
 
-    /// The text as it was opened, with the overrides on which the solution does not depend, and
-    /// with stated defaults.
+    /// Returns the text as it was opened, but with those changes on which the solution does not
+    /// depend. A default that the user has stated is also included.
     fn opened_with_descriptions(&self) -> Option<Text> {
         let mut text = Text::new(self.opened()).ok()?;
         for (path, value) in self.overrides() {
@@ -81,8 +82,8 @@ impl Document {
         Some(text)
     }
 
-    /// The text without the words that are false of its values. `opened` is the scene as it was
-    /// opened.
+    /// Returns the text without the descriptions that are false for its values. `opened` is the
+    /// scene as it was opened.
     fn without_false_words(&self, opened: &Scene) -> Text {
         let mut text = self.indexed_text().clone();
         for (path, _) in self.overrides() {
@@ -105,13 +106,13 @@ impl Document {
         self.overrides().iter().any(|(own, _)| own == path)
     }
 
-    /// Returns true if the title says that this is a changed built-in scene.
+    /// Returns true if the title states that this is a changed built-in scene.
     pub fn is_changed_built_in(&self) -> bool {
         self.is_changed() && self.scene().title == title_of_changed(self.file_name())
     }
 
-    /// Returns the text for a file of the user's own. A changed built-in scene has no title there,
-    /// and is known by the name of the file.
+    /// Returns the text that is saved in a file of the user. A changed built-in scene has no title
+    /// in this file, because the name of the file identifies it.
     pub fn text_for_own_file(&self) -> String {
         let text = self.indexed_text();
         let text = if self.is_changed_built_in() {
@@ -144,7 +145,7 @@ mod tests {
             "{}",
             changed.text()
         );
-        // A comment of a value that is as before stays.
+        // The comment of a value that has not changed stays.
         assert!(
             changed.text().contains("// soft rubber"),
             "{}",

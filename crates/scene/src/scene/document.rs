@@ -1,9 +1,12 @@
-//! A scene with its text. Fields can be changed, and the comments of the text stay.
+//! A scene with its text. If a field is changed, the comments of the text stay.
 //!
-//! The text is what its author sees and saves, so a change is made in the text, and the scene is
-//! read from it again. The scene alone would not do: it does not have the notation of numbers, it
-//! does not know which fields the text leaves out (their defaults may follow other fields), and
-//! between two changes that belong together it would have to contradict itself.
+//! A change is made in the text, and the scene is read again from the text, because the author of
+//! the scene sees and saves the text. The scene alone is not enough for three reasons:
+//!
+//! * it does not have the notation of the numbers;
+//! * it does not know which fields the text leaves out, and the default of such a field may depend
+//!   on other fields;
+//! * between two changes that belong together, the scene would contradict itself.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -22,7 +25,7 @@ use super::written::to_ron;
 use asperity_contact::Move;
 
 /// A checked scene with its text in RON (Rusty Object Notation) and the changes of its fields. A
-/// change returns a new document and leaves this one as it was.
+/// change returns a new document and leaves this document unchanged.
 ///
 /// ```
 /// use asperity_scene::Document;
@@ -42,20 +45,20 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects that are switched off, with the values that changed with them.
+    /// Effects that were switched off, with the values that changed at the same time.
     pub(super) removed: Vec<RemovedEffect>,
-    /// Choices that a key has replaced.
+    /// Choices that a key of the explorer has replaced by other choices.
     pub(super) left: Vec<LeftChoice>,
 }
 
-/// An effect that is switched off, with the values that changed when it was.
+/// An effect that was switched off, with the values that changed at the same time.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RemovedEffect {
     pub(super) effect: Effect,
     pub(super) values: Vec<RemovedValue>,
 }
 
-/// A value that changed when an effect was switched off, as text before and after.
+/// A value that changed when an effect was switched off: its text before and after.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RemovedValue {
     pub(super) path: String,
@@ -63,7 +66,7 @@ pub(super) struct RemovedValue {
     pub(super) present: String,
 }
 
-/// A choice that a key has replaced, with the path of its field and its last text.
+/// A choice that a key has replaced: the path of its field, and the text that the choice had last.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LeftChoice {
     pub(super) path: &'static str,
@@ -71,8 +74,8 @@ pub(super) struct LeftChoice {
 }
 
 impl Document {
-    /// Reads and checks the text of a scene. Messages of errors begin with `name`, the name of the
-    /// file or built-in scene.
+    /// Reads and checks the text of a scene. Error messages begin with `name`, the name of the file
+    /// or built-in scene.
     ///
     /// # Errors
     /// Returns the first syntax error, or an error for each invalid value, with line and column.
@@ -88,7 +91,7 @@ impl Document {
     /// );
     /// ```
     pub fn parse(source: &str, name: &str) -> Result<Document, SceneErrors> {
-        // Some editors put a byte order mark before the text.
+        // Some editors write a byte order mark before the text.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         check_length(source).map_err(|message| {
             SceneError::whole(
@@ -119,7 +122,7 @@ impl Document {
         })
     }
 
-    /// Creates a document for a scene that has no text. [`to_ron`] writes the text.
+    /// Creates a document for a scene that has no text. The function [`to_ron`] writes the text.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -140,9 +143,9 @@ impl Document {
     /// field and its new value in RON. A number may have an SI prefix and a unit: `50 mJ/m²`. The
     /// RON text `None` removes an optional part. The values are checked once, after all changes.
     ///
-    /// The first change of a built-in scene on which its solution depends removes its notice and
-    /// the comments beside the changed values, and its title becomes its name with the word
-    /// *changed*. Words of the user's own stay.
+    /// If a change of a built-in scene affects its solution, the notice and the comments beside the
+    /// changed values are removed, because they would be false. The new title is the name of the
+    /// scene with the word *changed*. A title, a notice or comments that the user has written stay.
     ///
     /// # Errors
     /// Returns an error for each pair that cannot be read, and for each invalid value.
@@ -150,7 +153,7 @@ impl Document {
         Ok(self.overridden(overrides)?.with_true_words())
     }
 
-    /// This document with fields changed, with all its words.
+    /// Returns this document with fields changed. Title, notice and comments stay as they are.
     fn overridden(&self, overrides: &[(String, String)]) -> Result<Document, SceneErrors> {
         let mut new = self.clone();
         let mut errors = Vec::new();
@@ -180,7 +183,7 @@ impl Document {
         Ok(new)
     }
 
-    /// This document with the words that are true of its values.
+    /// Returns this document with the title, notice and comments that are true for its values.
     fn with_true_words(mut self) -> Document {
         if let Some(text) = self.text_with_true_words()
             && let Ok(scene) = read(text.as_str(), |_| Origin::Scene)
@@ -200,7 +203,7 @@ impl Document {
     }
 
     /// Returns the loading stages, each with its index in the loading. [`Document::with_stages`]
-    /// takes such a list.
+    /// takes a list of this form.
     pub fn stages(&self) -> Vec<(Option<usize>, Move)> {
         self.scene
             .loading
@@ -211,7 +214,8 @@ impl Document {
     }
 
     /// Returns this document with other loading stages. A stage with an index keeps the text and
-    /// the comments of that stage in the present loading. A stage without an index is new.
+    /// the comments of the stage with this index in the present loading. A stage without an index
+    /// is new.
     ///
     /// # Errors
     /// Returns the same errors as [`Document::set`].
@@ -240,9 +244,9 @@ impl Document {
         &self.scene
     }
 
-    /// Returns the value of a field as the text states it, or the default of an omitted field.
-    /// Returns `None` if this scene cannot have the field, for example the angle of a cone in a
-    /// scene with a sphere.
+    /// Returns the value of a field as the text states it. If the text omits the field, returns the
+    /// default. Returns `None` if this scene cannot have the field, for example the angle of a cone
+    /// in a scene with a sphere.
     pub fn value(&self, path: &str) -> Option<&str> {
         if let Some(value) = self.text.value(path) {
             return Some(value);
@@ -279,7 +283,7 @@ impl Document {
         }
     }
 
-    /// The name of the file without folders, or of the built-in scene.
+    /// Returns the name of the file without folders, or of the built-in scene.
     pub(super) fn file_name(&self) -> &str {
         Path::new(&self.name)
             .file_name()
@@ -293,7 +297,7 @@ impl Document {
         &self.overrides
     }
 
-    /// Marks the document as read from a table of results with these lines above the scene.
+    /// Stores the lines above the scene, if the document was read from a table of results.
     pub(super) fn of_table(self, head: &str) -> Document {
         Document {
             table_head: head.to_string(),
@@ -301,8 +305,8 @@ impl Document {
         }
     }
 
-    /// Returns the lines above the scene in the CSV table of results from which it was read; for
-    /// another file an empty text.
+    /// Returns the lines above the scene, if the document was read from a CSV table of results.
+    /// Otherwise returns an empty text.
     pub fn table_head(&self) -> &str {
         &self.table_head
     }
@@ -312,13 +316,14 @@ impl Document {
         self.text.comments()
     }
 
-    /// Returns line and column, both from 1, of a field in the text, or of the group around an
-    /// omitted field.
+    /// Returns the line and the column, both from 1, at which a field is in the text. For an
+    /// omitted field, returns the position of the group around the field.
     pub fn place(&self, path: &str) -> (usize, usize) {
         line_column(self.text(), self.text.nearest_value(path))
     }
 
-    /// Returns this document with other values of [`Self::opened`] and [`Self::overrides`].
+    /// Returns this document with the values `opened` and `overrides`, which [`Self::opened`] and
+    /// [`Self::overrides`] then return.
     pub fn resumed(self, opened: String, overrides: Vec<(String, String)>) -> Document {
         Document {
             opened,
@@ -337,8 +342,8 @@ impl Document {
         self.text.as_str() != self.opened
     }
 
-    /// Returns this document with each name of a measured file replaced by the name that `rename`
-    /// returns. If a name changes, the text loses its comments.
+    /// Returns this document with other names of measured files: `rename` gets each name and
+    /// returns the new one. If a name changes, the text loses its comments.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -352,7 +357,7 @@ impl Document {
         }
     }
 
-    /// Returns the path of a file whose name in the scene is relative to the folder of the scene
+    /// Returns the path of a file. Its name in the scene is relative to the folder of the scene
     /// file.
     pub fn resolve(&self, file: &str) -> PathBuf {
         Path::new(&self.name)
@@ -362,7 +367,7 @@ impl Document {
     }
 }
 
-/// Returns true if a text reads as a scene.
+/// Returns true if the text can be read and gives exactly this scene.
 fn is_text_of(text: &Text, scene: &Scene) -> bool {
     check_length(text.as_str()).is_ok()
         && read(text.as_str(), |_| Origin::Scene).is_ok_and(|other| other == *scene)
@@ -372,7 +377,7 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// Adds an override, which replaces earlier ones of the same field and of fields inside it.
+/// Adds an override. It replaces earlier overrides of the same field and of fields inside it.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));

@@ -1,4 +1,4 @@
-//! Change of one field in the text of a scene, which keeps every comment.
+//! Changes of one field in the text of a scene. All comments stay.
 
 use super::errors::did_you_mean;
 use super::field::{Field, LEG_FIELDS};
@@ -8,7 +8,8 @@ use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 use std::collections::BTreeSet;
 
-/// Returns the field at a path, for the variant of its group or loading stage in the text.
+/// Returns the field at a path. If several choices have a field at this path, the choice in the
+/// text decides.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
@@ -22,15 +23,16 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 
 /// Sets the field at `path` to `value`, in RON, and returns the new text.
 ///
-/// A missing field is inserted, and so is its group if that is missing. The value `None` inserts
-/// nothing. Only this place of the text changes.
+/// A missing field is inserted, and so is its group if the group is missing. If the value is
+/// `None`, a missing field is not inserted. The rest of the text does not change.
 ///
 /// # Errors
-/// Returns the reason as a sentence: no such field, not a single value, or no place for the field.
+/// Returns the reason as a sentence: there is no such field, `value` is not a single value, or the
+/// text has no group for the field.
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
     let base = without_positions(path);
-    // Several if variants of a choice share the name.
+    // Several fields have the same path if several choices have a field of this name.
     let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
     let Some(field) = fields.first() else {
         return Err(no_such_field(path));
@@ -49,7 +51,7 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
         return Err(wrong_variant(field.parent(), variant, &fields));
     }
     let edited = insert(text, field, value)?;
-    // The value may have ended its new group.
+    // `value` may contain a bracket that closes the new group too early.
     if edited.written(path) == Some(value) {
         Ok(edited)
     } else {
@@ -57,8 +59,8 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
     }
 }
 
-/// Returns the path of the list or pair that has the element at a path; other paths stay as they
-/// are.
+/// Returns the path of the list or pair, if the path leads to one of its elements; otherwise
+/// returns the path unchanged.
 fn without_positions(path: &str) -> &str {
     let mut base = path;
     while let Some((before, last)) = base.rsplit_once('.')
@@ -73,7 +75,8 @@ fn is_position(name: &str) -> bool {
     !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// Inserts a field that the text does not have into its group, or with its group.
+/// Inserts a field that the text does not have. If its group is missing too, the group is inserted
+/// with the field.
 fn insert(text: &Text, field: &Field, value: &str) -> Result<Text, String> {
     let parent = field.parent();
     let group = format!("({}: {value})", field.last());
@@ -95,8 +98,8 @@ fn insert(text: &Text, field: &Field, value: &str) -> Result<Text, String> {
     text.insert(parent, field.last(), value, &order)
 }
 
-/// Returns a message with the field that a misspelt path probably means, or else with the fields
-/// that there are.
+/// Returns an error message for a misspelt path. It names the field that the path probably means,
+/// or else the fields that exist.
 fn no_such_field(path: &str) -> String {
     let near = did_you_mean(path, FIELDS.iter().map(|field| field.path));
     if !near.is_empty() {
@@ -120,7 +123,7 @@ fn paths_inside(group: &str) -> BTreeSet<&'static str> {
         .collect()
 }
 
-/// Returns a message that names the choices with this field.
+/// Returns an error message that names the choices that have this field.
 fn wrong_variant(parent: &str, variant: Option<&str>, fields: &[&Field]) -> String {
     let Some(Range::Choice(choices)) = field(parent, None).map(|field| field.range) else {
         return format!("{parent} has no such field");

@@ -28,7 +28,7 @@ pub enum Effect {
     Roughness,
     /// Adhesion between the bodies.
     Adhesion,
-    /// Loading stages that may pull the body back.
+    /// Loading stages after the first one that may move the body back.
     Unloading,
 }
 
@@ -51,8 +51,8 @@ impl Effect {
         }
     }
 
-    /// Returns the path of the field that has this optional part: `loading` for unloading,
-    /// otherwise its [`name`](Self::name).
+    /// Returns the path of the field of this optional part. For unloading it is `loading`,
+    /// otherwise the [`name`](Self::name).
     pub const fn path(self) -> &'static str {
         if let Effect::Unloading = self {
             "loading"
@@ -74,18 +74,21 @@ impl Effect {
         }
     }
 
-    /// Returns the scene with the effect, with values that suit the rest of the scene.
+    /// Returns the scene with the effect switched on. The effect gets values that suit the rest of
+    /// the scene.
     pub(super) fn suited(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         match self {
-            // At the ends of the profile its height is an eighth of the length.
+            // With this radius R, the depth of the body x²/(2R) at the ends of the profile is an
+            // eighth of the length.
             Effect::Form => {
                 scene.form = Some(Form::Paraboloid {
                     radius: scene.length,
                 })
             }
             Effect::Roughness => {
-                // Smooth on the scale of a spring and, under a form, on that of the contact.
+                // The waves must be long on the scale of a spring. Under a form, they must be short
+                // on the scale of the contact.
                 let last = (scene.numerics.points / 8).clamp(1, 512);
                 let first = if scene.form.is_some() { last.min(4) } else { 1 };
                 scene.roughness = Some(Roughness::SelfAffine {
@@ -113,16 +116,16 @@ impl Effect {
     }
 }
 
-/// Returns true if a stage may pull the body back. The first stage cannot, because it begins at
-/// separation.
+/// Returns true if a loading stage may move the body back. The first stage cannot do so because it
+/// begins at separation.
 fn may_pull(loading: &[Move]) -> bool {
     let mut deepest = f64::NEG_INFINITY;
     for (index, stage) in loading.iter().enumerate() {
         let (end, pulls) = match *stage {
             Move::ToIndentation(end) => (end, end < deepest),
             Move::ToTouch => (0.0, 0.0 < deepest),
-            // The indentation of a force or a displacement is unknown: it may be shallower or
-            // deeper than any other.
+            // The indentation at the end of such a stage is unknown, so it may be smaller or larger
+            // than any other.
             Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
             Move::ToSeparation => (f64::NEG_INFINITY, true),
         };
@@ -134,10 +137,11 @@ fn may_pull(loading: &[Move]) -> bool {
     false
 }
 
-/// Returns the stage that presses most: the largest force, else the deepest indentation, else the
-/// first stage.
+/// Returns the stage that presses most: the stage with the largest force. If no stage ends at a
+/// force, it is the stage with the deepest indentation, and otherwise the first stage.
 pub(super) fn pressing(loading: &[Move]) -> Move {
-    // The last maximum of the reversed stages is the first one of equal stages.
+    // `max_by` returns the last of several equal stages, so the stages are reversed to get the
+    // first.
     loading
         .iter()
         .rev()
@@ -146,15 +150,15 @@ pub(super) fn pressing(loading: &[Move]) -> Move {
         .unwrap_or(Move::ToZeroForce)
 }
 
-/// Compares how much two stages press: any force presses more than any indentation.
+/// Compares how much two stages press. Any force counts as more than any indentation.
 fn compare_pressure(stage: Move, other: Move) -> Ordering {
     let (rank, size) = pressure(stage);
     let (other_rank, other_size) = pressure(other);
     rank.cmp(&other_rank).then(size.total_cmp(&other_size))
 }
 
-/// Returns the rank of a stage among stages that press, and its positive force in N or indentation
-/// in m.
+/// Returns the rank of a stage among the stages that press, and its force in N or its indentation
+/// in m, which is positive. A stage that does not press has rank 0.
 fn pressure(stage: Move) -> (u8, f64) {
     match stage {
         Move::ToForce(force) if force > 0.0 => (2, force),

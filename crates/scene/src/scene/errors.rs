@@ -1,4 +1,4 @@
-//! Errors of a scene: where, which value, and what is allowed.
+//! Errors of a scene. Each error states its place, the invalid value and the allowed values.
 
 use std::fmt;
 
@@ -17,8 +17,8 @@ pub enum Origin {
     File {
         /// Name of the file or of the built-in scene.
         name: String,
-        /// Line and column, both from 1, the column in characters; `None` if the error concerns the
-        /// whole file.
+        /// Line and column, both from 1, of the invalid value; the column is in characters. `None`
+        /// if the error concerns the whole file.
         place: Option<(usize, usize)>,
     },
     /// Changes of fields, each as `path=value`.
@@ -48,7 +48,7 @@ impl fmt::Display for Origin {
     }
 }
 
-/// One error of a scene, with the place, the value and what is allowed.
+/// One error of a scene: its place, the invalid value and the allowed values.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -84,7 +84,7 @@ impl SceneError {
         }
     }
 
-    /// Returns an error of a value. Its origin is set later.
+    /// Returns an error about the value of a field. Its origin is set later.
     pub(super) fn of(
         field: &str,
         value: impl Into<String>,
@@ -123,7 +123,7 @@ impl SceneError {
     }
 }
 
-/// All errors of a scene, at least one. The text of this type has one line for each error.
+/// All errors of a scene, at least one. Displayed as text, each error has its own line.
 ///
 /// ```
 /// use asperity_scene::{Material, Scene};
@@ -137,7 +137,7 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` if there are errors. Each gets its origin, and a long list is shortened.
+    /// Returns `Err` if there are errors. Each error gets its origin, and a long list is shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -189,15 +189,15 @@ impl std::error::Error for SceneErrors {}
 /// Reason why a number of a scene cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NumberError {
-    /// The scene can have no number at this path.
+    /// The scene has no number at this path and cannot have one.
     #[error("the scene has no such number")]
     Missing,
-    /// The number contradicts another number of the scene. The text names both.
+    /// The new number contradicts another number of the scene. The text names both fields.
     #[error("{0}")]
     Contradiction(String),
 }
 
-/// Returns the origin of an error at a byte of a text: its line and column.
+/// Returns the origin of an error at a byte offset of a text: its line and column.
 pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     Origin::File {
         name: name.into(),
@@ -205,8 +205,8 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     }
 }
 
-/// Returns the overrides that cause an error: those of its field, of a group around it, or of a
-/// field inside it. If there are none, all overrides count.
+/// Returns the overrides that may have caused an error: overrides of its field, of a group around
+/// the field, or of a field inside it. If there are none, returns all overrides.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let mut all = Vec::new();
     let mut behind = Vec::new();
@@ -220,13 +220,14 @@ pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)
     Origin::Overrides(if behind.is_empty() { all } else { behind })
 }
 
-/// Largest length of a name that is compared with other names. A longer one is no misspelt name.
+/// Largest length of a name that is compared with other names. A longer name is probably not a
+/// misspelt one.
 const LONGEST: usize = 64;
 
-/// Returns the one of `names` that is most similar to the misspelt `name`; `None` if no name is
+/// Returns the name among `names` that is most similar to the misspelt `name`; `None` if no name is
 /// similar.
 ///
-/// For a path with dots it is enough that its last part is similar: the name `hurst` finds
+/// For a path with dots, the similarity of its last part is enough: the name `hurst` finds
 /// `roughness.hurst`.
 ///
 /// ```
@@ -252,8 +253,9 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
     nearest
 }
 
-/// Returns twice the number of differences between two paths, or between their last parts, which
-/// count slightly more than a whole path. Returns `None` if too much is different.
+/// Returns the distance between two paths: twice the number of differences between the whole paths,
+/// or twice the number of differences between their last parts plus 1, whichever is smaller.
+/// Returns `None` if the paths differ too much.
 fn distance_of_paths(path: &str, other: &str) -> Option<usize> {
     let whole = distance_of_names(&path.to_lowercase(), &other.to_lowercase());
     let end = distance_of_names(&last_part(path), &last_part(other));
@@ -269,16 +271,16 @@ fn last_part(path: &str) -> String {
     path.rsplit('.').next().unwrap_or_default().to_lowercase()
 }
 
-/// Returns the number of differences between two names; `None` if more than a third of the name is
-/// wrong.
+/// Returns the number of differences between two names. Returns `None` if this number is more than
+/// a third of the length of `name`.
 fn distance_of_names(name: &str, other: &str) -> Option<usize> {
     let distance = osa_distance(name, other);
     let most = (name.chars().count() / 3).max(1);
     (distance <= most).then_some(distance)
 }
 
-/// Returns a question to append to a message, such as `; did you mean length?`, with the name that
-/// is most similar to `name`. The text is empty if no name is similar.
+/// Returns a question to append to an error message, such as `; did you mean length?`, with the
+/// name that is most similar to `name`. The text is empty if no name is similar.
 pub fn did_you_mean<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> String {
     nearest(name, names).map_or_else(String::new, |near| format!("; did you mean {near}?"))
 }

@@ -1,4 +1,4 @@
-//! One field of a scene with its path, symbol, unit, range, step, default and meaning.
+//! Description of one field of a scene: path, symbol, unit, range, step, default and meaning.
 
 use super::range::{Range, choice_name};
 use super::slot::Place;
@@ -13,27 +13,27 @@ use asperity_data::{QuantityError, in_unit, parse_quantity, unit_of};
 pub struct Field {
     /// Path of the field from the top of the scene, with dots between its parts: `roughness.hurst`.
     pub path: &'static str,
-    /// Choice that has this field, such as the form `Paraboloid` for the radius of a paraboloid.
-    /// `None` if the field does not depend on a choice.
+    /// Choice that has this field, such as the form `Paraboloid` for its radius. `None` if the
+    /// field does not depend on a choice.
     pub variant: Option<&'static str>,
     /// Name of the field in words, such as `Hurst exponent`.
     pub name: &'static str,
     /// Symbol of the field in the equations; empty if it has none.
     pub symbol: &'static str,
-    /// SI unit of the field; `1` for a number without a unit, empty for a field that is not a
-    /// number.
+    /// SI unit of the field. It is `1` for a number without a unit, and empty for a field that is
+    /// not a number.
     pub unit: &'static str,
     /// Allowed values of the field.
     pub range: Range,
     /// How one press of a key in the explorer changes the value of the field.
     pub step: Step,
-    /// Value that an omitted field has, in RON; empty if the field is required.
+    /// Value of the field if the scene omits it, in RON; empty if the field is required.
     pub default: &'static str,
     /// Meaning of the field in one line.
     pub meaning: &'static str,
     /// Function that converts typed text to RON.
     pub(super) read: Read,
-    /// Where a scene has the value of the field.
+    /// Where a scene stores the value of the field.
     pub(super) place: Place,
 }
 
@@ -44,11 +44,11 @@ pub(super) type Read = fn(&Field, &str) -> Result<String, QuantityError>;
 /// step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
-    /// A small step adds the first number, a large step the second one. The result is a multiple of
-    /// the first number.
+    /// A small step adds the first number, a large step the second one. The result is rounded to a
+    /// multiple of the first number.
     Linear(f64, f64),
-    /// Goes to the next preferred number: in a small step to the next one of the Renard series R20,
-    /// in a large step to the next one of the series …, 1, 2, 5, 10, 20, 50, ….
+    /// Goes to the next preferred number. In a small step it is the next number of the Renard
+    /// series R20, in a large step the next number of the series …, 1, 2, 5, 10, 20, 50, ….
     Logarithmic,
     /// A small step adds the first integer, a large step the second one.
     Integer(u64, u64),
@@ -63,7 +63,8 @@ pub enum Step {
     Typed,
 }
 
-/// Returns a required field with the usual unit and step for its range. Its name is its path.
+/// Returns the description of a required field. The range determines its unit and step, and its
+/// name is its path.
 pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field {
     let step = match range {
         Range::Real(..) => Step::Logarithmic,
@@ -98,7 +99,7 @@ pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field
     }
 }
 
-/// Methods that change one column of a row in the table of fields.
+/// Methods that set one part of the description.
 impl Field {
     pub(super) const fn name(self, name: &'static str) -> Field {
         Field { name, ..self }
@@ -161,8 +162,8 @@ impl Field {
     }
 
     /// Formats a value of this field with its unit, such as `100 µm, 200 nm`. `written` is a number
-    /// or a pair of wavelengths in RON, and `format` is called for each number and its unit.
-    /// Returns `None` for any other value.
+    /// or a pair of wavelengths in RON. `format` is called with each number and its unit. Returns
+    /// `None` for any other value.
     pub fn quantities(&self, written: &str, format: fn(f64, &str) -> String) -> Option<String> {
         match self.range {
             Range::Real(..) => Some(format(written.parse().ok()?, self.unit)),
@@ -176,8 +177,8 @@ impl Field {
         }
     }
 
-    /// Appends the units of a shown value to a typed value that has none: `50` becomes `50 mJ/m²`
-    /// if `4.356 mJ/m²` is shown.
+    /// Appends the unit of a shown value to a typed value that has no unit: `50` becomes `50 mJ/m²`
+    /// if the shown value is `4.356 mJ/m²`.
     pub fn in_shown_units(&self, typed: &str, shown: &str) -> String {
         if let Range::Real(..) = self.range {
             return in_unit(typed, unit_of(shown));
@@ -198,8 +199,9 @@ impl Field {
         self.path.rsplit_once('.').map_or("", |(parent, _)| parent)
     }
 
-    /// Returns the part of a path behind the path of this field: `1` for `roughness.modes.1`, empty
-    /// for the path of the field itself. Returns `None` for a path that is not inside this field.
+    /// Returns the part of a path that follows the path of this field: `1` for `roughness.modes.1`,
+    /// and empty for the path of the field itself. Returns `None` for a path that is not inside
+    /// this field.
     pub(super) fn inside_path<'p>(&self, path: &'p str) -> Option<&'p str> {
         let rest = path.strip_prefix(self.path)?;
         if rest.is_empty() {
@@ -250,7 +252,7 @@ pub const LEG_INDENTATION: Field = row(
 .quantity("indentation of stage", "d", "m")
 .meaning("target: the stage ends at this indentation; 0 is first touch, positive is deeper");
 
-/// Description of one loading stage, whose allowed choices are the kinds of stages.
+/// Description of one loading stage. The allowed choices are the kinds of stages.
 pub const STAGE: Field = row("loading", Place::NOWHERE, Range::Choice(&STAGES)).name("stage").meaning(
     "target of the stage: a force (10 µN), an indentation (200 nm), a displacement, touch, zero force or separation",
 );
@@ -278,7 +280,8 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     }
 }
 
-/// Smallest integer from which on floating-point numbers leave integers out.
+/// Numbers below this limit are exact if they are integers. Larger floating-point numbers may skip
+/// integers.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
@@ -291,7 +294,7 @@ impl Field {
     /// without its numbers.
     pub fn read_typed(&self, typed: &str) -> Result<String, QuantityError> {
         match typed.trim() {
-            // As an omitted part is shown.
+            // Outputs show an omitted part as `none`.
             "none" if self.default == "None" => Ok(self.default.to_owned()),
             typed => (self.read)(self, typed),
         }
@@ -302,7 +305,7 @@ fn begins_as_number(typed: &str) -> bool {
     typed.starts_with(|sign: char| sign.is_ascii_digit() || matches!(sign, '+' | '-' | '.'))
 }
 
-/// Returns true for a number with a prefix or a unit, which is no number in RON.
+/// Returns true if the text is a number with a prefix or a unit, which RON does not allow.
 fn is_quantity(typed: &str) -> bool {
     begins_as_number(typed) && ron::from_str::<f64>(typed).is_err()
 }
@@ -311,7 +314,7 @@ fn read_unchanged(_: &Field, typed: &str) -> Result<String, QuantityError> {
     Ok(typed.to_owned())
 }
 
-/// Reads a number in RON, or a number with a prefix or the unit.
+/// Reads a number in RON, or a number with a prefix or with the unit of the field.
 fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_quantity(typed) {
         parse_quantity(typed, field.unit).map(ron_float)
@@ -320,20 +323,20 @@ fn read_number(field: &Field, typed: &str) -> Result<String, QuantityError> {
     }
 }
 
-/// Returns a number in RON as a whole number; `None` if it is none, or if it is too large to be
-/// exact.
+/// Returns a number in RON as a whole number. Returns `None` if the number is not whole or too
+/// large to be exact.
 fn whole_in_ron(value: f64) -> Option<String> {
     let is_whole = value.fract() == 0.0 && (0.0..MOST_EXACT).contains(&value);
     is_whole.then(|| (value as u64).to_string())
 }
 
-/// Reads a whole number, with blanks between its digits or with a prefix.
+/// Reads a whole number, which may have blanks between its digits or a prefix.
 fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let digits: String = typed.split_whitespace().collect();
     if digits.parse::<u64>().is_ok() {
         return Ok(digits);
     }
-    // A seed has more digits than a floating-point number keeps.
+    // A seed can have more digits than a floating-point number, so it is not read as one.
     if begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
         let whole = whole_in_ron(parse_quantity(typed, field.unit)?);
         return Ok(whole.unwrap_or_else(|| typed.to_owned()));
@@ -341,7 +344,7 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     Ok(typed.to_owned())
 }
 
-/// Reads two numbers, or a single number as a field of one number does.
+/// Reads two numbers. A single number is read like a number of any other field.
 fn read_pair(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let is_whole = matches!(field.range, Range::Band(..));
     let Some((first, last)) = split_pair(typed) else {
@@ -373,7 +376,7 @@ fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
     })
 }
 
-/// Reads a choice in RON or in words.
+/// Reads a choice in RON, or as users read it, such as `sub-cell`.
 fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let Range::Choice(choices) = field.range else {
         return Ok(typed.to_owned());
@@ -392,7 +395,7 @@ fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     Ok(typed.to_owned())
 }
 
-/// Reads a form, or the name of the file of a table.
+/// Reads a form. The name of a file means a table with this file.
 pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_file_name(typed) {
         Ok(format!("Table(file: {})", ron_string(typed)))
@@ -401,7 +404,7 @@ pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityEr
     }
 }
 
-/// Reads a roughness, or the name of the file of a measured surface.
+/// Reads a roughness. The name of a file means a measured surface with this file.
 pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_file_name(typed) {
         Ok(format!("Measured(file: {})", ron_string(typed)))
@@ -410,7 +413,7 @@ pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, Quant
     }
 }
 
-/// Reads an adhesion, or a work of adhesion with its unit.
+/// Reads an adhesion. A quantity means a work of adhesion.
 pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_quantity(typed) {
         let work = parse_quantity(typed, "J/m²")?;
@@ -420,7 +423,7 @@ pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, Quanti
     }
 }
 
-/// Reads a list of loading stages in RON or in words.
+/// Reads a list of loading stages in RON, or as text such as `10 µN, separation`.
 pub(super) fn read_stages(_: &Field, typed: &str) -> Result<String, QuantityError> {
     if ron::from_str::<Vec<Move>>(typed).is_ok() {
         return Ok(typed.to_owned());
@@ -448,7 +451,7 @@ pub fn choice_in_words(name: &str) -> String {
     words
 }
 
-/// Returns true for a text with a dot or a path separator. No choice of a field has either.
+/// Returns true if a text contains a dot or a path separator, as no choice of a field does.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }

@@ -17,9 +17,9 @@ use asperity_surface::Form;
 /// Largest number of springs that a scene may have.
 pub const MOST_POINTS: u64 = 1 << 28;
 
-/// Returns the description of the field at a path. Several choices may have a field at the same
-/// path, such as the radius of a sphere and of a punch. Then `variant` is the name of the choice;
-/// `None` means the first choice that has the field.
+/// Returns the description of the field at a path; `None` if there is no such field. If several
+/// choices have a field at this path, such as the radius of a sphere and of a punch, `variant` is
+/// the name of the choice. If `variant` is `None`, the first choice that has the field counts.
 ///
 /// ```
 /// let radius = asperity_scene::fields::field("form.radius", Some("Paraboloid")).unwrap();
@@ -32,7 +32,7 @@ pub fn field(path: &str, variant: Option<&str>) -> Option<&'static Field> {
         .find(|field| variant.is_none() || field.variant.is_none() || field.variant == variant)
 }
 
-/// Returns the fields directly inside the group or the variant at a path; an empty path is the
+/// Returns the fields directly inside the group or the variant at a path. An empty path means the
 /// whole scene.
 pub(super) fn fields_inside(
     path: &str,
@@ -84,7 +84,7 @@ const UNIT: Range = Text {
     lines: false,
 };
 
-/// Makes the place of a number of a form, which is a member of the variant of that name.
+/// Makes the place of a number of a form. The number is a member of the variant `$form`.
 macro_rules! form {
     ($form:ident, $member:ident) => {
         place!(form, Some(Form::$form { $member, .. }) => $member).of(stringify!($form))

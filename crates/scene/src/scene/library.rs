@@ -11,7 +11,7 @@ use super::text::index::Text;
 use super::typed::LONGEST_TEXT;
 use asperity_data::{ReadError, path_name, printable, read_regular_text};
 
-/// Name of the built-in scene that the program opens if no other scene is named.
+/// Name of the built-in scene that the program opens if the user names no other.
 pub const DEFAULT: &str = "pressure-sensitive";
 
 /// A built-in scene, or a built-in plan of a study.
@@ -23,8 +23,8 @@ pub struct Preset {
     pub text: &'static str,
 }
 
-/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder of it, which are named
-/// without their ending `.ron`.
+/// Makes a list of [`Preset`]s from files in `presets/` or a subfolder. Their names are given
+/// without the ending `.ron`.
 #[macro_export]
 macro_rules! built_in {
     ($folder:literal: $($name:literal),* $(,)?) => {
@@ -70,7 +70,7 @@ pub fn find_scene(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
-/// Converts typed text to a path. A leading `~` becomes the home folder, if there is one.
+/// Converts typed text to a path. A leading `~` is replaced by the home folder, if there is one.
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     if let Some(inside) = text.strip_prefix('~')
@@ -82,7 +82,7 @@ pub fn typed_path(text: &str) -> PathBuf {
     PathBuf::from(text)
 }
 
-/// Place from which a scene comes.
+/// The source of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Built into the program.
@@ -97,28 +97,28 @@ pub enum Source {
 /// scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// Name of the scene: with the ending `.ron` for a file of the working folder, otherwise
-    /// without it.
+    /// Name of the scene. For a file of the working folder it includes the ending `.ron`; otherwise
+    /// it does not.
     pub name: String,
-    /// Place from which the scene comes.
+    /// Source of the scene.
     pub origin: Source,
     /// Path of the file; `None` for a built-in scene.
     pub path: Option<PathBuf>,
     /// Text of the file; empty if it cannot be read.
     pub text: String,
-    /// The scene, or the errors of its file.
+    /// The scene, or the errors in its file.
     pub document: Result<Document, SceneErrors>,
 }
 
-/// Returns the folder of the user's own scenes: `asperity/presets` in `$XDG_CONFIG_HOME` or
-/// `~/.config`, on Windows in the folder for roaming application data. The folder need not exist.
-/// Returns `None` if the user has no home folder.
+/// Returns the folder of the user's own scenes. It is `asperity/presets` in `$XDG_CONFIG_HOME` or
+/// `~/.config`, and on Windows in the folder for roaming application data. The folder need not
+/// exist. Returns `None` if the user has no home folder.
 pub fn own_folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     Some(strategy.config_dir().join("asperity").join("presets"))
 }
 
-/// Returns the file of the scene with this name in the user's own folder, if it exists.
+/// Returns the path of the file with the scene `name` in the user's own folder, if the file exists.
 pub(super) fn own_scene(own: &Path, name: &str) -> Option<PathBuf> {
     let mut components = Path::new(name).components();
     let is_name =
@@ -137,8 +137,8 @@ pub(super) fn own_names(own: &Path) -> Vec<String> {
 }
 
 /// Lists all scenes: first the built-in ones, then the scenes in the user's folder `own`, then the
-/// scenes in the folder `working`. A file is listed if its name ends in `.ron`, except for plans of
-/// studies. A file that is no valid scene is listed with its error.
+/// scenes in the folder `working`. All files whose names end in `.ron` are listed, except for plans
+/// of studies. A file that is not a valid scene is listed with its error message.
 pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
     let mut entries = Vec::new();
     for preset in presets() {
@@ -150,7 +150,7 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
         entries.extend(list_folder(own, Source::Own));
         own_place = own.canonicalize().ok();
     }
-    // A folder in both roles is listed once.
+    // If `own` and `working` are the same folder, it is listed only once.
     if own_place.is_none() || own_place != working.canonicalize().ok() {
         entries.extend(list_folder(working, Source::Working));
     }
@@ -158,7 +158,8 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
 }
 
 impl Entry {
-    /// Creates the entry of a text, or of the reason why it could not be read.
+    /// Creates the entry of a scene from its text, or from the reason why its file could not be
+    /// read.
     fn new(
         name: String,
         origin: Source,
@@ -202,7 +203,7 @@ impl Entry {
             .map_or("", |document| &document.scene().notice)
     }
 
-    /// Returns the first error of the file on one line, with its place and the number of further
+    /// Returns the first error of the file on one line, with its position and the number of further
     /// errors. Returns `None` for a valid scene.
     pub fn error(&self) -> Option<String> {
         let errors = self.document.as_ref().err()?;
@@ -224,7 +225,7 @@ impl Entry {
     }
 }
 
-/// Lists the scenes of a folder, sorted by name; none for a missing folder.
+/// Lists the scenes of a folder, sorted by name. If the folder does not exist, the list is empty.
 fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     let mut paths = match scene_files(folder) {
         Ok(paths) => paths,
@@ -252,12 +253,12 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     entries
 }
 
-/// Returns true for the text of a plan of a study, which contains a scene.
+/// Returns true if a text is the plan of a study. A plan contains a scene.
 fn is_plan(text: &str) -> bool {
     Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }
 
-/// Lists the files of a folder that end in `.ron`, without reading them.
+/// Lists the files of a folder whose names end in `.ron`, without reading the files.
 fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -265,7 +266,8 @@ fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
             continue;
         };
         let path = entry.path();
-        // The target of a link decides; a link without a target is no folder.
+        // For a link, its target decides. A link without a target is not a folder, so it is listed
+        // and gives an error message.
         if path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir() {
             paths.push(path);
         }
@@ -284,7 +286,7 @@ fn name_of(path: &Path, origin: Source) -> String {
         .into_owned()
 }
 
-/// Returns in words why the file of a scene was not read.
+/// Returns the reason why the file of a scene was not read, for an error message.
 pub(super) fn describe(error: ReadError) -> String {
     match error {
         ReadError::Folder => "this is a directory, not a scene file".into(),
@@ -367,7 +369,7 @@ mod tests {
             entry.document.as_ref().unwrap().resolve("line.csv"),
             own.join("line.csv")
         );
-        // A folder in both roles is listed once; missing folders are empty.
+        // If both folders are the same, it is listed once. A missing folder has no entries.
         assert_eq!(listed(Some(&own), &own.join("../own")).len(), 4);
         assert_eq!(listed(None, &own.join("missing")), []);
     }

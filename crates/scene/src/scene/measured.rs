@@ -123,7 +123,7 @@ fn is_default_seed(seed: &u64) -> bool {
     *seed == default_seed()
 }
 
-/// Returns the usual name of a typed unit; empty for an empty text.
+/// Returns the usual name of a unit that a user has typed. Empty text stays empty.
 #[cfg(feature = "clap")]
 fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
     if text.is_empty() {
@@ -134,8 +134,8 @@ fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
 }
 
 impl Measured {
-    /// Returns the names of the files of each face: the rough face, then the opposite one, if it is
-    /// given.
+    /// Returns the names of the files of each face: first the rough face, then the opposite face if
+    /// the scene has its file.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
         let mut face = vec![self.file.as_str()];
         face.extend(self.further_files.iter().map(String::as_str));

@@ -1,6 +1,6 @@
-//! Types of a scene: the values that its author chooses, in SI units.
+//! Types of a scene: the values that the author of the scene chooses, in SI units.
 //!
-//! The types may hold invalid values. [`Scene::checked`] finds the invalid ones.
+//! These types may contain invalid values. [`Scene::checked`] finds them.
 
 use super::adhesion::Adhesion;
 use super::defaults::{EDGES, LOADING, POINTS, SAMPLES, SOLVER, read_default};
@@ -16,10 +16,10 @@ use strum::IntoStaticStr;
 
 /// Version of the format of scene files.
 pub const SCENE_VERSION: u32 = 1;
-/// Number of points of the force curve on a loading stage whose curve is not needed.
+/// Number of points of the force curve of a stage if nobody needs this curve.
 pub const FEW_SAMPLES: u64 = 2;
-/// Recommended number of springs on the shortest wave. With this number the adhesion force of a
-/// rough profile has an error of about one per cent (docs/accuracy.md).
+/// Recommended number of springs for each shortest wave. With this number the adhesion force of a
+/// rough profile deviates by about one per cent from the value for many springs (docs/accuracy.md).
 pub const SPRINGS_PER_WAVE: u64 = Warning::LEAST_SPRINGS_PER_WAVE;
 
 /// A scene: two bodies, their loading, and the resolution of the computation.
@@ -78,13 +78,13 @@ pub struct Material {
     /// Poisson's ratio ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poisson_ratio: Option<f64>,
-    /// Effective modulus E* in Pa, given in place of E and ν.
+    /// Effective modulus E* in Pa, stated instead of E and ν.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effective_modulus: Option<f64>,
 }
 
 impl Material {
-    /// Returns a material with this effective modulus E* in Pa.
+    /// Returns a material with the effective modulus E* in Pa.
     pub fn effective(effective_modulus: f64) -> Self {
         Material {
             effective_modulus: Some(effective_modulus),
@@ -102,9 +102,9 @@ impl Material {
         }
     }
 
-    /// Returns the effective modulus E* in Pa: the given one, otherwise E/(1 − ν²) (eq. (2) of
-    /// Popov and Filippov (2012)). Returns NaN if neither E* nor both E and ν are given, or if a
-    /// used value is out of its range.
+    /// Returns the effective modulus E* in Pa: the stated E*, otherwise E/(1 − ν²) (eq. (2) of
+    /// Popov and Filippov (2012)). Returns NaN if the material has neither E* nor both E and ν, or
+    /// if a value is out of its range.
     pub fn effective_modulus(&self) -> f64 {
         self.modulus().map_or(f64::NAN, Modulus::pascals)
     }
@@ -112,8 +112,8 @@ impl Material {
     /// Returns the effective modulus E* as a [`Modulus`].
     ///
     /// # Errors
-    /// Returns [`ContactError::Value`] if neither E* nor both E and ν are given, or if a used value
-    /// is out of its range.
+    /// Returns [`ContactError::Value`] if the material has neither E* nor both E and ν, or if a
+    /// value is out of its range.
     pub fn modulus(&self) -> Result<Modulus, ContactError> {
         if let Some(effective_modulus) = self.effective_modulus {
             return Modulus::effective(effective_modulus);
@@ -154,14 +154,14 @@ pub enum Roughness {
         /// Seed of the random phases.
         seed: u64,
     },
-    /// Roughness of a file: random profiles with the spectrum of a measured surface, or the profile
-    /// of the file as equivalent line.
+    /// Roughness from a file: either random profiles with the spectrum of a measured surface, or
+    /// the heights of the file as an equivalent line.
     Measured(Measured),
 }
 
 impl Scene {
-    /// Returns a scene of this material and this apparent diameter in m. The body is nominally flat
-    /// and smooth, there is no adhesion, and other fields have the defaults of a scene file.
+    /// Returns a scene with this material and this apparent diameter in m. The body is nominally
+    /// flat and smooth, and there is no adhesion. All other fields have their defaults.
     ///
     /// ```
     /// use asperity_scene::{Adhesion, Material, Scene};
@@ -196,8 +196,8 @@ impl Scene {
         self.length / self.numerics.points as f64
     }
 
-    /// Returns the indices of the springs under the body: all springs, unless the body is a punch
-    /// narrower than the profile.
+    /// Returns the indices of the springs under the body. These are all springs, unless the body is
+    /// a punch narrower than the profile.
     pub fn springs_under_body(&self) -> Range<u64> {
         let points = self.numerics.points;
         self.form
@@ -205,8 +205,8 @@ impl Scene {
             .map_or(0..points, |form| form.springs_under(self.length, points))
     }
 
-    /// Returns the spectrum of a self-affine roughness on the length of the scene; `None` for any
-    /// other roughness.
+    /// Returns the spectrum of a self-affine roughness for the length of the scene. Returns `None`
+    /// for any other roughness.
     pub fn spectrum(&self) -> Option<SelfAffine> {
         let Some(Roughness::SelfAffine {
             hurst,
@@ -244,7 +244,8 @@ impl Scene {
         }
     }
 
-    /// Returns true if the heights of the file are used unchanged, as an equivalent line.
+    /// Returns true if the heights of the measured file are the profile, unchanged, as an
+    /// equivalent line.
     pub fn measured_as_line(&self) -> bool {
         self.measured().is_some_and(|measured| measured.as_line)
     }
@@ -255,8 +256,8 @@ impl Scene {
             .map_or_else(MeasuredOptions::default, Measured::options)
     }
 
-    /// Returns the names, relative to the scene file, of the measured files and of the table of the
-    /// form.
+    /// Returns the names of the measured files and of the table of the form, relative to the folder
+    /// of the scene file.
     pub fn measured_files(&self) -> Vec<&str> {
         let mut files = self
             .measured()
@@ -267,8 +268,8 @@ impl Scene {
         files
     }
 
-    /// Returns the paths of the measured files in `folder`: first all files of the rough body, then
-    /// the file of the opposite body, if it is given.
+    /// Returns the paths of the measured files in `folder`. The first element has all files of the
+    /// rough body. If the scene has a file of the opposite body, the second element has this file.
     pub fn measured_paths(&self, folder: &Path) -> Vec<Vec<PathBuf>> {
         let faces = self.measured().map_or_else(Vec::new, Measured::faces);
         faces
@@ -277,8 +278,8 @@ impl Scene {
             .collect()
     }
 
-    /// Replaces, in this scene only, each name of a measured file or of the table of the form by
-    /// the name that `rename` returns.
+    /// Replaces the name of each measured file and of the table of the form by the name that
+    /// `rename` returns. The files themselves stay as they are.
     pub fn rename_measured_files(&mut self, rename: impl Fn(&str) -> String) {
         if let Some(Form::Table { file, .. }) = &mut self.form {
             *file = rename(file);
@@ -306,7 +307,7 @@ impl Scene {
         }
     }
 
-    /// Sets the seed of the random phases. A scene without a seed stays unchanged.
+    /// Sets the seed of the random phases. A scene without random phases does not change.
     pub fn set_seed(&mut self, wanted: u64) {
         if let Some(
             Roughness::SelfAffine { seed, .. } | Roughness::Measured(Measured { seed, .. }),
@@ -323,11 +324,11 @@ impl Scene {
 pub struct Numerics {
     /// Number of springs N.
     pub points: u64,
-    /// Solver for the equilibrium of the springs: exact, or stepwise as by Popov and Filippov
-    /// (2012).
+    /// Solver for the equilibrium of the springs: the exact solver, or the stepwise method of Popov
+    /// and Filippov (2012).
     pub solver: Solver,
-    /// Edge model: the edge of a contact patch may lie between two springs, or a patch consists of
-    /// whole springs.
+    /// Edge model: either an edge of a contact patch may lie anywhere between two springs, or a
+    /// patch consists of whole springs.
     pub edges: Edges,
     /// Number of points of the force curve on each loading stage.
     pub samples: u64,
@@ -339,7 +340,7 @@ impl Default for Numerics {
     }
 }
 
-/// Settings of the computation as written in a file, where omitted fields have their defaults.
+/// Settings of the computation as written in a file. Omitted fields have their defaults.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "Numerics")]
 struct NumericsText {
@@ -382,11 +383,11 @@ impl From<NumericsText> for Numerics {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Solver {
-    /// Exact solver: it computes, without steps, the indentations at which contact patches form,
-    /// merge, split and detach.
+    /// Exact solver. It computes the indentations at which contact patches form, merge, split and
+    /// detach, without finite steps.
     Exact,
-    /// Method of Popov and Filippov (2012): the body moves by steps. After each step springs attach
-    /// and detach until no further spring does.
+    /// Method of Popov and Filippov (2012): the body moves by finite steps. After each step springs
+    /// attach and detach until the contact no longer changes.
     Stepwise {
         /// Step Δd of the indentation in m.
         step: f64,
@@ -394,8 +395,8 @@ pub enum Solver {
 }
 
 impl Solver {
-    /// Returns the edge model of a scene file that states no edge model: [`Edges::SubCell`] with
-    /// the exact solver, [`Edges::Grid`] with the stepwise solver.
+    /// Returns the edge model that applies if a scene file states none: [`Edges::SubCell`] with the
+    /// exact solver, [`Edges::Grid`] with the stepwise solver.
     pub fn usual_edges(self) -> Edges {
         match self {
             Solver::Exact => read_default(EDGES),
@@ -404,7 +405,7 @@ impl Solver {
     }
 }
 
-/// A quantity that is recorded in addition to the force curve.
+/// A quantity that a computation records in addition to the force curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 pub enum Observer {
     /// The contact patches after each loading stage.

@@ -21,8 +21,8 @@ impl Scene {
             .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
     }
 
-    /// Sets the number at a path without checking its range. A number that the scene leaves out is
-    /// added.
+    /// Sets the number at a path without checking its range. If the scene leaves this number out,
+    /// the number is added.
     ///
     /// # Errors
     /// Returns an error, and leaves the scene as it was, if the scene can have no number at this
@@ -48,7 +48,8 @@ impl Scene {
                 return Ok(());
             }
         }
-        // Which numbers an adhesion can have depends on those that it has already.
+        // An adhesion contains either a work or a parameter, so the present values decide which
+        // numbers it may get.
         let name = path.strip_prefix("adhesion.").ok_or(NumberError::Missing)?;
         self.adhesion = Some(Adhesion::with_number(self.adhesion, name, number)?);
         Ok(())

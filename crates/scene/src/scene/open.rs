@@ -13,13 +13,12 @@ use super::typed::LONGEST_TEXT;
 use asperity_data::{PROVENANCE, ReadError, into_text, npy, open_regular, printable, read_limited};
 
 /// Opens a scene. A name that ends in `.ron`, contains a path separator or is the name of an
-/// existing file is opened as a file. Other names are searched among the built-in scenes, then in
-/// the user's [`own_folder`]. If the file is a CSV table of results, the scene that the table
-/// contains is opened.
+/// existing file is opened as a file. Any other name is searched first among the built-in scenes,
+/// then in the user's [`own_folder`]. If the file is a CSV table of results, the function opens the
+/// scene that the table contains.
 ///
-/// # Errors
 /// Returns an error if there is no such scene, if its file cannot be read, or if the scene has
-/// errors.
+/// invalid values.
 ///
 /// ```
 /// assert_eq!(asperity_scene::open("jkr-sphere")?.scene().length, 1.0e-4);
@@ -44,7 +43,7 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     if let Some(own) = &own
         && own_names.iter().any(|name| name == name_or_path)
     {
-        // No regular file: the reason says so.
+        // The file exists but is no regular file; the error message states this.
         let path = own.join(format!("{name_or_path}.ron"));
         return document_of(text_of_file(&path), &path.display().to_string());
     }
@@ -88,9 +87,9 @@ pub fn is_path(name: &str) -> bool {
     name.ends_with(".ron") || name.chars().any(std::path::is_separator)
 }
 
-/// Opens the scene that an argument on the command line names: as [`open`] does, or from standard
-/// input for `-`. A pipe or a device is read to its end, so the function may wait for another
-/// program.
+/// Opens the scene that an argument of the command line names. For `-` the scene is read from
+/// standard input; for any other argument the function works as [`open`] does. A pipe or a device
+/// is read to its end, so the function may wait for another program.
 ///
 /// # Errors
 /// Returns the same errors as [`open`].
@@ -125,8 +124,8 @@ const TABLE_START: &str = "asperity ";
 /// Text between the head of a table of results and its scene.
 const BEFORE_SCENE: &str = "\nscene:\n";
 
-/// Returns the document of a scene, or of the scene in a table of results, whose other lines are
-/// not read.
+/// Returns the document of a scene. If the text is a table of results, returns the scene in the
+/// table and does not read the other lines.
 fn document_of(text: Result<String, ReadError>, name: &str) -> Result<Document, SceneErrors> {
     let text = text.map_err(|error| whole(name, describe(error)))?;
     if !text.starts_with(TABLE_START) {
@@ -165,7 +164,8 @@ fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     if !is_table {
         return into_text(read_limited(whole, LONGEST_TEXT)?);
     }
-    // Comments of a scene of the greatest length, with a line for each byte.
+    // The limit allows for a scene of the greatest length in comments, even if each byte is on its
+    // own line.
     let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
     let mut text = Vec::new();
     let mut line = Vec::new();

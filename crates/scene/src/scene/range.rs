@@ -1,4 +1,4 @@
-//! Allowed values of fields: checks of values, and text for readers.
+//! Allowed values of fields: checks of values, and descriptions of the allowed values for users.
 
 use std::fmt;
 use std::ops::Bound::{Excluded, Included};
@@ -8,18 +8,17 @@ use std::ops::{Bound, RangeBounds};
 /// and its bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// A finite real number between a smallest and a largest number, each of which is included or
-    /// excluded.
+    /// A finite real number between two bounds. Each bound is either included or excluded.
     Real(Bound<f64>, Bound<f64>),
-    /// An integer from the first to the second number, both included.
+    /// An integer from the first to the second bound, both included.
     Whole(u64, u64),
-    /// A pair `(first, last)` of integers with first ≤ last, both from the first to the second
-    /// number of this variant.
+    /// A pair `(first, last)` of integers with first ≤ last. Both lie between the two bounds of
+    /// this variant, which are included.
     Band(u64, u64),
-    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest, both from the
-    /// first to the second number of this variant.
+    /// A pair `(longest, shortest)` of wavelengths in m with longest ≥ shortest. Both lie between
+    /// the two bounds of this variant, which are included.
     Wavelengths(f64, f64),
-    /// Text without control characters, except for line breaks where they are allowed.
+    /// Text without control characters; line breaks may be allowed.
     Text {
         /// Smallest allowed number of characters.
         least: usize,
@@ -28,13 +27,11 @@ pub enum Range {
         /// True if line breaks are allowed.
         lines: bool,
     },
-    /// The value of the field is one of these choices. Each choice is written in RON, with example
-    /// numbers.
+    /// One of these choices. Each choice is written in RON, with example values.
     Choice(&'static [&'static str]),
-    /// The value of the field is itself a list: from `least` to `most` elements, each of a kind in
-    /// `of`.
+    /// A list of `least` to `most` elements, each of one of the kinds in `of`.
     List {
-        /// Allowed kinds of elements. Each kind is written in RON, with example numbers.
+        /// Allowed kinds of elements. Each kind is written in RON, with example values.
         of: &'static [&'static str],
         /// Smallest allowed number of elements.
         least: usize,
@@ -77,8 +74,8 @@ impl Range {
         matches!(*self, Range::Whole(min, max) | Range::Band(min, max) if (min..=max).contains(&value))
     }
 
-    /// Returns the smallest and the largest number of a numeric range; `None` for other ranges.
-    /// Either number may itself be excluded from the range.
+    /// Returns the lower and the upper bound of a numeric range, whether or not the range includes
+    /// them. Returns `None` for other ranges.
     pub fn ends(&self) -> Option<(f64, f64)> {
         match *self {
             Range::Real(Included(min) | Excluded(min), Included(max) | Excluded(max)) => {
@@ -92,7 +89,7 @@ impl Range {
 }
 
 /// Returns the name at the beginning of a choice: `Cone` for `Cone(angle: 0.1)`. A choice without a
-/// name is returned whole.
+/// name is returned unchanged.
 pub(super) fn choice_name(choice: &str) -> &str {
     match choice.split_once('(') {
         Some((name, _)) if !name.is_empty() => name,
@@ -163,7 +160,8 @@ fn counts(least: usize, most: usize) -> String {
     }
 }
 
-/// Returns the names of choices as a list in words: `Cone, Punch or None`.
+/// Returns the names of the choices as a phrase, with the word `last` before the last name: `Cone,
+/// Punch or None`.
 fn listed(choices: &[&str], last: &str) -> String {
     let names: Vec<&str> = choices.iter().map(|choice| choice_name(choice)).collect();
     match names.split_last() {
@@ -172,7 +170,7 @@ fn listed(choices: &[&str], last: &str) -> String {
     }
 }
 
-/// A bound in common notation: `0.5`, `1e13`, `π/2`.
+/// A bound in the usual notation: `0.5`, `1e13`, `π/2`.
 struct Number(f64);
 
 impl fmt::Display for Number {

@@ -1,4 +1,4 @@
-//! Reader of the text of a scene, whose errors are in the words of scenes.
+//! Reader of the text of a scene. Its error messages use the terms of scenes.
 
 use ron::Error;
 use ron::error::SpannedError;
@@ -11,15 +11,15 @@ use super::range::Range;
 use super::text::index::{Text, offset_of};
 use super::text::read_ron;
 
-/// Largest length of a value that messages repeat.
+/// Largest length of a value that error messages repeat.
 const MOST_REPEATED: usize = 60;
 
-/// Message for a text that does not begin as a scene, such as a table of an instrument.
+/// Error message for a text that does not begin as a scene, such as a table of an instrument.
 const NO_SCENE: &str = "a scene in ( ) is expected here; a measured surface is read by `asperity surface FILE`, and \
                         is the roughness of a scene as Measured(file: \"FILE\")";
 
-/// Reads a scene without checking its values. `origin` gives the origin of an error at a byte of
-/// the text.
+/// Reads a scene without checking its values. `origin` returns the origin of an error from its byte
+/// offset in the text.
 pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene, SceneErrors> {
     read_ron(text).map_err(|error| {
         let (offset, error) = no_scene(text, &error).unwrap_or_else(|| explain(text, &error));
@@ -27,8 +27,9 @@ pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene
     })
 }
 
-/// Returns the byte and the error of a text that does not begin as a scene or has an unsupported
-/// version, which may be why the rest is unreadable. Returns `None` for any other text.
+/// Returns the byte offset and the error of a text that does not begin as a scene or has an
+/// unsupported version. An unsupported version may be the reason why the rest is unreadable.
+/// Returns `None` for any other text.
 fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
         let start = source.len() - source.trim_start().len();
@@ -47,16 +48,17 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     Some((text.nearest_value("version"), error))
 }
 
-/// Returns the first byte of the error, and the byte that the reader has reached.
+/// Returns the byte offset at which the error begins, and the byte offset that the reader has
+/// reached.
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
-    // A reason of the scene's own refers to the group that ends here.
+    // An error that the types of a scene report refers to the group that ends at this position.
     if let Error::Message(_) = error.code {
         return (text[..end].trim_end().len().saturating_sub(1), end);
     }
-    // The span starts before the last token read; if that was only blank or punctuation, the error
-    // comes after it.
+    // The span of the error starts before the last token. If the span contains only blanks and
+    // punctuation, the error is after the span.
     let is_token = |sign: char| sign.is_alphanumeric() || matches!(sign, '"' | '\'' | '_' | '-');
     if text[start..end].contains(is_token) {
         (start, end)
@@ -65,8 +67,8 @@ fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     }
 }
 
-/// Returns the byte offset of an error that [`read_ron`] has found in the text of a scene, and the
-/// error in plain words.
+/// Explains in plain words an error that [`read_ron`] has found in the text of a scene. Returns the
+/// byte offset of the error and the error.
 pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
     let (offset, end) = place_of(source, error);
     let is_lost = matches!(
@@ -77,7 +79,8 @@ pub fn explain(source: &str, error: &SpannedError) -> (usize, SceneError) {
         Ok(text) => return explain_at(&text, offset, &error.code),
         Err(unreadable) => unreadable,
     };
-    // If the reader reached the end of the text, the open bracket is the better place.
+    // If the reader has reached the end of the text, the position of the open bracket explains the
+    // error better.
     if end >= source.trim_end().len() || is_lost {
         let error = SceneError::whole(Origin::Scene, unreadable.reason);
         return (unreadable.offset, error);
@@ -122,8 +125,8 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     (offset, error)
 }
 
-/// Explains the error of a value. A single value is marked as a whole and repeated, with the
-/// allowed values.
+/// Explains the error of a value. If it is a single value, the error begins at this value and
+/// states the value and the allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
     let single = text.written(path).filter(|value| {
         !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])
@@ -132,7 +135,7 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
         return (offset, SceneError::of(path, "", "", &plain(error)));
     };
     let offset = text.nearest_value(path);
-    // Without quotes the content of a text is not the error.
+    // A text without quotes is an error because of the missing quotes, not because of its content.
     if let Some(field) = field_at(text, path)
         && !matches!(field.range, Range::Text { .. })
         && !value.is_empty()
@@ -143,13 +146,13 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
     (offset, SceneError::of(path, value, "", &plain(error)))
 }
 
-/// Returns true if a field of the plan of a study was found where fields of a scene were expected.
+/// Returns true if a field of the plan of a study was found where a scene was expected.
 fn is_of_plan(found: &str, expected: &[&str]) -> bool {
     ["scene", "axes", "preloads", "profiles", "record"].contains(&found)
         && expected.contains(&"material")
 }
 
-/// Returns the message of the reader in plain words.
+/// Returns the error message of the RON reader in plain words.
 fn plain(error: &Error) -> String {
     let text = match error {
         Error::Eof => "the text ends too early",
@@ -187,7 +190,7 @@ fn plain(error: &Error) -> String {
     text.to_string()
 }
 
-/// Returns a text with a small letter at its beginning.
+/// Returns a text whose first letter is a small letter.
 fn with_small_letter(text: &str) -> String {
     let Some(first) = text.chars().next() else {
         return String::new();
@@ -230,7 +233,8 @@ mod tests {
 
     #[test]
     fn errors_are_stated_in_the_terms_of_the_scene() {
-        // Fifth line of a scene; column, field, value and words of its error.
+        // Each row has the fifth line of a scene, and the column, the field, the value and a part
+        // of the message of its error.
         for row in [
             "lenght: 1,|5|lenght||did you mean length?",
             "length: 1.0,|5|length||given twice",

@@ -1,4 +1,5 @@
-//! Slots of a scene: the places of its values, to which the rows of the table of fields refer.
+//! Slots of a scene. A slot is the member of a scene in which the value of a field is stored. The
+//! rows of the table of fields refer to slots.
 
 use super::adhesion::Adhesion;
 use super::model::{Material, Numerics, Observer, Roughness, Scene, Solver};
@@ -6,7 +7,7 @@ use super::stages::StageKind;
 use asperity_contact::{Edges, Move};
 use asperity_surface::{Detrend, Form};
 
-/// Value of a field in a scene, in the kind of its range.
+/// Value of a field in a scene. The variant depends on the range of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Value<'s> {
     Real(f64),
@@ -14,13 +15,13 @@ pub(super) enum Value<'s> {
     Flag(bool),
     Text(&'s str),
     Texts(&'s [String]),
-    /// First and last mode.
+    /// First and last mode, as numbers of waves on the length of the profile.
     Modes(u64, u64),
     /// Longest and shortest wavelength in m.
     Wavelengths(f64, f64),
-    /// Name of the selected choice. The numbers of a choice are fields of their own.
+    /// Name of the selected choice. The values of the choice are separate fields.
     Choice(&'static str),
-    /// A group without a name. Its values are fields of their own.
+    /// A group without a name. Its values are separate fields.
     Group,
     Stages(&'s [Move]),
     Observers(&'s [Observer]),
@@ -35,8 +36,8 @@ impl Value<'_> {
         }
     }
 
-    /// Returns the number at a path inside this value: at the empty path the number itself, at `0`
-    /// and `1` the numbers of a pair, at `2.0` the number of the third loading stage.
+    /// Returns the number at a path inside this value. The empty path is the number itself, `0` and
+    /// `1` are the numbers of a pair, and `2.0` is the number of the third loading stage.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
@@ -54,23 +55,26 @@ impl Value<'_> {
     }
 }
 
-/// Returns the index of a loading stage from the path of its number inside the loading, `2.0`.
+/// Returns the index of a loading stage from the path of its number inside the loading: 2 for
+/// `2.0`.
 fn stage_index(inside: &str) -> Option<usize> {
     inside.strip_suffix(".0")?.parse().ok()
 }
 
-/// Place of a value in a scene, which holds the value or leaves it out.
+/// A slot: the member of a scene that stores the value of a field, or states that the scene leaves
+/// it out.
 pub(super) trait Slot {
-    /// Returns the value; `None` if it is left out.
+    /// Returns the value; `None` if the scene leaves it out.
     fn value(&self) -> Option<Value<'_>>;
 
-    /// Sets the number at a path inside this slot, as [`Value::number`] reads it. Returns false if
-    /// the slot has no number there.
+    /// Sets the number at a path inside this slot; [`Value::number`] describes such paths. Returns
+    /// false if the slot has no number at this path.
     fn set_number(&mut self, _inside: &str, _number: f64) -> bool {
         false
     }
 
-    /// Returns a slot that holds a number where it was left out; `None` for other slots.
+    /// Returns a slot that stores the number, if a slot of this type can be left out and is a
+    /// number; otherwise `None`.
     fn of_number(_number: f64) -> Option<Self>
     where
         Self: Sized,
@@ -265,9 +269,9 @@ impl Slot for Numerics {
     }
 }
 
-/// Place of a field in every scene: functions that return its slot in a scene, for reading and for
-/// writing, or `None` if the scene has another choice. The macro `place!` makes both functions from
-/// one expression.
+/// The slot of a field in any scene, as two functions: one for reading and one for writing. They
+/// return `None` if the scene has another choice. The macro `place!` makes both functions from one
+/// expression.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     /// Choice that has the field, such as `Cone` for an angle.
@@ -277,14 +281,14 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Place of a parameter that is no field of a scene, such as the number of a loading stage.
+    /// Place of a parameter that is not a field of a scene, such as the number of a loading stage.
     pub(super) const NOWHERE: Place = Place {
         choice: None,
         slot: |_| None,
         slot_mut: |_| None,
     };
 
-    /// Returns this place as one that only this choice has.
+    /// Returns this place, restricted to scenes with this choice.
     pub(super) const fn of(self, choice: &'static str) -> Place {
         Place {
             choice: Some(choice),
@@ -293,8 +297,9 @@ impl Place {
     }
 }
 
-/// Makes the [`Place`] of a member of every scene, such as `place!(numerics.points)`, or of a
-/// member that some scenes have, such as `place!(form, Some(Form::Cone { angle }) => angle)`.
+/// Makes the [`Place`] of a field. A member that every scene has is written as
+/// `place!(numerics.points)`, and a member that only some scenes have as `place!(form,
+/// Some(Form::Cone { angle }) => angle)`.
 macro_rules! place {
     ($($member:ident).+) => {
         $crate::scene::slot::Place {

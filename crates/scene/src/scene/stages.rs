@@ -1,4 +1,4 @@
-//! Loading stages: the table of their kinds, and loadings as text that can be read back.
+//! Loading stages: the table of their kinds, and conversion between loadings and text.
 
 use super::range::choice_name;
 use super::text::real_in_ron;
@@ -9,11 +9,11 @@ use std::mem::discriminant;
 /// Largest number of stages of a loading.
 pub(super) const MOST_STAGES: usize = 100_000;
 
-/// A kind of loading stage: what ends the stage, such as a force or first touch.
+/// A kind of loading stage. It states what ends the stage, such as a force or first touch.
 #[derive(Debug)]
 pub struct StageKind {
     example: &'static str,
-    /// Name in words of what ends the stage.
+    /// Name of what ends the stage, as users read it.
     word: &'static str,
     /// SI unit of the number that ends the stage; empty for a kind without a number.
     pub unit: &'static str,
@@ -22,7 +22,7 @@ pub struct StageKind {
 }
 
 impl StageKind {
-    /// All kinds of loading stages, in the order in which a key of the explorer goes through them.
+    /// All kinds of loading stages, in the order in which a key of the explorer selects them.
     pub const ALL: [StageKind; 6] = [
         StageKind {
             example: "ToForce(1.0e-5)",
@@ -63,7 +63,7 @@ impl StageKind {
     ];
 
     /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the
-    /// stage, if it has one.
+    /// stage. The number is `None` for a kind without a number.
     pub fn of(stage: &Move) -> (usize, Option<f64>) {
         let kind = StageKind::ALL
             .iter()
@@ -117,7 +117,8 @@ pub(super) fn stages_in_ron(stages: &[Move]) -> String {
     format!("[{}]", stages.join(", "))
 }
 
-/// Returns a loading stage as text, with its number in this format: `10 µN`, `touch`.
+/// Returns a loading stage as text, such as `10 µN` or `touch`. `format` writes the number with its
+/// unit.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     let (place, number) = StageKind::of(stage);
     let StageKind { word, unit, .. } = StageKind::ALL[place];
@@ -133,9 +134,9 @@ fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     }
 }
 
-/// Formats a loading as text for readers, such as `10 µN, 3 loops 0 N to 10 µN, separation`. If
-/// `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] turns the text
-/// into the same loading again.
+/// Formats a loading as text for users, such as `10 µN, 3 loops 0 N to 10 µN, separation`. If
+/// `format` is [`exact_quantity`](asperity_data::exact_quantity), [`read_loading`] converts the
+/// text back to the same loading.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -163,7 +164,8 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// Returns how often the second stage and the first one follow each other after the first stage.
+/// Returns how many times the loading repeats the second stage and then the first stage, directly
+/// after its first stage.
 fn loops_at_start(loading: &[Move]) -> usize {
     loading[1..]
         .chunks_exact(2)
@@ -171,11 +173,11 @@ fn loops_at_start(loading: &[Move]) -> usize {
         .count()
 }
 
-/// Reads a loading as [`loading_text`] writes it. The text may be in square brackets, and a stage
-/// may also be in RON.
+/// Reads a loading in the notation of [`loading_text`]. The text may be in square brackets, and a
+/// stage may also be in RON.
 ///
 /// # Errors
-/// Returns an error if a part of the text is no stage, or if there are more than 100 000 stages.
+/// Returns an error if a part of the text is not a stage, or if there are more than 100 000 stages.
 pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     let list = text
         .trim()
@@ -207,11 +209,12 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage as [`loading_text`] writes it. A number without a unit becomes a stage of
-/// the kind with the index `usual` in [`StageKind::ALL`], or a force in N if `usual` is `None`.
+/// Reads a loading stage in the notation of [`loading_text`]. A number without a unit becomes a
+/// stage of the kind with the index `usual` in [`StageKind::ALL`]. If `usual` is `None`, the number
+/// is a force in N.
 ///
 /// # Errors
-/// Returns an error if the text is no stage.
+/// Returns an error if the text is not a stage.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -238,7 +241,8 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
             return Ok((kind.stage)(0.0));
         }
     }
-    // A number without the name of a kind: its unit decides, or else it is a force.
+    // The text has no name of a kind, so the unit of the number decides the kind. If no kind has
+    // this unit, the stage ends at a force.
     let mut kinds: Vec<&StageKind> = Vec::new();
     kinds.extend(usual.map(|usual| &StageKind::ALL[usual]));
     kinds.extend(
@@ -275,7 +279,8 @@ mod tests {
     use super::*;
     use asperity_data::{exact_quantity, format_quantity};
 
-    /// A stage, or a minor loop that is repeated, of numbers some of which occur again and again.
+    /// A single stage, or a minor loop that is repeated. Some of the numbers occur often, so that
+    /// stages may be equal.
     fn stages() -> impl Strategy<Value = Vec<Move>> {
         let number = prop_oneof![
             prop::sample::select(vec![1e-5, 5e-6, 0.0, -2e-6]),

@@ -27,7 +27,7 @@ pub struct Statement {
     pub value: String,
 }
 
-/// Lists the values on which the solution of a scene depends: all numbers, and the choices and
+/// Lists the values on which the solution of a scene depends: all numbers, and those choices and
 /// names that differ from their defaults.
 ///
 /// ```
@@ -47,7 +47,7 @@ pub fn statements(scene: &Scene) -> Vec<Statement> {
     found
 }
 
-/// Adds the statements of a field, or of the fields inside it.
+/// Adds the statement of a field. For a group, adds the statements of the fields inside it.
 fn add(field: &'static Field, scene: &Scene, found: &mut Vec<Statement>) {
     let inside = field.inside(scene);
     if !inside.is_empty() {
@@ -71,7 +71,7 @@ fn add(field: &'static Field, scene: &Scene, found: &mut Vec<Statement>) {
     found.push(Statement { field, value });
 }
 
-/// Returns a value in RON as text for readers.
+/// Converts a value in RON to text for users.
 fn value_with_unit(field: &Field, scene: &Scene, written: String) -> String {
     match field.range {
         Range::Band(..) => written.trim_matches(['(', ')']).replace(", ", " to "),

@@ -1,4 +1,4 @@
-//! Steps of a field by a key: from the text of one value to the text of the next.
+//! Steps of a field by a key: from the text of the present value to the text of the next value.
 
 use super::field::{Field, Step};
 use super::fields::fields_inside;
@@ -18,11 +18,12 @@ const SAME: f64 = 1e-9;
 impl Field {
     /// Returns the value of this field, in RON, after `steps` presses of a key in the explorer.
     /// `value` is the present value in RON. Negative `steps` lead to smaller values or earlier
-    /// choices. Each step is a large one ([`Step`]) if `coarse` is true. An optional field also has
-    /// the RON text `None` as a choice, which is returned as `Some("None")`.
+    /// choices. If `coarse` is true, each step is a large one ([`Step`]); otherwise a small one. An
+    /// optional field also has the RON text `None` as a choice, which is returned as
+    /// `Some("None")`.
     ///
     /// Returns `None` at the end of the range, or if keys cannot change the field. The steps of
-    /// wavelengths depend on the length of the profile, see [`Field::stepped_on`].
+    /// wavelengths depend on the length of the profile; [`Field::stepped_on`] computes them.
     pub fn stepped(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if steps == 0 {
             return None;
@@ -62,7 +63,8 @@ impl Field {
         (next != value && !is_same_number).then_some(next)
     }
 
-    /// Returns the next pair of modes; `None` for wavelengths, whose steps depend on the length.
+    /// Returns the next pair of modes. Returns `None` for wavelengths, because their steps depend
+    /// on the length of the profile.
     fn stepped_modes(&self, value: &str, steps: i32, coarse: bool) -> Option<String> {
         if let Range::Wavelengths(..) = self.range {
             return None;
@@ -78,10 +80,10 @@ impl Field {
         is_allowed.then(|| format!("({first}, {last})"))
     }
 
-    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has
-    /// this length in m. After the step a whole number of the changed wavelength fits on the
-    /// length, and it is another number than before. The wavelength is the one of these that is
-    /// nearest to a preferred number.
+    /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has the
+    /// length `length` in m. For wavelengths, a whole number of waves of the changed wavelength
+    /// fits on the length after the step, and this number differs from the number before. Of these
+    /// wavelengths, the result is the nearest to a preferred number.
     ///
     /// ```
     /// let field = asperity_scene::fields::field("roughness.wavelengths", None).unwrap();
@@ -105,8 +107,9 @@ impl Field {
         if !self.range.contains(*changed) {
             return None;
         }
-        // Waves on the length, since a longest wavelength that is not whole may equal the shortest
-        // one.
+        // The numbers of waves are compared instead of the wavelengths, because a longest
+        // wavelength that is not a whole fraction of the length may round to the same number of
+        // waves as the shortest one.
         let is_ordered = (length / longest).round() <= (length / shortest).round();
         if !is_ordered {
             return None;
@@ -118,8 +121,8 @@ impl Field {
         ))
     }
 
-    /// Returns the wavelength of which a whole number fits on the length, near the preferred number
-    /// `steps` steps away. Returns `None` if not even one wave fits.
+    /// Returns the wavelength near the preferred number that is `steps` steps away, chosen so that
+    /// a whole number of waves fits on the length. Returns `None` if not even one wave fits.
     fn whole_wave(&self, length: f64, wavelength: f64, steps: i32, coarse: bool) -> Option<f64> {
         if steps == 0 {
             return None;
@@ -134,8 +137,8 @@ impl Field {
         (waves >= 1.0).then(|| length / waves)
     }
 
-    /// Returns the preferred number `steps` steps away, or the first one outside the range of the
-    /// field.
+    /// Returns the preferred number that is `steps` steps away from `value`. If the range of the
+    /// field ends before, returns the first preferred number outside the range.
     fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
         let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
         let mut next = preferred(value, series, steps > 0)?;
@@ -185,8 +188,8 @@ impl Field {
         Some((*next).to_owned())
     }
 
-    /// Returns true for a choice that requires a text such as the name of a file, which no step can
-    /// give. Such a choice is only typed.
+    /// Returns true if a choice requires a text such as the name of a file. Keys skip such a choice
+    /// because a step cannot provide the text; the user has to type it.
     fn requires_text(&self, choice: &str) -> bool {
         fields_inside(self.path, Some(choice_name(choice)))
             .any(|field| field.default.is_empty() && matches!(field.range, Range::Text { .. }))
@@ -199,13 +202,14 @@ fn number(text: &str) -> Option<f64> {
         .filter(|value: &f64| value.is_finite())
 }
 
-/// Rounds a multiple of `unit` to its decimal digits: 0.71, not 0.7100000000000001.
+/// Rounds a multiple of `unit` to the number of decimal digits of `unit`: 0.71 instead of
+/// 0.7100000000000001.
 fn decimal(value: f64, unit: f64) -> f64 {
     let digits = (-unit.log10()).ceil().max(0.0) as usize;
     format!("{value:.digits$}").parse().unwrap_or(value)
 }
 
-/// Returns the power of two `times` steps above or below a value.
+/// Returns the power of two that is `times` steps above a value, or below if `times` is negative.
 fn doubled(value: u64, times: i32) -> u64 {
     let mut value = value;
     for _ in 0..times.unsigned_abs().min(64) {
@@ -219,13 +223,14 @@ fn doubled(value: u64, times: i32) -> u64 {
     value
 }
 
-/// Returns the next member of a series of preferred numbers in
-/// [1, 10), which repeats in all decades.
+/// Returns the member of a series of preferred numbers that follows `value`. The series is given in
+/// [1, 10) and repeats in all decades.
 fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     if value == 0.0 {
         return None;
     }
-    // Exponent and mantissa from the decimal text, which is exact at powers of ten; log10 is not.
+    // Exponent and mantissa are read from the decimal text, because it is exact at powers of ten
+    // and `log10` is not.
     let text = format!("{:e}", value.abs());
     let (mantissa, exponent) = text.split_once('e')?;
     let mantissa: f64 = mantissa.parse().ok()?;
@@ -305,17 +310,18 @@ mod tests {
         }
     }
 
-    /// Each step changes the number of waves on the length, and reaches the next preferred
-    /// wavelength where it is whole.
+    /// Each step changes the number of waves on the length. It reaches the next preferred
+    /// wavelength if a whole number of these waves fits on the length.
     #[test]
     fn wavelengths_step_by_whole_waves() {
         for row in [
             "100|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.242152466367713e-7)",
             "100|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
-            // One wave on the length is the longest wave.
+            // The longest wave has the length of the profile, so one wave is the smallest number.
             "100|(1.0e-4, 2.0e-7)|1c|",
             "100|(8.0e-5, 2.0e-7)|1c|",
-            // Two waves, and the next preferred wavelengths have as many.
+            // Two waves fit on the length, and for the next preferred wavelengths the number is
+            // also two.
             "100|(5.0e-5, 5.0e-5)|-1|(5.0e-5, 3.3333333333333335e-5)",
             "100|(1.0e-4, 5.0e-5)|1|(1.0e-4, 1.0e-4)",
             "100|(5.0e-5, 5.0e-5)|1|",
@@ -352,7 +358,7 @@ mod tests {
             stepped("roughness.wavelengths", "(1.0e-4, 2.0e-7)", 1, false),
             None
         );
-        // Every step is another contact, and steps in one direction end at one wave.
+        // Each step changes the contact, and steps in one direction end when one wave is left.
         let (mut value, mut counts) = ("(1.0e-4, 3.0e-7)".to_owned(), Vec::new());
         while let Some(next) = field("roughness.wavelengths", None)
             .unwrap()

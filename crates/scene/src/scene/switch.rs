@@ -1,4 +1,4 @@
-//! Effects of a document, switched off and on, and steps through choices.
+//! Switching the effects of a document off and on, and stepping through the choices of a field.
 
 use super::adhesion::Adhesion;
 use super::document::{Document, LeftChoice, RemovedEffect, RemovedValue, pair};
@@ -10,13 +10,13 @@ use super::range::{Range, choice_key};
 use super::text::read_ron;
 use super::written::differing;
 
-/// Adhesion that a smooth body gets.
+/// Adhesion of a smooth body that gets adhesion.
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {
     /// Returns this document without the optional part `effect` of its scene. If the roughness is
-    /// removed, a work of adhesion replaces κ or e_el/γ. If the unloading is removed, one loading
-    /// stage remains.
+    /// removed, a work of adhesion replaces κ or e_el/γ, which need a roughness. If the unloading
+    /// is removed, one loading stage remains.
     ///
     /// # Errors
     /// Returns an error if the scene is not valid without this part.
@@ -54,9 +54,10 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the optional part `effect` in its scene. The part gets back the
-    /// values that it had before [`Self::without`] removed it, otherwise values that suit the
-    /// scene.
+    /// Returns this document with the optional part `effect` in its scene. If [`Self::without`] has
+    /// removed the part before, it gets back its former values; otherwise it gets values that suit
+    /// the scene.
+    ///
     /// # Errors
     /// Returns an error if the part is impossible in the scene, such as roughness on a single
     /// spring.
@@ -70,9 +71,9 @@ impl Document {
         self.with_scene(&effect.suited(self.scene()))
     }
 
-    /// Returns this document with the values that an effect had before it was removed, except for
-    /// values that were changed meanwhile. Returns `None` if the effect was not removed, or if the
-    /// scene does not allow these values.
+    /// Returns this document with the values that an effect had before it was removed. Values that
+    /// were changed since then stay as they are. Returns `None` if the effect was not removed, or
+    /// if the scene does not allow its former values.
     fn restored(&self, effect: Effect) -> Option<Document> {
         let removed = self
             .removed
@@ -88,8 +89,8 @@ impl Document {
         effect.is_on(restored.scene()).then_some(restored)
     }
 
-    /// Returns this document with the values of `scene`. Only values that differ are replaced in
-    /// the text.
+    /// Returns this document with the values of `scene`. In the text, only values that differ are
+    /// replaced.
     ///
     /// # Errors
     /// Returns an error for each invalid value.
@@ -108,9 +109,9 @@ impl Document {
         })
     }
 
-    /// Returns this document with `field` set to its next choice ([`Range::Choice`]), or to its
+    /// Returns this document with the next choice ([`Range::Choice`]) of `field`, or with the
     /// previous choice if `forwards` is false. Choices that the scene does not allow are skipped.
-    /// For the field of an optional part ([`Effect`]) the RON text `None` is a further choice,
+    /// If the field is an optional part ([`Effect`]), the RON text `None` is a further choice,
     /// which removes the part. Returns `None` if there is no other choice.
     ///
     /// # Errors
@@ -127,7 +128,7 @@ impl Document {
             return Ok(None);
         };
         let mut refused = None;
-        // The circle holds the choices and `None`; the present one need not be among them.
+        // The loop goes through all choices and `None`; the present choice need not be among them.
         for distance in 1..=choices.len() as i32 + 1 {
             let steps = if forwards { distance } else { -distance };
             let Some(next) = field.stepped(&here, steps, false) else {
@@ -149,7 +150,8 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// Returns the choices that keys have replaced, also `here`, the present one of a field.
+    /// Returns the choices that keys have replaced, including `here`, the present choice of
+    /// `field`.
     fn left_choices(&self, field: &Field, here: String) -> Vec<LeftChoice> {
         let mut left = self.left.clone();
         if here != "None" {
@@ -162,7 +164,7 @@ impl Document {
         left
     }
 
-    /// Returns this document with another choice of a field, which may be `None`.
+    /// Returns this document with the choice `choice` of a field. The choice may be `None`.
     fn with_chosen(&self, field: &Field, choice: &str) -> Result<Document, SceneErrors> {
         let Some(effect) = effect_at(field.path) else {
             return self.with_choice(field.path, choice);
@@ -174,7 +176,8 @@ impl Document {
                 self.with_choice(field.path, choice)
             };
         }
-        // The removed text where it is this choice: other choices lie on the way around the circle.
+        // If the removed part had this choice, its former values come back. Otherwise the user has
+        // passed other choices since then.
         let back = self.with(effect)?;
         let is_this_choice = back
             .value(field.path)
@@ -186,8 +189,9 @@ impl Document {
         }
     }
 
-    /// Returns this document with a choice as the field last had it, if that is still allowed.
-    /// Otherwise the choice has values that suit the scene, or its usual values.
+    /// Returns this document with a choice. If the field had this choice before, its former values
+    /// come back, provided they are still allowed. Otherwise the choice gets values that suit the
+    /// scene, or its usual values.
     fn with_choice(&self, path: &str, choice: &str) -> Result<Document, SceneErrors> {
         let left = self
             .left
@@ -205,7 +209,7 @@ impl Document {
         {
             return Ok(suited);
         }
-        // The range of the attraction stays.
+        // A new adhesion keeps the range of the attraction.
         if path == "adhesion"
             && let Some(Adhesion { range, .. }) = self.scene().adhesion
             && let Ok(usual) = read_ron::<Adhesion>(choice)
@@ -216,7 +220,7 @@ impl Document {
     }
 }
 
-/// Returns the optional part whose field has this path.
+/// Returns the optional part whose field has this path; `None` if there is none.
 fn effect_at(path: &str) -> Option<Effect> {
     Effect::ALL.into_iter().find(|effect| effect.path() == path)
 }
@@ -225,8 +229,8 @@ fn is_same_choice(one: &str, other: &str) -> bool {
     choice_key(one) == choice_key(other)
 }
 
-/// Returns overrides that turn one scene into another. A field that is no longer given is replaced
-/// together with its group.
+/// Returns the overrides that turn one scene into another. If the new scene no longer states a
+/// field, the whole group of the field is replaced.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     differing(from, to, |before, after| after || !before)
         .into_iter()
@@ -286,7 +290,7 @@ mod tests {
             .with(Effect::Adhesion)
             .unwrap();
         assert_eq!(adhesion(&sticky), "(kappa: 2.0)");
-        // One spring carries no wave at all.
+        // With one spring, roughness is impossible, because no wave fits on the profile.
         let one = bare
             .set("numerics.points", "1")
             .unwrap()
@@ -314,7 +318,7 @@ mod tests {
             .unwrap();
         let pulled = held.with(Effect::Unloading).unwrap();
         assert_eq!(pulled.scene().loading, [ToForce(3e-5), ToSeparation]);
-        // A removed text that is no longer valid is replaced by values that suit the scene.
+        // If the removed text is no longer valid, the part gets values that suit the scene.
         let coarse = back(&smooth.set("numerics.points", "64").unwrap());
         assert_eq!(coarse.value("roughness.modes"), Some("(1, 8)"));
     }
@@ -346,7 +350,7 @@ mod tests {
             (0..20 - circle).all(|place| forms[place] == forms[place + circle]),
             "{forms:?}"
         );
-        // Typed values come back, forwards and backwards.
+        // Values that the user has typed come back, whether the keys go forwards or backwards.
         let typed = next(&flat, "form", true)
             .set("form.radius", "3.0e-4")
             .unwrap();
@@ -384,7 +388,8 @@ mod tests {
         assert_eq!(around, [circle, circle].concat());
         let back = next(&next(&document(), "adhesion", true), "adhesion", false);
         assert_eq!(back.text(), SCENE);
-        // A smooth body has no κ: its work is the usual one, or that which a key has left.
+        // A smooth body has no κ. Its adhesion is the usual work, or the work that a key has
+        // replaced before.
         let smooth = |of: &Document| adhesion(&off(of, Effect::Roughness)).to_owned();
         let sticky = next(&document(), "adhesion", false)
             .set("adhesion.work", "0.3")

@@ -1,4 +1,4 @@
-//! Typed values of fields, put into the text of a scene.
+//! Values of fields as users type them, converted to RON and put into the text of a scene.
 
 use super::edit::{field_at, set};
 use super::errors::{Origin, SceneError, SceneErrors};
@@ -8,8 +8,8 @@ use super::range::Range;
 use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 
-/// Largest length of the text of a scene in bytes. A longer text is refused unread; most scenes
-/// have a few hundred bytes.
+/// Largest length of the text of a scene in bytes. A longer text is refused before it is read; most
+/// scenes have a few hundred bytes.
 pub const LONGEST_TEXT: usize = 1 << 20;
 
 /// Returns the text with the field at `path` set to `value`.
@@ -28,7 +28,7 @@ pub(super) fn with_typed(text: &Text, path: &str, value: &str) -> Result<Text, S
     Ok(text)
 }
 
-/// Returns the field of the pair of numbers that has one of its numbers at this path.
+/// Returns the field whose value is a pair of numbers, if the path leads to one of the two numbers.
 fn pair_around(path: &str) -> Option<&'static Field> {
     let (pair, _) = path.rsplit_once('.')?;
     field(pair, None)
@@ -69,11 +69,11 @@ impl Typed<'_> {
     }
 }
 
-/// Returns a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, in RON.
-/// Returns `None` for any other text, also for a group that is in RON already.
+/// Converts a typed group of values with prefixes and units, such as `Cone(angle: 70°)`, to RON.
+/// Returns `None` for any other text, and for a group that is already in RON.
 fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     let (name, inside) = typed.strip_suffix(')')?.split_once('(')?;
-    // A text or a comment may contain any sign.
+    // A quoted text or a comment may contain commas and brackets, so such a group is not divided.
     if ["\"", "//", "/*"].iter().any(|sign| inside.contains(sign)) {
         return None;
     }
@@ -90,7 +90,7 @@ fn group_in_ron(path: &str, typed: &str) -> Option<String> {
     is_changed.then(|| format!("{name}({})", entries.join(", ")))
 }
 
-/// Splits a text at its commas outside brackets.
+/// Splits a text at its commas, except for commas inside brackets.
 fn split_at_commas(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -110,8 +110,8 @@ fn split_at_commas(text: &str) -> Vec<&str> {
     parts
 }
 
-/// Returns an entry `name: value` of the group at a path in RON; `None` if the group has no field
-/// of this name, or if the value is none of this field.
+/// Converts a typed entry `name: value` of the group at a path to RON. Returns `None` if the group
+/// has no field of this name, or if the field does not allow the value.
 fn entry_in_ron(group: &str, entry: &str) -> Option<String> {
     let (name, value) = entry.split_once(':')?;
     let name = name.trim();

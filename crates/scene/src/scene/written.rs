@@ -8,13 +8,14 @@ use super::stages::stages_in_ron;
 use super::text::{real_in_ron, ron_string};
 
 impl Field {
-    /// Returns the value of this field; `None` if the scene leaves it out or has another choice.
+    /// Returns the value of this field. Returns `None` if the scene leaves it out or has another
+    /// choice.
     pub(super) fn value<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {
         (self.place.slot)(scene)?.value()
     }
 
-    /// Returns true if the scene has the group and the choice of this field. It may still leave out
-    /// the value.
+    /// Returns true if the scene has the group and the choice to which this field belongs. The
+    /// scene may still leave out the value.
     pub(super) fn is_in(&self, scene: &Scene) -> bool {
         if self.parent().is_empty() {
             return true;
@@ -26,7 +27,8 @@ impl Field {
         self.variant.is_none() || self.variant == group.choice()
     }
 
-    /// Returns the fields inside this field, for its selected choice.
+    /// Returns the fields inside this field. For a choice, these are the fields of the selected
+    /// choice.
     pub(super) fn inside(&self, scene: &Scene) -> Vec<&'static Field> {
         match self.value(scene) {
             Some(Value::Choice(name)) => fields_inside(self.path, Some(name)).collect(),
@@ -35,8 +37,8 @@ impl Field {
         }
     }
 
-    /// Returns the value in RON that this field has if the scene leaves it out; empty if the field
-    /// is required.
+    /// Returns the default of this field in RON: the value if the scene leaves the field out. The
+    /// text is empty if the field is required.
     pub(super) fn default_in(&self, scene: &Scene) -> &'static str {
         if self.path == "numerics.edges" {
             scene.numerics.solver.usual_edges().name()
@@ -45,8 +47,8 @@ impl Field {
         }
     }
 
-    /// Returns the value of this field in RON, or its default; `None` if the scene has another
-    /// choice.
+    /// Returns the value of this field in RON, or its default if the scene leaves it out. Returns
+    /// `None` if the scene has another choice.
     pub(super) fn written(&self, scene: &Scene) -> Option<String> {
         let Some(value) = self.value(scene) else {
             return self.is_in(scene).then(|| self.default_in(scene).to_owned());
@@ -98,8 +100,8 @@ fn entries(scene: &Scene, fields: &[&Field]) -> Vec<String> {
     entries
 }
 
-/// Writes a scene as RON text, without fields that have their default. The text reads back as the
-/// same scene.
+/// Writes a scene as RON text. Fields that have their default are left out. Reading the text gives
+/// the same scene.
 pub fn to_ron(scene: &Scene) -> String {
     let fields: Vec<&Field> = fields_inside("", None).collect();
     let mut text = "(\n".to_owned();
@@ -109,9 +111,10 @@ pub fn to_ron(scene: &Scene) -> String {
     text + ")\n"
 }
 
-/// Returns the fields that differ between two scenes. Fields of a group are compared one by one if
-/// both scenes have the same choice and `splits` is true for each; otherwise the whole group
-/// counts. `splits` gets whether each scene states the field.
+/// Returns the fields that differ between two scenes. The fields of a group are compared one by one
+/// if both scenes have the same choice and `splits` is true for each field; otherwise the whole
+/// group counts as one field. The arguments of `splits` state whether the first and the second
+/// scene state the field.
 pub(super) fn differing(
     first: &Scene,
     second: &Scene,
@@ -124,7 +127,8 @@ pub(super) fn differing(
     differing
 }
 
-/// Adds a field to the differing ones, or the fields inside it, if the field differs.
+/// Adds a field to the list of differing fields if it differs. For a group that is compared field
+/// by field, adds the fields inside it.
 fn add_differing(
     field: &'static Field,
     first: &Scene,
@@ -134,7 +138,8 @@ fn add_differing(
 ) {
     let first_text = field.written(first).unwrap_or_default();
     let second_text = field.written(second).unwrap_or_default();
-    // A field with its default in both is equal, though the default may depend on another field.
+    // If both scenes have the default, the field counts as equal, although the default may depend
+    // on another field.
     let are_defaults =
         first_text == field.default_in(first) && second_text == field.default_in(second);
     if first_text == second_text || are_defaults {
@@ -175,7 +180,7 @@ mod tests {
         Scene::clone(rough.set("form", "None").unwrap().scene())
     }
 
-    /// Scenes that together have each choice of each group.
+    /// Scenes that together contain each choice of each group.
     fn scenes_of_all_choices() -> Vec<Scene> {
         let base = Document::from_scene(&sound(), "base").unwrap();
         let mut scenes = Vec::new();
@@ -201,7 +206,7 @@ mod tests {
                 .filter(|field| field.is_in(&before))
             {
                 let mut scene = before.clone();
-                // Numbers may contradict each other.
+                // The new number may contradict another number of the scene.
                 if let Err(error) = scene.set_number(field.path, 12_345.0) {
                     assert!(matches!(error, NumberError::Contradiction(_)), "{field:?}");
                     assert_eq!(scene, before, "{field:?}");

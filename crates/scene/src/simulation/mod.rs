@@ -1,5 +1,5 @@
-//! From a scene to its force curve: the computing stages, their selection by the scene, and their
-//! results.
+//! From a scene to its results: the parts of the computation, the choice of the parts that a scene
+//! needs, and the outcome.
 
 pub(crate) mod outcome;
 pub(crate) mod reach;

@@ -1,4 +1,4 @@
-//! Results of a scene, or the reason why there are none.
+//! Results of a scene, or the reason why it could not be computed.
 
 use super::reach::BeyondFullContact;
 use crate::analysis::governing::{Governing, SteepWaves};
@@ -16,22 +16,22 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Outcome {
-    /// Numbers that describe the profile, such as its length and its largest gap.
+    /// Facts about the profile, such as its length and its largest gap.
     pub line: LineFacts,
     /// Effective modulus, work of adhesion, rms height and rms gradient of the roughness, κ and
     /// e_el/γ.
     pub governing: Governing,
-    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, eq. (14) of
-    /// Popov and Filippov (2012); `None` without adhesion.
+    /// Ideal adhesion force F_a,max in N of a flat face whose length is the length of the profile,
+    /// eq. (14) of Popov and Filippov (2012); `None` without adhesion.
     pub ideal_adhesion_force: Option<f64>,
     /// Adhesion force F_smooth in N of the same body without roughness after the same preload;
     /// `None` without adhesion.
     pub smooth_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch; `None` without adhesion or
-    /// without an unloading stage.
+    /// Adhesion force F_a(d=0) in N of a loop that turns at first touch. `None` if the scene has no
+    /// adhesion or no unloading stage.
     pub first_touch_adhesion_force: Option<f64>,
-    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero; `None`
-    /// without adhesion or without an unloading stage.
+    /// Adhesion force F_a(F=0) in N of a loop that turns where the force is back at zero. `None` if
+    /// the scene has no adhesion or no unloading stage.
     pub zero_force_adhesion_force: Option<f64>,
     /// Tabor number μ; `None` without adhesion, and for a body without a radius of curvature, such
     /// as a cone.
@@ -57,8 +57,8 @@ pub struct Outcome {
     /// Histogram of the heights of the profile; `None` unless the scene has
     /// [`Observer::HeightHistogram`](crate::Observer::HeightHistogram).
     pub histogram: Option<Histogram>,
-    /// Premises of the model that the scene and its results do not meet; empty if all hold. Each
-    /// [`Warning`] says what follows for the results.
+    /// A warning for each premise of the model that the scene and its results do not meet; empty if
+    /// all premises hold. Each [`Warning`] states the consequence for the results.
     pub warnings: Vec<Warning>,
     /// Times that the parts of the computation have taken.
     pub timings: Timings,
@@ -75,20 +75,19 @@ impl Outcome {
     }
 }
 
-/// Numbers that describe the profile of a scene, such as its length and its largest gap.
+/// Facts about the profile of a scene, such as its length and its largest gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LineFacts {
-    /// Number N of springs along the length L.
+    /// Number of springs N along the length L.
     pub points: usize,
     /// Apparent diameter L in m.
     pub length: f64,
     /// Distance Δx between springs in m.
     pub spacing: f64,
-    /// Index of the first spring under the body; above zero only for a punch.
+    /// Index of the first spring under the body. It is above zero only for a punch.
     pub first: usize,
-    /// Height of the highest point in m. The apex of the form without roughness has the height
-    /// zero.
+    /// Height of the highest point in m. Height zero is the apex of the form without roughness.
     pub summit: f64,
     /// Largest gap in m: depth of the lowest point of the profile below its highest point.
     pub deepest: f64,
@@ -102,8 +101,8 @@ pub struct LineFacts {
     pub continuum_rms_gradient: Option<f64>,
 }
 
-/// Times in s that the parts of a computation have taken. The time is zero for a part whose earlier
-/// result was used again.
+/// Times in s that the parts of a computation have taken. If an earlier result was used again, the
+/// time is zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Timings {
     /// Time in s for computing the profile from the form and the roughness.
@@ -173,8 +172,8 @@ pub enum RunError {
         /// Force at first touch in N.
         touch: f64,
     },
-    /// A loading stage presses the body deeper than one length of the profile beyond full contact,
-    /// where all springs touch.
+    /// A loading stage presses the body beyond full contact, where all springs touch, by more than
+    /// the length of the profile.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
     /// The contact could not be computed.

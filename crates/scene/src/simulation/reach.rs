@@ -1,13 +1,13 @@
-//! Loading stages beyond the reach of the model: the reason in words, and the nearest allowed
-//! target.
+//! Loading stages that press the body deeper than the model computes. The error message names the
+//! reason and the nearest allowed target.
 
 use crate::scene::field::target_field;
 use asperity_contact::{Contact, Move};
 use asperity_data::{format_quantity, rounded_up};
 use thiserror::Error;
 
-/// Deepest state up to which a loading is computed: the body is one length of the profile deeper
-/// than at full contact, where the last spring touches.
+/// Deepest state up to which a loading is computed. In this state the body is one length of the
+/// profile deeper than at full contact, where the last spring touches.
 ///
 /// ```
 /// use asperity_contact::Move;
@@ -36,7 +36,7 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// Computes the deepest state up to which loadings of this contact are computed.
+    /// Returns the deepest state up to which loadings of this contact are computed.
     pub fn of(contact: &Contact) -> Reach {
         let length = contact.profile().length();
         let full_contact_force = contact.full_contact_force();
@@ -51,8 +51,7 @@ impl Reach {
         }
     }
 
-    /// Returns a message that says why a loading stage is refused; `None` if the stage does not end
-    /// beyond the deepest state.
+    /// Returns an error message if a loading stage ends beyond the deepest state; otherwise `None`.
     pub fn refusal(&self, stage: Move) -> Option<String> {
         self.beyond(stage).map(|beyond| beyond.to_string())
     }
@@ -74,8 +73,8 @@ impl Reach {
     }
 }
 
-/// Error of a loading stage that presses the body deeper than one length of the profile beyond full
-/// contact.
+/// Error of a loading stage that presses the body beyond full contact by more than the length of
+/// the profile.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error(
     "{} is far beyond full contact at {}, deeper by more than the length of the profile; allowed: at most {}",
@@ -90,7 +89,7 @@ pub struct BeyondFullContact {
     pub full_contact: f64,
     /// Largest allowed value, in `unit`, rounded down to four digits.
     pub allowed: f64,
-    /// SI unit of the three numbers, N or m.
+    /// SI unit of the three values, N or m.
     pub unit: &'static str,
 }
 
@@ -110,8 +109,8 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
     }
 }
 
-/// Returns true if a stage is within reach even without the way to full contact, as most are. This
-/// is known without the deepest state.
+/// Returns true if a stage ends before the deepest state even if full contact were already at first
+/// touch. This is so for most stages, and the test does not need the deepest state.
 fn is_near(contact: &Contact, stage: Move) -> bool {
     match stage {
         Move::ToForce(force) => force <= force_of_a_length(contact),
@@ -120,8 +119,8 @@ fn is_near(contact: &Contact, stage: Move) -> bool {
     }
 }
 
-/// Returns the force in N that is added to the force at full contact if the body goes one length of
-/// the profile deeper.
+/// Returns the force in N by which the force grows from full contact to the deepest state, one
+/// length of the profile deeper.
 fn force_of_a_length(contact: &Contact) -> f64 {
     contact.spring_stiffness() * contact.gaps().len() as f64 * contact.profile().length()
 }
@@ -145,7 +144,7 @@ mod tests {
             ("pressure-sensitive", ("adhesion", "(kappa: 6.0)")),
             ("pressure-sensitive", ("adhesion", "None")),
             ("pressure-sensitive", ("loading_stiffness", "40.0")),
-            // Full contact at a thousandth of the force that presses the body.
+            // At full contact the force is a thousandth of the force that presses the body.
             ("pressure-sensitive", ("roughness.rms_height", "1.0e-12")),
             ("jkr-sphere", ("numerics.edges", "SubCell")),
             ("kendall-punch", ("numerics.edges", "Grid")),
@@ -160,7 +159,8 @@ mod tests {
                 (Move::ToIndentation, reach.indentation),
                 (Move::ToDisplacement, reach.displacement),
             ] {
-                // The deepest state itself is computed, by any kind of stage the same one.
+                // The deepest state itself is computed, and all kinds of stages lead to the same
+                // state.
                 let deepest = run(&document, stage(most)).unwrap().history.legs[0].largest;
                 assert!(
                     (deepest.force / reach.force - 1.0).abs() < 1e-6,

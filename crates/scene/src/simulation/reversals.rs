@@ -13,17 +13,18 @@ use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::motion::Body;
 use asperity_contact::{ContactError, Move, Reversal};
 
-/// Largest number of grid points below the first turning point of a map, for each turning point.
+/// Largest number of grid points below the first turning point of a map, divided by the number of
+/// turning points.
 const MOST_BELOW: usize = 4;
 
-/// Function that receives each unloading with the index of its turning point.
+/// Function that receives each unloading and the index of its turning point.
 pub type SeeReversal<'a> = dyn FnMut(usize, Reversal) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
     /// Computes unloadings to separation from several turning points, at which a loading ends. Each
     /// stage in `ends` loads the separated bodies up to one turning point. The stages must be
-    /// ordered from the shallowest to the deepest. `see` receives each unloading, with its forces
-    /// at the ascending indentations `points` in m, and the index of its stage in `ends`.
+    /// ordered from the smallest to the largest indentation. `see` receives the index of each stage
+    /// in `ends`, and the unloading with its forces at the ascending indentations `points` in m.
     ///
     /// # Errors
     /// Returns an error if the scene has the stepwise solver, if the profile cannot be computed, if
@@ -56,7 +57,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Returns the deepest state up to which loadings of a scene are computed.
+    /// Returns the deepest state up to which a loading of the scene can be computed.
     ///
     /// # Errors
     /// Returns an error if the profile cannot be computed.
@@ -69,10 +70,10 @@ impl Simulation {
     }
 
     /// Computes the unloading curves of a scene from `count` turning points to separation
-    /// (first-order reversal curves). `preloads` are the forces in N at the first and the last
-    /// turning point. If `preloads` is `None`, these points are at first touch and at the preload
-    /// of the scene. A `count` outside [`ReversalMap::TURNING_POINTS`] becomes the nearest allowed
-    /// number.
+    /// (first-order reversal curves). `preloads` are the forces in N at the first and at the last
+    /// turning point. If `preloads` is `None`, the first turning point is at first touch and the
+    /// last one at the preload of the scene. If `count` is outside [`ReversalMap::TURNING_POINTS`],
+    /// the nearest allowed number is used.
     ///
     /// # Errors
     /// Returns the same errors as [`Simulation::reverse`]. Also returns an error if the loading
@@ -146,7 +147,7 @@ impl Simulation {
     }
 }
 
-/// Returns an error for a scene with the stepwise solver.
+/// Returns an error if the scene has the stepwise solver.
 fn needs_exact_solver(scene: &Scene) -> Result<(), RunError> {
     if scene.numerics.solver == SolverChoice::Exact {
         Ok(())

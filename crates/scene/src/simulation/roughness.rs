@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Share of the squared height that the longest waves of a measured spectrum carry together.
+/// Share of the mean squared height that the longest waves of a measured spectrum have together.
 const LONG_WAVES: f64 = 0.1;
 
 /// Everything that determines the heights of a roughness.
@@ -36,12 +36,13 @@ enum Source {
     },
 }
 
-/// Heights of a roughness before scaling, with what is known about them.
+/// Heights of a roughness before they are scaled, with facts about the roughness.
 pub(super) struct Rough {
     pub key: RoughnessKey,
-    /// Heights; empty once their memory has become the gaps of the profile.
+    /// Heights of the roughness. The list is empty after its memory has been used for the gaps of
+    /// the profile.
     pub heights: Vec<f64>,
-    /// Amplitude of the self-affine profile for an rms height of 1 m on a length of 1 m.
+    /// Amplitude of the self-affine profile with an rms height of 1 m on a length of 1 m.
     pub unit: Option<Amplitude>,
     /// Amplitude of a measured surface.
     pub measured: Option<Amplitude>,
@@ -51,7 +52,7 @@ pub(super) struct Rough {
     pub facts: Option<MeasuredFacts>,
 }
 
-/// Spectrum of measured files, with everything on which it depends.
+/// Spectrum of measured files, with everything that determines it.
 pub(super) struct KeptSpectrum {
     /// Paths of the files of each face.
     faces: Vec<Vec<PathBuf>>,
@@ -59,14 +60,15 @@ pub(super) struct KeptSpectrum {
     pub surface: Arc<MeasuredRoughness>,
 }
 
-/// Maker of heights. It keeps what several roughnesses share.
+/// Maker of the heights of roughnesses. It keeps the values that several roughnesses have in
+/// common.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
     /// Folder of the files that scenes name.
     pub folder: PathBuf,
-    /// A measured surface in memory that replaces the files of all scenes.
+    /// A measured surface in memory. It replaces the files that scenes name.
     pub measured: Option<Arc<MeasuredRoughness>>,
-    /// Spectrum of the files that were read last. It is small and serves all seeds.
+    /// Spectrum of the files that were read last. It needs little memory and is used for all seeds.
     pub equivalent: Option<KeptSpectrum>,
     pub synthesizer: Synthesizer,
     /// Number of random phases drawn so far.
@@ -98,7 +100,7 @@ impl RoughnessMaker {
         })
     }
 
-    /// Makes the heights of a roughness. Random heights use the memory `memory`.
+    /// Makes the heights of a roughness. Random heights are written into the memory `memory`.
     pub fn make(&mut self, key: RoughnessKey, memory: Vec<f64>) -> Result<Rough, RunError> {
         match &key.source {
             Source::SelfAffine(spectrum) => {
@@ -146,7 +148,8 @@ impl RoughnessMaker {
         })
     }
 
-    /// Makes random heights with the spectrum of a measured surface, whose first file is `file`.
+    /// Makes random heights with the spectrum of a measured surface. `file` is the first file of
+    /// the surface.
     fn make_measured(
         &mut self,
         key: RoughnessKey,
@@ -183,8 +186,9 @@ impl RoughnessMaker {
         })
     }
 
-    /// Returns the measured surface of the faces: the given one, the spectrum kept from the last
-    /// call, or a new one.
+    /// Returns the measured surface of the files `faces`. It is the surface in memory if there is
+    /// one, otherwise the spectrum kept from the last call if the files are the same, and otherwise
+    /// a newly read surface.
     fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
@@ -211,7 +215,7 @@ impl RoughnessMaker {
     }
 }
 
-/// Cuts the heights of a scene from a measured profile, whose file is `file`.
+/// Samples the heights of a scene from a measured profile. `file` is the file of the profile.
 fn cut_profile(
     key: RoughnessKey,
     profile: &MeasuredProfile,
@@ -237,9 +241,9 @@ fn cut_profile(
     })
 }
 
-/// Returns a recommended number of springs for a profile of this length in m with this measured
-/// spectrum: the smallest power of two with twice [`SPRINGS_PER_WAVE`] springs on the shortest
-/// wave, but at least 2^10 and at most 2^28.
+/// Returns the recommended number of springs for a profile of the length `length` in m with the
+/// measured spectrum `line`. It is the smallest power of two that gives each shortest wave at least
+/// twice [`SPRINGS_PER_WAVE`] springs, but at least 2^10 and at most 2^28.
 pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     let waves = length * line.range()[1] / TAU;
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)
@@ -247,8 +251,9 @@ pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
         .clamp(1024, MOST_POINTS)
 }
 
-/// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a
-/// profile of this length in m, with these modes and this rms height in m.
+/// Returns the smallest mode up to which the waves have together a tenth of the mean squared
+/// height. `length` is the length of the profile in m, `modes` are its modes, and `rms_height` is
+/// its rms height in m.
 fn long_waves(line: &EquivalentLine, length: f64, modes: ModeRange, rms_height: f64) -> f64 {
     let mut squared_height = 0.0;
     for mode in modes.first..=modes.last {
@@ -260,7 +265,7 @@ fn long_waves(line: &EquivalentLine, length: f64, modes: ModeRange, rms_height: 
     modes.last as f64
 }
 
-/// Returns the root mean square of heights in m about their mean.
+/// Returns the root mean square of the differences between the heights in m and their mean.
 fn root_mean_square_about_mean(heights: &[f64]) -> f64 {
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     let squares: f64 = heights

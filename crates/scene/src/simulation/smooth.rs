@@ -18,7 +18,7 @@ impl Simulation {
     /// roughness, after the preload in `figures`. Returns `None` without adhesion.
     ///
     /// # Errors
-    /// Returns an error if the memory is too small, or if the table of the form cannot be read.
+    /// Returns an error if there is not enough memory, or if the table of the form cannot be read.
     pub fn smooth_adhesion_force(
         &mut self,
         scene: &CheckedScene,
@@ -73,8 +73,8 @@ impl Simulation {
         }
     }
 
-    /// Returns the profile of a form without roughness. It is kept from the last scene with the
-    /// same form, length and number of springs.
+    /// Returns the profile of a form without roughness. If the last scene had the same form, length
+    /// and number of springs, its profile is used again.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let length = scene.length;
         let points = scene.numerics.points;

@@ -1,4 +1,5 @@
-//! Computation of a scene. Only parts whose input has changed since the last run are computed.
+//! Computation of a scene. Only those parts are computed whose input has changed since the last
+//! computation.
 
 use super::outcome::{LineFacts, Outcome, RunError, Timings};
 use super::reach;
@@ -24,20 +25,20 @@ use std::time::Instant;
 
 const HISTOGRAM_BINS: usize = 64;
 const NOT_MADE: ContactError = ContactError::Internal("the profile of the scene has not been made");
-/// Kept memory is released if it exceeds the memory that the next run needs by more than this
-/// factor.
+/// Memory that is kept for the next computation is released if it exceeds the needed memory by more
+/// than this factor.
 const MOST_SPARE: u64 = 4;
-// The memory that a run needs is `Workload::peak_bytes` plus 20 bytes per spring for a Fourier
+// The needed memory is `Workload::peak_bytes` plus 20 bytes for each spring for a Fourier
 // transform. Released memory goes to the allocator: glibc keeps released blocks of less than 32 MiB
-// for reuse, in total at most 64 MiB for each thread.
-/// Number of bytes that are always kept.
+// for further use, in total at most 64 MiB for each thread.
+/// Number of bytes that are kept in any case.
 const SMALL: u64 = 32 << 20;
 
-/// Computes scenes, one after the other. A simulation repeats only the parts of the computation
+/// Computes scenes, one after the other. A simulation repeats only those parts of the computation
 /// that depend on a changed field of the scene.
 ///
-/// Between runs a simulation keeps at most 32 MiB or four times the memory that its last scene
-/// needed, whichever is larger.
+/// Between two computations a simulation keeps at most 32 MiB or four times the memory that its
+/// last scene needed, whichever is larger.
 ///
 /// ```
 /// use asperity_scene::{Simulation, open};
@@ -52,23 +53,23 @@ const SMALL: u64 = 32 << 20;
 /// ```
 #[derive(Default)]
 pub struct Simulation {
-    /// True for a single scene, whose memory for a further profile is released at once.
+    /// True if only one scene is computed. Memory for a further profile is then released at once.
     single: bool,
     maker: RoughnessMaker,
     roughness: Option<Rough>,
     line: Option<KeptLine>,
     histogram: Option<Histogram>,
-    /// The last profile as the profile of a contact, with its tree.
+    /// The last profile in the type that a contact needs, with its contact tree.
     profile: Option<Profile>,
-    /// Profile of the form without roughness, once F_smooth has needed it.
+    /// Profile of the form without roughness; `None` until F_smooth needs it.
     pub(super) smooth: Option<SmoothProfile>,
-    /// Contact tree of a former profile, whose memory is reused.
+    /// Contact tree of a former profile. The next tree uses its memory.
     former_tree: ContactTree,
-    /// Memory kept from former runs, in bytes.
+    /// Memory that is kept from former computations, in bytes.
     kept: u64,
 }
 
-/// A line, with everything on which it depends.
+/// A profile with its key, which contains everything that determines the profile.
 struct KeptLine {
     key: LineKey,
     line: Line,
@@ -83,7 +84,7 @@ struct LineKey {
     form: Option<Form>,
 }
 
-/// Profile of a form without roughness, with everything on which it depends.
+/// Profile of a form without roughness, with everything that determines it.
 pub(super) struct SmoothProfile {
     pub form: Form,
     pub length: f64,
@@ -100,17 +101,18 @@ pub(super) struct Prepared {
     heights_binned: u64,
     /// Times in s for the profile and the tree.
     timings: Timings,
-    /// Premises that the scene does not meet, before its loading.
+    /// Warnings about the scene before its loading.
     warnings: Vec<Warning>,
 }
 
-/// Function that [`Simulation::run`] calls after each loading stage, with the index of the stage,
-/// its force curve ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns an
-/// error, the run ends with this error.
+/// Function that [`Simulation::run`] calls after each loading stage. It receives the index of the
+/// stage, its force curve ([`LegRecord`]) and the solved stage ([`Leg`]). If the function returns
+/// an error, the computation ends with this error.
 pub type AfterLeg<'a> = dyn FnMut(usize, &LegRecord, &Leg) -> Result<(), ContactError> + 'a;
 
 impl Simulation {
-    /// Returns a simulation for scenes whose names of measured files are relative to `folder`.
+    /// Returns a simulation for scenes. Names of measured files in the scenes are relative to
+    /// `folder`.
     pub fn new(folder: PathBuf) -> Self {
         Simulation {
             maker: RoughnessMaker {
@@ -121,8 +123,8 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation with a smaller need of memory, for a single scene. Each further
-    /// profile takes more time to compute.
+    /// Returns this simulation in a form that needs less memory and is meant for a single scene. It
+    /// computes each further profile more slowly.
     pub fn for_one_scene(self) -> Self {
         Simulation {
             single: true,
@@ -130,15 +132,16 @@ impl Simulation {
         }
     }
 
-    /// Returns this simulation with a measured roughness that every scene with a measured surface
-    /// uses, instead of the files that the scene names.
+    /// Returns this simulation with a measured roughness in memory. Every scene with a measured
+    /// surface uses this roughness instead of the files that the scene names.
     pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
         self.maker.measured = Some(measured);
         self
     }
 
-    /// Returns the measured spectrum in use: the one given to [`Self::with_measured`], otherwise
-    /// the last one that was estimated from files. Returns `None` if there is no spectrum.
+    /// Returns the measured spectrum in use: the spectrum given to [`Self::with_measured`],
+    /// otherwise the last one that was estimated from files. Returns `None` if there is no
+    /// spectrum.
     pub fn equivalent_line(&self) -> Option<&EquivalentLine> {
         let surface = match (&self.maker.measured, &self.maker.equivalent) {
             (Some(measured), _) => measured,
@@ -169,10 +172,11 @@ impl Simulation {
         self.line.as_ref().map(|kept| &kept.line)
     }
 
-    /// Returns the profile of a scene, the numbers that describe it, and the governing parameters.
+    /// Returns the profile of a scene, the facts about the profile, and the governing parameters.
     ///
     /// # Errors
-    /// Returns an error if the memory is too small, or if a measured file or a form cannot be used.
+    /// Returns an error if there is not enough memory, or if a measured file or a form cannot be
+    /// used.
     pub fn make_line(
         &mut self,
         scene: &CheckedScene,
@@ -199,7 +203,7 @@ impl Simulation {
         let rms_height = governing
             .amplitude
             .map_or(0.0, |amplitude| amplitude.rms_height);
-        // Measured heights are already in metres.
+        // The heights of a measured surface are already in metres.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough
             .and_then(|rough| rough.modes)
@@ -250,7 +254,7 @@ impl Simulation {
         self.profile.as_ref().ok_or(NOT_MADE)
     }
 
-    /// Makes a profile from the heights of its roughness and its form.
+    /// Makes a profile from its roughness and its form.
     fn lay_line(&mut self, scene: &Scene, key: &LineKey) -> Result<Line, RunError> {
         let LineKey {
             scale,
@@ -259,7 +263,7 @@ impl Simulation {
             ..
         } = *key;
         self.histogram = None;
-        // Nothing else uses the springs unless a caller has kept a leg.
+        // The springs of the last profile have no other user, unless a caller has kept a leg.
         if let Some(profile) = self.profile.take() {
             self.former_tree = profile.into_tree();
         }
@@ -293,14 +297,15 @@ impl Simulation {
         )?)
     }
 
-    /// Makes the heights of a roughness. Random heights use the memory `memory`.
+    /// Makes the heights of a roughness. Random heights are written into the memory `memory`.
     fn roughen(
         &mut self,
         scene: &Scene,
         key: &RoughnessKey,
         memory: Vec<f64>,
     ) -> Result<(), RunError> {
-        // The transform allocates its own memory, and would end the process on failure.
+        // The memory is checked first because the transform allocates memory itself, and a failed
+        // allocation would end the process.
         check_room(Workload::of_any(scene).line_bytes()).map_err(SurfaceError::of_springs)?;
         self.roughness = Some(self.maker.make(key.clone(), memory)?);
         if self.single {
@@ -310,7 +315,7 @@ impl Simulation {
     }
 
     /// Makes the histogram and the contact tree of the profile, if the plan requires them and they
-    /// are missing. Returns the number of heights sorted into bins.
+    /// do not exist yet. Returns the number of heights that were sorted into bins.
     fn look_at_line(&mut self, plan: &Workload, edges: Edges) -> Result<u64, ContactError> {
         let memory = take(&mut self.former_tree);
         if plan.runs(Stage::Tree) {
@@ -332,8 +337,9 @@ impl Simulation {
         Ok(binned)
     }
 
-    /// Checks before any allocation that there is enough memory for a run. Kept memory counts. It
-    /// is released if it is far too large or leaves too little room.
+    /// Checks that there is enough memory for a computation, before anything is allocated. Kept
+    /// memory counts as available. It is released if it is far larger than needed or if the
+    /// remaining memory is too small.
     fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
         if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();
@@ -350,7 +356,7 @@ impl Simulation {
         *self = self.another();
     }
 
-    /// Makes the profile and the contact of a checked scene, as this plan requires.
+    /// Makes the profile and the contact of a checked scene, according to the plan `plan`.
     pub(super) fn prepare(
         &mut self,
         plan: &Workload,
@@ -391,8 +397,8 @@ impl Simulation {
         })
     }
 
-    /// Returns the premises of the model that a scene does not meet before its loading: those of
-    /// its fields, its measured surface and its profile.
+    /// Returns a warning for each premise of the model that a scene does not meet before its
+    /// loading. These premises concern its fields, its measured surface and its profile.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::make_line`].
@@ -401,8 +407,8 @@ impl Simulation {
         Ok(self.warnings_before_loading(scene, &governing)?)
     }
 
-    /// Returns the premises that a scene does not meet before its loading, once its profile is
-    /// made.
+    /// Returns a warning for each premise that a scene does not meet before its loading. The
+    /// profile must have been made.
     fn warnings_before_loading(
         &self,
         scene: &Scene,
@@ -432,8 +438,8 @@ impl Simulation {
         self.run(scene, &|| false, &mut |_, _, _| Ok(()))
     }
 
-    /// Computes all results of a scene. `after` is called after each loading stage. The run ends
-    /// soon after `stop` returns true.
+    /// Computes all results of a scene. `after` is called after each loading stage. The computation
+    /// ends soon after `stop` returns true.
     ///
     /// # Errors
     /// Returns an error if a part of the computation fails or if `stop` returned true.
@@ -511,9 +517,9 @@ impl Simulation {
 /// Loading of a scene.
 struct Loaded {
     history: History,
-    /// Patches of the contact at the end of each loading stage.
+    /// Contact patches at the end of each loading stage.
     fragments: Vec<Vec<Patch>>,
-    /// F_a(d=0) and F_a(F=0) in N, where they were computed.
+    /// F_a(d=0) and F_a(F=0) in N; `None` if they were not computed.
     without_preload: [Option<f64>; 2],
 }
 
@@ -571,8 +577,8 @@ fn check_interruption(stop: &dyn Fn() -> bool) -> Result<(), ContactError> {
     }
 }
 
-/// Returns the patches at the end of a loading stage. The body lies on the springs from
-/// `first_spring` on.
+/// Returns the patches at the end of a loading stage. `first_spring` is the index of the first
+/// spring under the body.
 fn patches_at_end(record: &LegRecord, leg: &Leg, first_spring: usize) -> Vec<Patch> {
     let Some(end) = record.end_in_contact() else {
         return Vec::new();
@@ -583,8 +589,8 @@ fn patches_at_end(record: &LegRecord, leg: &Leg, first_spring: usize) -> Vec<Pat
         .collect()
 }
 
-/// Returns a patch with its springs counted from the first spring of the foundation instead of the
-/// first one under the body.
+/// Returns a patch whose indices count from the first spring of the foundation. The indices of the
+/// given patch count from the first spring under the body.
 fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
     Patch {
         first: patch.first + first_spring,
@@ -592,7 +598,7 @@ fn on_foundation(patch: Patch, first_spring: usize) -> Patch {
     }
 }
 
-/// Returns the profile of a contact on the springs under a line, with the form of the body.
+/// Returns the profile of a contact from a line and the form of the body.
 pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profile, ContactError> {
     let profile = Profile::from_gaps(Arc::clone(&line.gaps), line.spacing)?;
     let placed = profile
@@ -601,8 +607,8 @@ pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profi
     Ok(placed.with_nominal_form(nominal_form))
 }
 
-/// Returns the form of the body of a scene. Measured heights that are the profile itself have a
-/// form that nobody states.
+/// Returns the form of the body of a scene. If measured heights are the profile itself, nobody
+/// states the form.
 pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     match &scene.form {
         Some(form) if form.flat_end().is_none() => NominalForm::Curved,
@@ -611,8 +617,8 @@ pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     }
 }
 
-/// Loads a contact with the solver of the scene. Returns its history, and F_a(d=0) and F_a(F=0) in
-/// N where the contact pulls and `without_preload` is true.
+/// Loads a contact with the solver of the scene. Returns its history. If the contact has adhesion
+/// and `without_preload` is true, also returns F_a(d=0) and F_a(F=0) in N.
 fn load(
     scene: &Scene,
     contact: &Contact,
@@ -672,7 +678,7 @@ fn load_stepwise(
         let turned = match load_body(&mut solver, &[turn, Move::ToSeparation], |_, _| Ok(())) {
             Ok(turned) => turned,
             Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-            // A turn out of reach of the steps has no F_a(d=0).
+            // If the steps do not reach a turning point, its adhesion force remains unknown.
             Err(_) => continue,
         };
         *force = Figures::of(&turned).adhesion_force;

@@ -1,5 +1,5 @@
-//! Parts of the computation of a scene, the fields that require them, and their costs. A run
-//! follows this plan.
+//! Plan of the computation of a scene: its parts, the fields that require them, and their costs.
+//! The computation follows this plan.
 
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
@@ -7,25 +7,29 @@ use crate::scene::model::{Observer, Roughness, Scene, Solver};
 use asperity_contact::{CurvePoint, Edges};
 use serde::Serialize;
 
-/// Bytes per spring of the heights of the roughness or the gaps of the profile.
+/// Number of bytes for each spring, for the heights of the roughness or the gaps of the profile.
 const HEIGHT: u64 = 8;
-/// Bytes per spring of the contact tree for modes up to the Nyquist wave number. A quarter of the
-/// springs are then local maxima of the gap, each with a node and two turning points. Every fourth
-/// spring has two sums.
+/// Number of bytes for each spring, for the contact tree with modes up to the Nyquist wave number.
+/// With such modes a quarter of the springs are local maxima of the gap, each with a node and two
+/// turning points. In addition, every fourth spring has two sums.
 const NODE: u64 = 20;
-/// Bytes per spring for finding events: thresholds of a quarter of the springs, and runs of the
-/// present and the previous stage. Runs are few except with almost no adhesion.
+/// Number of bytes for each spring, for finding events: thresholds of a quarter of the springs, and
+/// the runs of the present and the previous stage. A run is a patch over a range of indentations.
+/// There are few runs unless the adhesion is very small.
 const PASSED: u64 = 12;
-/// Bytes per spring of the stepwise solver: its threshold and its state of contact.
+/// Number of bytes for each spring, for the stepwise solver: the threshold and the state of contact
+/// of the spring.
 const RELAXED: u64 = 9;
-/// Bytes per curve point of the present loading stage besides the curve, as measured. The second
-/// number is for edges between springs, whose contributions are also summed for each point.
+/// Number of bytes for each point of the force curve of the present loading stage, in addition to
+/// the curve itself, as measured. The second constant is for edges between springs, whose
+/// contributions are also summed at each point.
 const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
-/// Largest prime factor of a number of springs that the Fourier transform handles directly.
+/// Largest prime factor of a number of springs for which the Fourier transform needs no
+/// convolution.
 const LARGEST_FACTOR: u64 = 31;
 
-/// Reasons why several parts of the computation are skipped.
+/// Reasons why parts of the computation are skipped.
 const NO_ADHESION: &str = "no adhesion: each spring touches and leaves at its own gap";
 const STEPWISE: &str = "solver: Stepwise";
 const NEVER_BACK: &str = "loading never goes back";
@@ -51,11 +55,11 @@ pub enum Stage {
     LoadingPass,
     /// Search for the indentations at which patches split and detach during unloading.
     UnloadingPass,
-    /// Steps of the stepwise solver. In each step the body moves, then springs attach and detach
-    /// until no further one does.
+    /// Steps of the stepwise solver. In each step the body moves, and then springs attach and
+    /// detach until the contact no longer changes.
     Relaxation,
-    /// Two loops, of which one turns at first touch and one at zero force. They give F_a(d=0),
-    /// F_a(F=0) and the regimes.
+    /// Two loops without a preload: one turns at first touch and one at zero force. They give
+    /// F_a(d=0), F_a(F=0) and the regimes.
     WithoutPreload,
     /// List of the contact patches at the end of each loading stage.
     Fragments,
@@ -71,13 +75,13 @@ impl Stage {
         "height histogram",
     ];
 
-    /// Returns the name of this part in words, such as `contact tree`.
+    /// Returns the name of this part for users, such as `contact tree`.
     pub fn name(self) -> &'static str {
         Stage::NAMES[self as usize]
     }
 }
 
-/// Part of the computation of a scene in a [`Workload`], with its passes and its memory.
+/// Part of the computation of a scene in a [`Workload`], with its costs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PlannedStage {
     /// Part of the computation.
@@ -86,8 +90,8 @@ pub struct PlannedStage {
     pub runs: bool,
     /// Name of the field that requires this part, or the reason why it is skipped.
     pub because: &'static str,
-    /// Number of passes: how often this part goes through the profile or its contact tree. `None`
-    /// if the number depends on the loading stages.
+    /// Number of times that this part passes over the profile or the contact tree; `None` if this
+    /// number depends on the loading stages.
     pub passes: Option<u64>,
     /// Upper bound of the number of springs that all passes together visit; `None` if the number of
     /// passes is unknown.
@@ -112,17 +116,19 @@ pub struct PlannedStage {
 pub struct Workload {
     /// Number of springs under the body.
     pub springs: u64,
-    /// Approximate peak memory of a run in bytes, without the program itself, measured files and
-    /// lists of contact patches.
+    /// Approximate largest memory of a computation in bytes, without the program itself, measured
+    /// files and lists of contact patches.
     pub peak_bytes: u64,
-    /// Approximate largest resident memory of `asperity run` in bytes, with the program itself.
+    /// Approximate largest resident memory of `asperity run` in bytes, including the program
+    /// itself.
     pub resident_bytes: u64,
     /// All parts of the computation, including those that are skipped.
     pub stages: Vec<PlannedStage>,
 }
 
 impl Workload {
-    /// Resident memory of the program in bytes after a small scene: code, tables and stacks.
+    /// Resident memory of the program in bytes after the computation of a small scene: code, tables
+    /// and stacks.
     pub const PROGRAM: u64 = 14 << 20;
 
     /// Returns the plan of the computation of a scene.
@@ -130,7 +136,8 @@ impl Workload {
         Workload::of_any(scene)
     }
 
-    /// Plans the computation of a checked scene whose loading may have been replaced.
+    /// Returns the plan of the computation of a scene. The scene must have been checked, but its
+    /// loading may have been replaced since then.
     pub(super) fn of_any(scene: &Scene) -> Self {
         let points = scene.numerics.points;
         let springs = scene.springs_under_body().count() as u64;
@@ -150,7 +157,8 @@ impl Workload {
             resident_bytes: 0,
             stages: planner.stages(),
         };
-        // This is the most, if the whole contact under load also exists at first touch.
+        // This is an upper bound, which would be needed if the contact under load already existed
+        // at first touch.
         let solved = [
             Stage::Tree,
             Stage::LoadingPass,
@@ -170,7 +178,8 @@ impl Workload {
         let samples = scene.numerics.samples;
         contact += samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64;
         contact += samples.saturating_mul(sampled);
-        // The profile is made before the contact is solved: the larger of both amounts of memory.
+        // The profile is made before the contact is solved, so the larger of the two amounts of
+        // memory counts.
         let heights = if Effect::Roughness.is_on(scene) {
             HEIGHT * points
         } else {
@@ -181,7 +190,7 @@ impl Workload {
         plan
     }
 
-    /// Returns true if the scene needs this part.
+    /// Returns true if the scene needs the part `stage`.
     pub fn runs(&self, stage: Stage) -> bool {
         self.stages
             .iter()
@@ -195,7 +204,7 @@ impl Workload {
             .map_or(0, |planned| planned.bytes)
     }
 
-    /// Returns the memory in bytes of the parts that make the profile.
+    /// Returns the memory in bytes of those parts that make the profile.
     pub(super) fn line_bytes(&self) -> u64 {
         HEIGHT * self.springs
             + self
@@ -204,14 +213,15 @@ impl Workload {
     }
 }
 
-/// Field that requires a part of the computation, or else the reason why the part is skipped.
+/// Field that requires a part of the computation (`Ok`), or the reason why the part is skipped
+/// (`Err`).
 type Because = Result<&'static str, &'static str>;
 
-/// Work of a part of the computation that runs.
+/// Costs of a part of the computation that is not skipped.
 struct Work {
     /// Number of passes; `None` if it depends on the loading stages.
     passes: Option<u64>,
-    /// Number of springs that a pass visits at most.
+    /// Largest number of springs that one pass visits.
     springs: u64,
     /// Memory in bytes.
     bytes: u64,
@@ -246,7 +256,7 @@ fn because(is_needed: bool, field: &'static str, reason: &'static str) -> Becaus
     if is_needed { Ok(field) } else { Err(reason) }
 }
 
-/// A scene whose computation is planned, with the properties on which its parts depend.
+/// A scene whose computation is planned, with the properties that determine its parts.
 struct Planner<'s> {
     scene: &'s Scene,
     points: u64,
@@ -312,7 +322,7 @@ impl Planner<'_> {
         ]
     }
 
-    /// One pass over the springs under the body.
+    /// Returns the costs of one pass over the springs under the body.
     fn once(&self, bytes: u64) -> Work {
         Work {
             passes: Some(1),
@@ -321,7 +331,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Passes over the springs under the body in each loading stage.
+    /// Returns the costs of passes over the springs under the body in each loading stage.
     fn each_stage(&self, bytes: u64) -> Work {
         Work {
             passes: None,
@@ -330,7 +340,7 @@ impl Planner<'_> {
         }
     }
 
-    /// One pass over the whole profile.
+    /// Returns the costs of one pass over the whole profile.
     fn over_profile(&self, bytes: u64) -> Work {
         Work {
             passes: Some(1),
@@ -376,11 +386,11 @@ impl Planner<'_> {
             (false, true) => Err("roughness: Measured, as the line"),
             (false, false) => Err("no roughness: smooth"),
         };
-        // Coefficients, scratch space and twiddle factors, as measured. Odd numbers of springs
-        // transform at twice the length.
+        // Memory of coefficients, scratch space and twiddle factors, as measured. With an odd
+        // number of springs the transform has twice the length.
         let points = self.points;
         let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
-        // The convolution that transforms a large prime factor, as measured.
+        // Memory of the convolution that the transform needs for a large prime factor, as measured.
         let factor = largest_prime_factor(points);
         let convolution = if factor > LARGEST_FACTOR {
             152 * factor
@@ -429,7 +439,7 @@ impl Planner<'_> {
         } else {
             Ok("adhesion with a loading that goes back")
         };
-        // F_smooth of a form without a closed form takes springs of its own.
+        // If the form has no closed form, F_smooth needs the springs of another profile.
         let has_smooth = self.scene.roughness.is_some()
             && self
                 .scene

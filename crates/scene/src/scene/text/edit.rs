@@ -1,18 +1,18 @@
-//! Edits of one value in a text, which keep every comment.
+//! Edits of one value in a text. All comments stay.
 
 use std::ops::Range;
 
 use super::index::{Text, TextSpan};
 
-/// Blanks between entries on one line.
+/// Blanks between the entries of one line.
 const BLANKS: [char; 2] = [' ', '\t'];
 
-/// Message for a text that is not exactly one value.
+/// Error message for a text that is not exactly one value.
 pub(in crate::scene) const NOT_ONE_VALUE: &str =
     "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
 impl Text {
-    /// Returns the text with `value` in place of the value at a path.
+    /// Returns the text in which `value` replaces the value at a path.
     ///
     /// # Errors
     /// Returns an error if the text has no value at the path, or if `value` is not exactly one
@@ -23,7 +23,8 @@ impl Text {
     }
 
     /// Returns the text with a new entry `name: value` in the group at a path. An empty path means
-    /// the whole text. The new entry comes after the entries whose names precede `name` in `order`.
+    /// the whole text. `order` is a list of names; the new entry comes after the entries whose
+    /// names are before `name` in this list.
     ///
     /// # Errors
     /// Returns an error if there is no group at the path, or if `value` is not exactly one value.
@@ -58,9 +59,9 @@ impl Text {
     }
 
     /// Returns the text with other elements in the list at a path. An element with an index keeps
-    /// the text and the comments of that element in the present list. An element without an index
-    /// is new, and the given text is its value. Returns `None` if the present list is empty or
-    /// missing, or if a comment would make the new text unreadable.
+    /// the text and the comments of the element with this index in the present list. An element
+    /// without an index is new, and its text is the given one. Returns `None` if the present list
+    /// is empty or missing, or if a comment would make the new text unreadable.
     pub fn arrange(&self, list: &str, elements: &[(Option<usize>, String)]) -> Option<Text> {
         let inside = self.span(list)?.inside.clone()?;
         let present = self.inside(list);
@@ -123,8 +124,8 @@ impl Text {
         parts
     }
 
-    /// Returns the text without the entry at a path, and without its line if nothing else is on the
-    /// line. Without such an entry the text stays as it is.
+    /// Returns the text without the entry at a path. The line of the entry is removed too if
+    /// nothing else is on it. If there is no such entry, the text does not change.
     pub(in crate::scene) fn without_entry(&self, path: &str) -> Text {
         let Some(TextSpan { entry, comma, .. }) = self.span(path) else {
             return self.clone();
@@ -144,8 +145,8 @@ impl Text {
         self.without(removed)
     }
 
-    /// Returns the text without the comments after the entry at a path on the last line of the
-    /// entry.
+    /// Returns the text without the comments that stand after the entry at a path, on the last line
+    /// of the entry.
     pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
         let mut text = self.clone();
         while let Some(range) = text.comment_beside(path) {
@@ -167,15 +168,17 @@ impl Text {
         is_beside.then(|| following.clone())
     }
 
-    /// Returns the text without a range of bytes; the same text if the rest could not be read.
+    /// Returns the text without a range of bytes. If the remaining text cannot be read, the text
+    /// does not change.
     fn without(&self, range: Range<usize>) -> Text {
         let mut source = self.source.clone();
         source.replace_range(range, "");
         Text::new(source).unwrap_or_else(|_| self.clone())
     }
 
-    /// Returns the insertions that put an entry after another one in the same style: on its own
-    /// line, after the comment on the line before, or on the same line.
+    /// Returns the insertions that put a new entry after the entry `anchor`. The style of the text
+    /// decides whether the new entry has its own line, after any comment on the line of `anchor`,
+    /// or is on the same line.
     fn splices_after(
         &self,
         anchor: &TextSpan,
@@ -211,7 +214,8 @@ impl Text {
         }
     }
 
-    /// Returns the first line break outside block comments, in a stretch of blanks and comments.
+    /// Returns the offset of the first line break in a range of blanks and comments. Line breaks
+    /// inside block comments do not count.
     fn line_break_in(&self, gap: Range<usize>) -> Option<usize> {
         for (offset, _) in self.source[gap.clone()].match_indices('\n') {
             let place = gap.start + offset;
@@ -222,8 +226,9 @@ impl Text {
         None
     }
 
-    /// Returns the text after replacements in ascending order. Returns an error unless the value at
-    /// the path is then exactly `value`; a comment inside it could hide the text behind it.
+    /// Returns the text after replacements, which must be in ascending order. Returns an error
+    /// unless the value at the path is then exactly `value`, because a comment inside `value` could
+    /// hide the text after it.
     fn spliced(
         &self,
         splices: Vec<(Range<usize>, String)>,
@@ -248,11 +253,12 @@ struct Part<'t> {
     value: &'t str,
     /// Comments after the value on its line, without the comma.
     after: String,
-    /// Byte after the element.
+    /// Offset of the first byte after the element.
     end: usize,
 }
 
-/// Returns the last one of the entries whose names precede `name` in `order`.
+/// Returns the entry after which a new entry `name` belongs: among the entries whose names are
+/// before `name` in `order`, the last in this order.
 fn entry_before<'t>(entries: &[&'t TextSpan], name: &str, order: &[&str]) -> Option<&'t TextSpan> {
     let rank = |name: &str| order.iter().position(|other| *other == name);
     entries
@@ -267,8 +273,8 @@ fn blank_start(text: &str) -> &str {
     &text[..text.len() - text.trim_start().len()]
 }
 
-/// Returns the blanks before an offset in its line; `None` on the first line, or if other
-/// characters precede it in the line.
+/// Returns the blanks before an offset in its line. Returns `None` on the first line, or if other
+/// characters are before the offset in the line.
 fn indentation(text: &str, offset: usize) -> Option<&str> {
     let line = text[..offset].rfind('\n')? + 1;
     let before = &text[line..offset];

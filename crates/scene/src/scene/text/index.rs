@@ -1,19 +1,20 @@
-//! Places of the values in RON text, as one list.
+//! List of the values in RON text and of their positions.
 //!
-//! A path consists of names and, in lists and tuples, of positions: `roughness.hurst`, `loading.0`,
-//! `roughness.modes.1`. The whole text has the empty path. Names of structs and variants do not
-//! count, and neither does `Some(…)`: in `roughness: Some(SelfAffine(hurst: 0.7))` the number 0.7
-//! has the path `roughness.hurst`.
+//! Each value has a path of names and, in lists and tuples, of indices: `roughness.hurst`,
+//! `loading.0`, `roughness.modes.1`. The whole text has the empty path. Names of structs and
+//! variants are not part of a path, and neither is `Some(…)`: in `roughness: Some(SelfAffine(hurst:
+//! 0.7))` the number 0.7 has the path `roughness.hurst`.
 
 use std::ops::Range;
 
 use super::scan::{Kind, Scan, Token, Unreadable, scan};
 
-/// Length of a path from which on values are not indexed. No scene has a longer path.
+/// Length of the paths at which the search for further values inside ends. No scene has longer
+/// paths.
 const LONGEST_PATH: usize = 100;
 
-/// RON text and the places of its values. A value is found by its path, which consists of the names
-/// of fields and of positions in lists, from 0: `roughness.hurst`, `loading.0`. The empty path
+/// RON text with the positions of its values. A value is found by its path, which consists of the
+/// names of fields and of indices in lists, from 0: `roughness.hurst`, `loading.0`. The empty path
 /// means the whole text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
@@ -28,20 +29,21 @@ pub struct Text {
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Bytes of the whole entry `name: value`. For an element of a list, which has no name, they
-    /// are the same as `value`.
+    /// Byte range of the whole entry `name: value`. For an element of a list, which has no name, it
+    /// is the same as `value`.
     pub entry: Range<usize>,
-    /// Bytes of the value alone.
+    /// Byte range of the value alone.
     pub value: Range<usize>,
-    /// Bytes of the value without `Some(…)` around it.
+    /// Byte range of the value without `Some(…)` around it.
     bare: Range<usize>,
-    /// Bytes between the brackets of the value.
+    /// Byte range between the brackets of the value; `None` if the value has no brackets.
     pub(super) inside: Option<Range<usize>>,
     /// Offset of the byte after the comma that follows the entry.
     pub(super) comma: Option<usize>,
 }
 
-/// Returns line and column of a byte offset in a text, both from 1, the column in characters.
+/// Returns the line and the column, both from 1, of a byte offset in a text. The column is in
+/// characters.
 pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let mut end = offset.min(text.len());
     while !text.is_char_boundary(end) {
@@ -54,8 +56,8 @@ pub fn line_column(text: &str, offset: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// Returns the byte offset of a line and column, or of the end of the line or the text if that
-/// comes first.
+/// Returns the byte offset of a line and a column. If the line or the text ends before this column,
+/// returns the offset of the end.
 pub(in crate::scene) fn offset_of(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
     let mut start = 0;
@@ -74,7 +76,7 @@ pub(in crate::scene) fn is_within(path: &str, other: &str) -> bool {
 }
 
 impl Text {
-    /// Reads a text and finds the places of its values.
+    /// Reads a text and finds the positions of its values.
     ///
     /// # Errors
     /// Returns an error if brackets do not match, or if a quote or a comment is not closed.
@@ -101,13 +103,13 @@ impl Text {
         &self.source
     }
 
-    /// Returns the place of the value at a path; `None` if there is no such value.
+    /// Returns the position of the value at a path; `None` if there is no such value.
     pub fn span(&self, path: &str) -> Option<&TextSpan> {
         self.spans.iter().find(|span| span.path == path)
     }
 
-    /// Returns the offset of the first byte of the value at a path, or of the nearest group around
-    /// it.
+    /// Returns the offset of the first byte of the value at a path. If there is no such value,
+    /// returns the offset of the innermost group around the path.
     pub(in crate::scene) fn nearest_value(&self, path: &str) -> usize {
         let mut around = path;
         while !around.is_empty() {
@@ -136,7 +138,7 @@ impl Text {
         Some(name.strip_prefix("r#").unwrap_or(name)).filter(|name| !name.is_empty())
     }
 
-    /// Returns the values directly inside the group or list at a path, in order.
+    /// Returns the values directly inside the group or list at a path, in their order in the text.
     pub(super) fn inside(&self, path: &str) -> Vec<&TextSpan> {
         let is_inside = |span: &&TextSpan| !span.path.is_empty() && span.group() == path;
         self.spans.iter().filter(is_inside).collect()
@@ -146,8 +148,8 @@ impl Text {
         self.comments.len()
     }
 
-    /// Returns the path of the innermost value whose entry contains a byte offset; empty if there
-    /// is none.
+    /// Returns the path of the innermost value whose entry contains a byte offset. The path is
+    /// empty if no value does.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
         self.spans
             .iter()
@@ -163,7 +165,7 @@ impl TextSpan {
         self.path.rsplit_once('.').map_or("", |(group, _)| group)
     }
 
-    /// Returns the last part of the path: a name, or a position in a list.
+    /// Returns the last part of the path: a name, or an index in a list.
     pub(super) fn name(&self) -> &str {
         self.path.rsplit('.').next().unwrap_or_default()
     }
@@ -175,8 +177,9 @@ struct Tokens<'t> {
 }
 
 impl Tokens<'_> {
-    /// Indexes the value that starts at the token `first`, in an entry that starts at the token
-    /// `start`, and the values inside it. Returns the token after the value.
+    /// Adds the value that starts at the token `first`, and the values inside it, to the list
+    /// `spans`. The entry of the value starts at the token `start`. Returns the index of the token
+    /// after the value.
     fn add(
         &self,
         path: String,
@@ -195,7 +198,8 @@ impl Tokens<'_> {
             inside: brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start),
             comma: self.is(end, Kind::Comma).then(|| self.tokens[end].end),
         });
-        // Paths become longer from level to level, so that the levels are few.
+        // Each level makes the path longer, so the limit of the length also limits the number of
+        // levels.
         if let Some((open, close)) = brackets
             && path.len() < LONGEST_PATH
         {
@@ -204,7 +208,7 @@ impl Tokens<'_> {
         Some(end)
     }
 
-    /// Indexes the values between two brackets.
+    /// Adds the values between two brackets to the list `spans`.
     fn add_inside(
         &self,
         group: &str,
@@ -230,7 +234,7 @@ impl Tokens<'_> {
                 format!("{group}.{name}")
             };
             let end = self.add(path, start, first, spans)?;
-            // Without a comma this is the last entry, regardless of the text after it.
+            // If no comma follows, this is the last entry, whatever text comes after it.
             if !self.is(end, Kind::Comma) {
                 break;
             }
@@ -239,7 +243,7 @@ impl Tokens<'_> {
         Some(())
     }
 
-    /// Returns the indices of the brackets of the value that starts at this token.
+    /// Returns the token indices of the two brackets of the value that starts at the token `first`.
     fn brackets(&self, first: usize) -> Option<(usize, usize)> {
         let has_name = self.is(first, Kind::Word);
         let open = if has_name { first + 1 } else { first };
@@ -250,13 +254,13 @@ impl Tokens<'_> {
         }
     }
 
-    /// Returns the bytes from one token to the one before `end`.
+    /// Returns the byte range from the token `first` to the token before `end`.
     fn bytes(&self, first: usize, end: usize) -> Range<usize> {
         self.tokens[first].start..self.tokens[end - 1].end
     }
 
-    /// Returns the index of the token with which the whole value starts, after attributes such as
-    /// `#![enable(…)]`.
+    /// Returns the index of the first token of the whole value. Attributes before it, such as
+    /// `#![enable(…)]`, are skipped.
     fn root(&self) -> Option<usize> {
         let mut index = 0;
         loop {
@@ -276,7 +280,7 @@ impl Tokens<'_> {
         }
     }
 
-    /// Returns the index of the token after the value that starts at this token.
+    /// Returns the index of the token after the value that starts at the token `first`.
     fn value_end(&self, first: usize) -> Option<usize> {
         match (
             self.tokens.get(first)?.kind,
@@ -290,11 +294,13 @@ impl Tokens<'_> {
         }
     }
 
-    /// Returns the index of the token with which the value inside any number of `Some(…)` starts.
+    /// Returns the index of the first token of the value inside `Some(…)`, for any number of nested
+    /// `Some(…)`.
     fn inside_some(&self, mut first: usize) -> usize {
         while self.word(first) == Some("Some")
             && matches!(self.tokens.get(first + 1), Some(Token { kind: Kind::Open('(', _), .. }))
-            // With the extension that unwraps variants, `Some(work: 0.1)` is itself a struct.
+            // If the text enables the extension that unwraps variants, `Some(work: 0.1)` is itself
+            // a struct.
             && !self.is(first + 3, Kind::Colon)
             && self.value_end(first + 2).is_some()
         {
@@ -309,7 +315,7 @@ impl Tokens<'_> {
             .is_some_and(|token| token.kind == kind)
     }
 
-    /// Returns the word at a token, without the mark `r#` of a raw identifier.
+    /// Returns the word at a token, without the prefix `r#` of a raw identifier.
     fn word(&self, index: usize) -> Option<&str> {
         let token = self
             .tokens

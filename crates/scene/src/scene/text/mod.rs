@@ -1,5 +1,5 @@
-//! Text in RON: places of values by path, and edits that keep the comments. This module knows no
-//! fields of a scene.
+//! Text in RON: positions of its values by path, and edits that keep the comments. This module does
+//! not depend on the fields of a scene.
 //!
 //! [`Text::span`](index::Text::span) finds a value. [`Text::replace`](index::Text::replace) and
 //! [`Text::insert`](index::Text::insert) return a new text.
@@ -22,8 +22,9 @@ pub fn read_ron<T: DeserializeOwned>(text: &str) -> Result<T, SpannedError> {
         .from_str(text)
 }
 
-/// Writes a number in RON with a decimal point, in the shortest text that reads back as the same
-/// number. A number much smaller or larger than one gets an exponent.
+/// Writes a number in RON with a decimal point. The text is the shortest one that gives the same
+/// number when it is read. If the magnitude is not between 0.001 and 100 000, the number has an
+/// exponent.
 pub fn ron_float(value: f64) -> String {
     let size = value.abs();
     if !value.is_finite() || size == 0.0 || (size > 1e-3 && size < 1e5) {
@@ -36,14 +37,14 @@ pub fn ron_float(value: f64) -> String {
     }
 }
 
-/// Writes a number of a scene in RON. A number that is not finite becomes `NaN`; no valid scene has
-/// one, and messages show it as the author wrote it.
+/// Writes a number of a scene in RON. A number that is not finite becomes `NaN`. No valid scene has
+/// such a number, and error messages show it as the author wrote it.
 pub(in crate::scene) fn real_in_ron(value: f64) -> String {
     ron_float(if value.is_finite() { value } else { f64::NAN })
 }
 
-/// Writes text as a RON string in quotes. Only characters that RON does not allow in a string are
-/// escaped.
+/// Writes text as a RON string in quotes. Only those characters are escaped that RON does not allow
+/// in a string.
 pub fn ron_string(text: &str) -> String {
     let mut string = String::with_capacity(text.len() + 2);
     string.push('"');

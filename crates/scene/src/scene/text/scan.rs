@@ -1,7 +1,7 @@
-//! Tokens of RON text, in no more detail than is needed to find values.
+//! Tokens of RON text, with only as much detail as the search for values needs.
 //!
-//! The package `ron` reports invalid text. This scanner finds the places of values, for messages
-//! and for edits that keep comments. Brackets may be nested to any depth.
+//! The package `ron` reports invalid text. This scanner finds the positions of values, for error
+//! messages and for edits that keep comments. Brackets may be nested to any depth.
 
 use std::ops::Range;
 
@@ -26,10 +26,10 @@ pub(super) struct Token {
     pub(super) end: usize,
 }
 
-/// Reason why a text cannot be divided into tokens, and its place.
+/// Reason why a text cannot be divided into tokens, and the position of the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unreadable {
-    /// Byte offset of the bracket, quote or comment without its counterpart.
+    /// Byte offset of a bracket, quote or comment that has no matching end or beginning.
     pub offset: usize,
     /// Reason in words, such as `this bracket is not closed`.
     pub reason: &'static str,
@@ -46,11 +46,11 @@ const BLANKS: [char; 11] = [
     ' ', '\t', '\n', '\r', '\x0B', '\x0C', '\u{85}', '\u{200E}', '\u{200F}', '\u{2028}', '\u{2029}',
 ];
 
-/// Divides a text with matching brackets into tokens.
+/// Divides a text into tokens. The brackets of the text must match.
 pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut comments = Vec::new();
-    // Indices of the tokens that open a bracket, with their brackets.
+    // Brackets that are still open: the index of the token and the bracket.
     let mut open: Vec<(usize, char)> = Vec::new();
     let mut at = skip_blank(text, 0, &mut comments)?;
     while let Some(c) = text[at..].chars().next() {
@@ -112,8 +112,8 @@ fn closing(bracket: char) -> char {
     }
 }
 
-/// Returns the offset of the first byte from `start` on that is neither blank nor comment, and
-/// records the comments before it.
+/// Returns the offset of the first byte, at `start` or later, that is neither blank nor part of a
+/// comment. Adds the comments before it to `comments`.
 fn skip_blank(
     text: &str,
     start: usize,
@@ -132,8 +132,9 @@ fn skip_blank(
     }
 }
 
-/// Returns the end of the comment that starts at this byte: the line break after `//`, the byte
-/// after `/* */`. Returns `None` if no comment starts there. Block comments may be nested.
+/// Returns the end of the comment that starts at the byte `start`. For `//` it is the line break,
+/// for `/* */` the byte after the comment. Block comments may be nested. Returns `None` if no
+/// comment starts at this byte.
 fn comment_end(text: &str, start: usize) -> Result<Option<usize>, Unreadable> {
     let rest = &text[start..];
     if rest.starts_with("//") {
@@ -164,8 +165,8 @@ fn comment_end(text: &str, start: usize) -> Result<Option<usize>, Unreadable> {
     Err(unreadable(start, "this comment is not closed"))
 }
 
-/// Returns the end of the string or character that starts at this byte; `None` if none starts
-/// there.
+/// Returns the end of the string or character that starts at the byte `start`. Returns `None` if
+/// none starts at this byte.
 fn quoted_end(text: &str, start: usize) -> Option<Result<usize, &'static str>> {
     let rest = &text[start..];
     let unprefixed = rest.strip_prefix('b').unwrap_or(rest);
@@ -190,7 +191,8 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
         match c {
             _ if escaped => escaped = false,
             '\\' => escaped = true,
-            // '' and ''' : the first character of a character literal may be the quote itself.
+            // In '' and ''' the first character after the quote is also a quote; for a character
+            // literal it is the character itself.
             c if c == quote && !(quote == '\'' && offset == 0) => return Ok(inside + offset + 1),
             _ => {}
         }
@@ -198,7 +200,7 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
     Err("this string is not closed")
 }
 
-/// Returns the end of the identifier or number that starts at this byte.
+/// Returns the end of the identifier or number that starts at the byte `start`.
 fn word_end(text: &str, start: usize) -> usize {
     let rest = &text[start..];
     let mut characters = rest.char_indices().skip(1);
