@@ -4,10 +4,10 @@
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
-    /// Linear scale: the coordinate of a number is the number itself.
+    /// Linear scale: the coordinate is the number.
     #[default]
     Linear,
-    /// Logarithmic scale: the coordinate of a number is its decimal logarithm.
+    /// Logarithmic scale: the coordinate is the decimal logarithm of the number.
     Logarithmic,
 }
 
