@@ -152,8 +152,8 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Prepares the copies of a new session. If the session restores an ended one, it continues the
-    /// file of that session; otherwise it has no file yet.
+    /// Prepares the copies of a new session. If the session continues an ended session (`restored`),
+    /// it takes over the file of the ended session; otherwise it has no file yet.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave {

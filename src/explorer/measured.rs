@@ -1,4 +1,4 @@
-//! A measured force curve beside the scene. Its displacements are those of the instrument.
+//! A measured force curve beside the scene. It states forces over displacements of the instrument.
 
 use super::studies::Findings;
 use asperity_contact::CurvePoint;

@@ -1,5 +1,5 @@
-//! The rows of the table of keys, and the keys in use: those of the table, unless the configuration
-//! replaces them.
+//! The rows of the table of keys, and the keys in use: the keys of the table, or the keys of the
+//! configuration that replace them.
 
 use super::key::Key;
 use asperity_scene::text::nearest;

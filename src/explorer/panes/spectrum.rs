@@ -95,7 +95,8 @@ fn moments_in_words(moments: &LineMoments, governing: &Governing) -> String {
         format!("⟨∇z⟩ ± {}", relative_error(moments.rms_gradient)),
     ];
     if let Some(kappa) = governing.kappa {
-        // κ² is proportional to h⟨∇z⟩, so the relative error of κ is half that of h⟨∇z⟩.
+        // κ² is proportional to h⟨∇z⟩, so the relative error of κ is half the relative error of
+        // h⟨∇z⟩.
         let error = 0.5 * moments.height_gradient.error / moments.height_gradient.value;
         let kappa = format_quantity(kappa, "1");
         parts.push(format!("κ = {kappa} ± {}", per_cent(error)));
@@ -113,8 +114,8 @@ fn relative_error(moment: Moment) -> String {
 }
 
 /// Returns the adhesion force with two kinds of scatter: over the random profiles, and due to the
-/// fit of the spectrum. Both are given as far as they are computed. `None` if the scene is not of
-/// this kind.
+/// fit of the spectrum. Both are given as far as they are computed. `None` if the profile of the
+/// scene is not the equivalent line of a measured surface.
 fn adhesion(app: &App) -> Option<String> {
     if !is_sampled(&app.solved.as_ref()?.scene) {
         return None;
