@@ -83,8 +83,8 @@ pub struct App {
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Number of stages that are already computed of the scene being computed; `None` if no scene
-    /// is being computed.
+    /// Number of computed stages of the scene that is being computed; `None` if no scene is being
+    /// computed.
     pub progress: Option<usize>,
     pub studies: Findings,
     pub map: MapState,

@@ -211,8 +211,8 @@ impl Editor {
             .parameter()
             .map(|parameter| parameter.path.clone())
             .unwrap_or_default();
-        // If the present scene had been left with the same unsaved changes, these need not be kept
-        // twice.
+        // The present scene may have been left earlier with the same content. Then its unsaved
+        // changes need not be kept twice.
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());

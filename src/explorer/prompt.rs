@@ -20,8 +20,8 @@ pub struct Prompt {
     pub found: Vec<usize>,
     /// Index in `found` of the selected entry.
     pub selected: usize,
-    /// Corrected search, if the list does not contain the typed words: similar words that it
-    /// contains.
+    /// Corrected search: words of the list that are similar to the typed words. `None` if the list
+    /// contains the typed words.
     pub corrected: Option<String>,
     /// Paths that begin with the typed path, if there are several.
     pub paths: Vec<String>,

@@ -108,7 +108,7 @@ pub fn open(
     let engine = start_engine(solve, &sender)?;
     let waiting = start_input(&sender)?;
     // `guard` restores the whole terminal. The destructor of ratatui is not run: if the terminal is
-    // gone, it would write to standard error and panic if that is gone too.
+    // gone, the destructor would write to standard error, and panic if standard error is gone too.
     let writer = FrameWriter::new(io::stdout());
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let appearance = chosen_appearance(&options);

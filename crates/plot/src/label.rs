@@ -171,7 +171,7 @@ impl Line {
     }
 
     /// Removes the letters after the last blank and returns them as a new line. If the line has no
-    /// ordinary blank, the last [`FIXED`] blank is used; if it has none of them either, only the
+    /// ordinary blank, the last [`FIXED`] blank is used. If it has no fixed blank either, only the
     /// last letter is removed.
     fn split_off_rest(&mut self) -> Line {
         let last = |blank: char| {

@@ -96,7 +96,7 @@ fn squares(app: &App) -> Study {
     })
 }
 
-/// Study that searches the smallest number of springs with which the scene meets a tolerance.
+/// Study that searches for the smallest number of springs with which the scene meets a tolerance.
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, mut control| {
         let stop = control.stop();
@@ -124,7 +124,7 @@ pub fn type_tolerance(app: &mut App) {
     }
 }
 
-/// Begins to search the number of springs that meets the typed tolerance.
+/// Begins the search for the number of springs that meets the typed tolerance.
 pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
@@ -170,8 +170,8 @@ fn apply(app: &mut App, choice: &Choice) {
             return;
         }
     }
-    // The search has compared finer solutions than an estimate would, so the errors that it found
-    // are shown.
+    // The search has used finer solutions than an estimate would use. Therefore its errors are
+    // shown.
     app.studies
         .set(app.edit.generation, choice.estimate(), true);
     let unchanged = if is_unchanged { "as it is: " } else { "" };

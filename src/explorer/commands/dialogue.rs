@@ -18,7 +18,7 @@ use tui_input::InputRequest;
 /// Name of the help. The entries of this list can only be read, not chosen.
 const HELP: &str = "Help";
 
-/// Begins to search the list of parameters, and shows this list.
+/// Begins a search in the list of parameters, and shows this list.
 pub fn find_parameter(app: &mut App) {
     let before = app.view.pane;
     app.ask(Purpose::Parameter { before }, "");
@@ -74,7 +74,7 @@ pub fn open_commands(app: &mut App) {
     app.ask(commands, "");
 }
 
-/// Begins to search the help for the text that the user types next.
+/// Begins a search in the help for the text that the user types next.
 pub fn search_help(app: &mut App) {
     if let Some(prompt) = &mut app.prompt
         && let Purpose::Topics { is_typed, .. } = &mut prompt.purpose

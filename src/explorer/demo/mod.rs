@@ -25,7 +25,7 @@ pub struct Demo {
     typing: VecDeque<char>,
     /// Time in s until the next cue of the script.
     pause: f64,
-    /// Time in s since the demo began; below it, the time in s between two frames.
+    /// Time in s since the demo began. The next field is the time in s between two frames.
     seconds: f64,
     frame: f64,
     begun: bool,

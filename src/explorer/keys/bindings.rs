@@ -43,7 +43,7 @@ pub struct Row {
     /// Rank in the footer. The row with the smallest rank comes first.
     pub rank: u8,
     pub is_listed: bool,
-    /// True if repeated commands of this kind are one edit, which one undo reverts.
+    /// True if repeated commands of this kind are a single edit, which one undo reverts.
     pub merges: bool,
     /// True if the keys of the row do different things, so that the function receives the pressed
     /// key.

@@ -213,8 +213,8 @@ fn has_focus(app: &App) -> bool {
     app.view.pane == Pane::Parameters || is_searched
 }
 
-/// Returns the marks before a name. The first row of a group is marked, and whether an effect is on
-/// or off. Other rows are indented.
+/// Returns the marks before a name. One mark shows the first row of a group, and another mark
+/// whether an effect is on or off. Other rows are indented.
 fn lead(app: &App, parameter: &Parameter) -> String {
     if !parameter.is_head() {
         return "  ".to_owned();

@@ -36,8 +36,8 @@ static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     nearest
 });
 
-/// Returns the character that differs from a pattern in the fewest dots; of several, the first in
-/// [`SHAPES`].
+/// Returns the character that differs from a pattern in the fewest dots. If several characters do,
+/// it is the first of them in [`SHAPES`].
 fn nearest_character(pattern: usize) -> char {
     let mut nearest = ' ';
     let mut fewest = u32::MAX;

@@ -199,8 +199,8 @@ fn mixed(first: Rgb, second: Rgb, percent: u8) -> Rgb {
 /// Returns the kind and the path of a character that is drawn as a shape; `None` for a character
 /// that is written as text.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
-    /// The four lines from the middle of a cell to its left, right, upper and lower edge. Each has
-    /// the characters that contain this line, and its path.
+    /// The four lines from the middle of a cell to its left, right, upper and lower edge: for each
+    /// line, the characters that contain it, and its path.
     const ENDS: [(&str, &str); 4] = [
         ("─┐┘┤┬┴", "h-4"),
         ("─┌└├┬┴", "h4"),

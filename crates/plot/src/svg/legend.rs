@@ -25,8 +25,8 @@ struct Row<'a> {
     width: f64,
 }
 
-/// Draws the entries in rows that are centred at the x of `middle`, begin at the y of `top` and are
-/// at most `most` px wide. Returns the y of the lower end of the legend.
+/// Draws the entries in rows that are centred at x = `middle`, begin at y = `top` and are at most
+/// `most` px wide. Returns the y of the lower end of the legend.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most: f64) -> f64 {
     let mut y = top;
     for row in rows(entries, most) {

@@ -84,8 +84,8 @@ impl Figure {
         document.finish()
     }
 
-    /// Returns the height in px that the picture should have, if it is drawn with the height
-    /// `height`; `None` if this height is right.
+    /// Returns the height in px that the picture should have, if its present height is `height`;
+    /// `None` if this height is right.
     fn wanted_height(&self, height: f64) -> Option<f64> {
         if self.height.is_some() {
             return self.height;
