@@ -1,4 +1,4 @@
-//! Everything that can happen to the explorer, and the tasks outside of its state that follow.
+//! Events of the explorer (actions), and the work that they cause outside of its state (tasks).
 
 use super::keys::bindings::KeyCommand;
 use super::measured::Measured;
@@ -12,53 +12,56 @@ use crossterm::event::KeyEvent;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// An event: input of the user, a result from outside, or elapsed time.
+/// Event to which the explorer reacts: input of the user, a result from another thread, or elapsed
+/// time.
 #[derive(Clone, Debug)]
 pub enum Action {
     Key(KeyEvent),
     Command(KeyCommand),
-    /// Text pasted into the line being typed.
+    /// The user has pasted this text into the line being typed.
     Paste(String),
     Resize(u16, u16),
     Elapse(Duration),
     Reply(Reply),
     Found(Finding),
-    /// A file was written, or the reason why it was not.
+    /// A file has been written, or writing it has failed.
     Written(OutputFile, Result<(), WriteFailure>),
-    /// The scenes that can be opened have been listed.
+    /// The list of scenes that can be opened has been read.
     Listed(Vec<Entry>),
-    /// Paths that begin as the typed path have been found.
+    /// The paths that begin with the typed path have been found.
     Completed(Vec<String>),
-    /// A scene, study or force curve, by its path, was opened; or the reason why it was not.
+    /// A scene, a study or a force curve has been opened, or opening it has failed for this reason.
+    /// The first text is its path.
     Opened(String, Result<Opened, String>),
-    /// The measured curve was read with other options; or the reason why it was not.
+    /// The measured curve has been read with other options, or reading it has failed for this
+    /// reason.
     CurveRead(CurveRequest, Result<Box<Measured>, String>),
     Mouse(Mouse),
 }
 
-/// A task outside of the state of the explorer.
+/// Work outside of the state of the explorer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Task {
-    /// Ask the solver for the state that the screen waits for.
+    /// Asks the solver for the state that the screen shows next.
     Ask,
-    /// Perform the studies of the scene that are still open, in place of all others.
+    /// Performs the studies that the scene still needs, instead of all earlier ones.
     Study,
     Write(OutputFile),
     List,
     Complete(String),
     Open(String),
-    /// Read the measured curve with other options.
+    /// Reads the measured curve with other options.
     ReadCurve(CurveRequest),
     Copy(String),
     Redraw,
     Suspend,
 }
 
-/// A request for the measured curve as read with other options.
+/// Request to read the measured curve with other options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
     pub options: CurveOptions,
-    /// The typed value that is asked for; `None` for a choice of the arrows.
+    /// Typed value of the changed option; `None` if the value was chosen with the arrow keys.
     pub typed: Option<String>,
 }
 
@@ -73,14 +76,15 @@ pub struct OutputFile {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WriteFailure {
     Exists,
-    /// The system refused to write, or there is no such content.
+    /// The system refused to write, or there is nothing to write.
     Refused(String),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     Scene,
-    /// The selected pane in this format: its picture, its result, or for text all panes.
+    /// The selected pane in this format: its figure for a picture, otherwise its result. In the
+    /// text format, all panes.
     Pane(Format),
 }
 
@@ -105,6 +109,6 @@ pub struct Mouse {
 pub enum Gesture {
     Press,
     Drag,
-    /// Turns of the mouse wheel, positive upwards.
+    /// Number of turns of the mouse wheel, positive if it is turned upwards.
     Wheel(i32),
 }

@@ -1,4 +1,4 @@
-//! The state of the explorer: only `update` changes it, and the views draw it.
+//! State of the explorer. Only `update` changes the state, and the views draw it.
 
 use super::action::Task;
 use super::config::Config;
@@ -30,26 +30,26 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CurveLook {
     pub quantities: LoopQuantities,
-    /// True for quantities in units of F_a,max, h and L, false for SI units.
+    /// True to show quantities in units of F_a,max, h and L; false to show them in SI units.
     pub normalised: bool,
-    /// True if the area of the dissipated energy is shaded.
+    /// True if the area that represents the dissipated energy is shaded.
     pub loss: bool,
 }
 
-/// A message to the user, below the panes.
+/// Message to the user, shown below the panes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Message {
     Done(String),
     Error(String),
-    /// A change of the selected parameter was refused, for this reason.
+    /// The new value of the selected parameter was refused for this reason.
     Refused(String),
 }
 
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane in place of the force curve, which is then below it in place of profile and close-up;
-    /// `None` if these three are shown.
+    /// Pane that has the main place on the screen. The force curve is then below this pane, and
+    /// replaces the profile and the close-up there. `None` if the force curve has the main place.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),
@@ -57,20 +57,22 @@ pub struct View {
     pub close_up: CloseUpTarget,
     pub profile: LineView,
     pub curve: CurveLook,
-    /// Scale of the preloads in the pane of adhesion against preload.
+    /// Scale of the preload axis in the pane of adhesion force against preload.
     pub preloads: AxisScale,
     /// True if loops of random squares in three dimensions are computed and shown.
     pub squares: bool,
-    /// Position of the crosshair as a share of the profile, or of the horizontal axis in another
-    /// chart.
+    /// Position of the crosshair, from 0 to 1: along the profile in the panes that show springs,
+    /// along the horizontal axis in other charts. `None` if there is no crosshair.
     pub crosshair: Option<f64>,
-    /// True if computing times are shown; they differ from run to run.
+    /// True if computing times are shown. A demo hides them, because they differ from one
+    /// computation to the next.
     pub shows_times: bool,
-    /// Text in place of the keys, which have no effect while a script plays.
+    /// Text that a demo shows instead of the keys, which have no effect while its script plays.
     pub demo: Option<&'static str>,
 }
 
-/// What the screen waits for: generation of the scene, snapshot, and number of manual moves.
+/// State that the screen waits for: the generation of the scene, the requested snapshot, and the
+/// number of manual moves.
 pub(super) type Awaited = (u64, SnapshotRequest, usize);
 
 #[derive(Clone, Debug)]
@@ -81,26 +83,27 @@ pub struct App {
     pub view: View,
     pub solved: Option<Arc<SolvedScene>>,
     pub snapshot: Option<Arc<ContactSnapshot>>,
-    /// Number of computed stages of the scene being computed; `None` if none is.
+    /// Number of computed stages of the scene that is being computed; `None` if no scene is being
+    /// computed.
     pub progress: Option<usize>,
     pub studies: Findings,
     pub map: MapState,
     pub ghosts: Vec<Ghost>,
-    /// The scene with the value being typed, whose outcome is awaited.
+    /// The scene with the value that the user is typing. Its outcome is computed as a preview.
     pub tried: Option<Document>,
     pub prompt: Option<Prompt>,
     pub message: Option<Message>,
     pub config: Config,
-    /// The command chosen in the list of commands, to be run next.
+    /// Command that the user has chosen in the list of commands, and that runs next.
     pub chosen: Option<KeyCommand>,
     pub finished: bool,
     pub(super) effects: Vec<Task>,
-    /// What was last asked of the solver.
+    /// State that was last requested from the solver.
     pub(super) asked: Option<Awaited>,
 }
 
 impl App {
-    /// Creates the state of an explorer that has just opened on a scene.
+    /// Creates the state of an explorer that has just opened a scene.
     pub fn new(
         document: Document,
         size: (u16, u16),
@@ -151,8 +154,8 @@ impl App {
         self.message = Some(Message::Error(why.into()));
     }
 
-    /// States what is known at the start beside the notice of the opened scene: warnings and errors
-    /// come first.
+    /// Adds a warning and an offer to the notice of the opened scene, as one message. Warnings and
+    /// errors come first.
     pub fn state_beside(&mut self, warning: Option<String>, offer: Option<String>) {
         let mut error = None;
         let mut done = None;
@@ -181,7 +184,7 @@ impl App {
         matches!(self.message, Some(Message::Refused(_)))
     }
 
-    /// Style of a meaning in the theme of the user.
+    /// Returns the style of a meaning in the theme of the user.
     pub fn style(&self, meaning: Meaning) -> Style {
         self.view.appearance.theme.style(meaning)
     }
@@ -192,31 +195,33 @@ impl App {
             .is_some_and(|prompt| matches!(prompt.purpose, Purpose::Value))
     }
 
-    /// Opens a prompt again with a text that could not be used; `why` is the reason, which may
-    /// begin with the text.
+    /// Opens a prompt again with a text that could not be used. `why` is the reason; it may begin
+    /// with the text, which is then not repeated.
     pub(super) fn ask_again(&mut self, purpose: Purpose, text: &str, why: &str) {
         let rest = why.strip_prefix(text);
         let reason = rest.and_then(|rest| rest.strip_prefix(": ")).unwrap_or(why);
         self.ask(purpose, text);
         if let Some(prompt) = &mut self.prompt {
-            // A refused text is corrected, not replaced.
+            // The text is not selected, so that the user can correct it and the first key does not
+            // replace it.
             prompt.line = TextLine::new(text);
         }
         self.refuse(Some(reason.to_owned()));
     }
 
-    /// States in the prompt why the typed text is refused; `None` removes the reason.
+    /// Shows in the prompt why the typed text is refused. `None` removes the reason.
     pub(super) fn refuse(&mut self, why: Option<String>) {
         if let Some(prompt) = &mut self.prompt {
             prompt.refused = why;
         }
     }
 
-    /// Prepares for a command on scene or panes: removes the notice, and ends an edit that consists
-    /// of successive moves in the map.
+    /// Prepares for a command that changes the scene or the panes. It removes the notice, and ends
+    /// an edit that consists of successive moves on the map.
     pub(super) fn begin(&mut self) {
         self.map.moving = false;
-        // The reason for a missing curve remains; any other notice ends with the next key.
+        // If the scene has no curve, the reason stays visible. Any other notice disappears with the
+        // next key.
         if self.is_current() || self.is_computing() {
             self.message = None;
         }
@@ -226,8 +231,8 @@ impl App {
         self.prompt = Some(Prompt::new(purpose, text, &self.edit.parameters));
     }
 
-    /// Governing parameters of the present scene, if the newest computation has the same profile
-    /// and material. The adhesion of this computation may differ.
+    /// Returns the governing parameters of the present scene. They are known if the newest computed
+    /// scene has the same profile and material, even if its adhesion differs; otherwise `None`.
     pub fn governing(&self) -> Option<Governing> {
         let computed = self.solved.as_ref()?;
         let before = &computed.scene;
@@ -247,16 +252,17 @@ impl App {
         self.current().is_some()
     }
 
-    /// The computed scene, if it is the present one.
+    /// Returns the computed scene if it is the present scene; `None` while the present scene is not
+    /// computed.
     pub fn current(&self) -> Option<&Arc<SolvedScene>> {
         self.solved
             .as_ref()
             .filter(|computed| computed.generation == self.edit.generation)
     }
 
-    /// The premises of the model that the present result does not meet, in the words of all
-    /// reports: on the random profiles as far as they are computed, otherwise on the profile of the
-    /// scene.
+    /// Returns the warnings about premises of the model that the present result does not meet, in
+    /// the words of all reports. They concern the random profiles if some are computed, otherwise
+    /// the profile of the scene.
     pub fn warnings(&self) -> Vec<String> {
         let Some(computed) = self.current() else {
             return Vec::new();
@@ -269,13 +275,15 @@ impl App {
         }
     }
 
-    /// Returns true while a newer scene than the shown one is being computed.
+    /// Returns true while the present scene is being computed.
     pub fn is_computing(&self) -> bool {
         self.progress.is_some()
     }
 
-    /// Outcome for the value being typed, or until it is computed for the value typed before; for
-    /// an accepted value until the scene itself is computed.
+    /// Returns the outcome to show as a preview:
+    /// * While a value is typed: the outcome for this value or, until it is computed, for the value
+    ///   typed before.
+    /// * After the value is accepted: the same outcome, until the scene itself is computed.
     pub fn tried_outcome(&self) -> Option<&Outcome> {
         let preview = self.studies.value::<Preview>()?;
         let is_shown = match self.prompt {
@@ -290,7 +298,7 @@ impl App {
         }
     }
 
-    /// Returns true if the outcome for the typed value itself is known.
+    /// Returns true if the outcome for exactly the typed value is known.
     pub fn is_tried(&self) -> bool {
         let tried = self.tried.as_ref().map(Document::text);
         self.studies
@@ -298,8 +306,8 @@ impl App {
             .is_some_and(|preview| tried == Some(&preview.text))
     }
 
-    /// Position of the scene on the map: its values on the axes. `None` if the scene has no such
-    /// quantity, or its value is not known yet.
+    /// Returns the position of the scene on the map, as the values on its axes. `None` if the scene
+    /// lacks a quantity of the axes, or if the value of this quantity is not known yet.
     pub fn place(&self) -> Option<GridPlace> {
         let (across, up) = self.map_axes()?;
         let scene = self.edit.document.scene();
@@ -319,7 +327,8 @@ impl App {
         }
     }
 
-    /// Axes across and up of the shown map or, before a map is computed, of the live map.
+    /// Returns the horizontal and the vertical axis of the map that is shown. Before a map is
+    /// computed, they are the axes of the live map.
     pub fn map_axes(&self) -> Option<(Axis, Option<Axis>)> {
         if let Some(grid) = self.grid() {
             return Some((grid.across.clone(), grid.up.clone()));
@@ -333,8 +342,8 @@ impl App {
         Some((axes.next()?, axes.next()))
     }
 
-    /// Quantity that the map shows: the chosen one, or the first one of a map that does not have
-    /// it.
+    /// Returns the quantity that the map shows. It is the chosen quantity, or the first quantity of
+    /// the map if the map does not contain the chosen one.
     pub fn mapped(&self) -> Quantity {
         let chosen = self.map.quantity;
         let quantities = self.mappable();
@@ -344,12 +353,13 @@ impl App {
         quantities.first().copied().unwrap_or(chosen)
     }
 
-    /// Quantities of the shown map; empty before a map is computed.
+    /// Returns the quantities that the map can show. The list is empty before a map is computed.
     fn mappable(&self) -> Vec<Quantity> {
         self.grid().map(Grid::quantities).unwrap_or_default()
     }
 
-    /// The quantity that follows the quantity shown on the map; the first one follows the last.
+    /// Returns the quantity that follows the shown quantity of the map. The first quantity follows
+    /// the last one.
     pub fn next_mapped(&self) -> Quantity {
         let present = self.mapped();
         let quantities = self.mappable();
@@ -359,7 +369,7 @@ impl App {
         next.copied().unwrap_or(present)
     }
 
-    /// The selectable panes, the most important first.
+    /// Returns the panes that can be selected, the most important first.
     pub fn panes(&self) -> Vec<Pane> {
         match self.view.large {
             Some(Pane::Trust) => vec![Pane::Trust, Pane::Parameters],
@@ -373,8 +383,8 @@ impl App {
         self.panes().contains(&pane)
     }
 
-    /// Shows and selects a pane, or hides it again. A shown map is selected first if another pane
-    /// is, since the user then wants its keys.
+    /// Shows and selects a pane. If the pane is already shown, hides it again. But a map that is
+    /// shown and not selected is only selected, because the user then wants to use its keys.
     pub fn toggle(&mut self, pane: Pane) {
         let is_in_use = self.view.pane == pane || pane.keys() != Context::Map;
         if self.is_shown(pane) && is_in_use {
@@ -384,7 +394,7 @@ impl App {
         }
     }
 
-    /// Shows and selects the force curve at its usual place.
+    /// Shows the force curve at the main place, and selects it.
     pub fn show_force_curve(&mut self) {
         self.show_large(None, Pane::Force);
     }
@@ -399,8 +409,8 @@ impl App {
         self.show_large(large, pane);
     }
 
-    /// Shows this pane, or none, in place of the force curve, and selects a pane. Another pane
-    /// needs other studies.
+    /// Gives the main place to the pane `large`, or to the force curve if `large` is `None`, and
+    /// selects a pane. Another pane needs other studies, so they are requested.
     fn show_large(&mut self, large: Option<Pane>, selected: Pane) {
         if std::mem::replace(&mut self.view.large, large) != large {
             self.effects.push(Task::Study);
@@ -408,8 +418,9 @@ impl App {
         self.view.pane = selected;
     }
 
-    /// Context of the keys: in the map arrows move its mark, with a crosshair they move the
-    /// crosshair; in the list of parameters digits begin a value.
+    /// Returns the context that determines the meaning of the keys. For example, arrows move the
+    /// mark on the map, and the crosshair in a pane that has one. In the list of parameters, digits
+    /// begin a value.
     pub fn keys(&self) -> Context {
         if let Some(prompt) = &self.prompt {
             return prompt.context();
@@ -438,7 +449,8 @@ impl App {
         }
     }
 
-    /// The newest snapshot, if it belongs to the present scene and kind of loading.
+    /// Returns the newest snapshot, if it shows the present scene and the present kind of loading
+    /// (animation or manual); otherwise `None`.
     pub fn present(&self) -> Option<&ContactSnapshot> {
         let snapshot = self.snapshot.as_deref()?;
         let is_present =
@@ -446,8 +458,8 @@ impl App {
         if is_present { Some(snapshot) } else { None }
     }
 
-    /// Outcome of the shown scene, which the present scene may differ from; `None` before a scene
-    /// is computed.
+    /// Returns the outcome of the computed scene, which may be older than the present scene; `None`
+    /// before a scene is computed.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.solved.as_ref().map(|computed| &computed.outcome)
     }
@@ -456,14 +468,15 @@ impl App {
         self.outcome().map_or(&[], |outcome| &outcome.history.legs)
     }
 
-    /// Returns true if the shown scene has a compliant instrument.
+    /// Returns true if the computed scene has a compliant instrument.
     pub fn deflects(&self) -> bool {
         self.outcome()
             .is_some_and(|outcome| outcome.instrument.is_some())
     }
 
-    /// Returns a force of the shown scene, N. A force that is only a rounding error of the largest
-    /// marked force, as after a stage to zero force, is returned as zero.
+    /// Returns a force of the computed scene in N. If the force is so small that it is only a
+    /// rounding error of the largest marked force, it returns zero. This happens after a stage to
+    /// zero force.
     pub fn without_rounding(&self, force: f64) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, point) in Mark::all(self.legs()) {
@@ -476,18 +489,19 @@ impl App {
         }
     }
 
-    /// Returns true if forces are shown in units of F_a,max, which the shown scene has.
+    /// Returns true if forces are shown in units of F_a,max. This needs a computed scene that has
+    /// this force.
     pub fn is_normalised(&self) -> bool {
         self.view.curve.normalised && self.ideal_adhesion_force().is_some()
     }
 
-    /// F_a,max of the shown scene, N; `None` if that is not above zero.
+    /// Returns F_a,max of the computed scene in N; `None` if it is not above zero.
     pub fn ideal_adhesion_force(&self) -> Option<f64> {
         let force = self.outcome()?.ideal_adhesion_force?;
         if force > 0.0 { Some(force) } else { None }
     }
 
-    /// A force of the shown scene in words: in N, or in units of F_a,max.
+    /// Returns a force (in N) of the computed scene as text, in N or in units of F_a,max.
     pub fn force_in_words(&self, force: f64) -> String {
         match self.ideal_adhesion_force() {
             Some(ideal) if self.is_normalised() => {
@@ -497,21 +511,22 @@ impl App {
         }
     }
 
-    /// F_a/F_a,max of the shown profile in words.
+    /// Returns F_a/F_a,max of the computed profile as text.
     pub fn adhesion_share_in_words(&self) -> Option<String> {
         let force = self.outcome()?.figures.adhesion_force?;
         Some(share_in_words(force / self.ideal_adhesion_force()?))
     }
 
-    /// The median of F_a/F_a,max over random profiles in words.
+    /// Returns the median of F_a/F_a,max over the random profiles as text.
     pub fn median_share_in_words(&self) -> Option<String> {
         let ensemble = self.studies.value::<Ensemble>()?;
         let shares = ensemble.statistics(Quantity::AdhesionShare)?;
         Some(format!("median {}", share_in_words(shares.quartiles[1])))
     }
 
-    /// Value of a parameter in the notation of the scene; for a value that follows from others the
-    /// computed one, if known.
+    /// Returns the value of a parameter in the notation of the scene file. If the value follows
+    /// from other parameters, it returns the computed value, or `None` as long as this value is not
+    /// known.
     pub fn written(&self, parameter: &Parameter) -> Option<String> {
         if !parameter.written.is_empty() {
             return Some(parameter.written.clone());
@@ -530,7 +545,8 @@ impl App {
         Some(ron_float(value))
     }
 
-    /// Lowest and highest indentation of the shown curves, m; `None` without a curve.
+    /// Returns the lowest and the highest indentation of the shown curves in m; `None` if there are
+    /// no curves.
     pub fn indentations(&self) -> Option<(f64, f64)> {
         indentations(self.legs())
     }

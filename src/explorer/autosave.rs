@@ -1,5 +1,6 @@
-//! Copies of unsaved changes, in case the process or its connection ends first: one file for each
-//! session, locked while the session runs. Files of the user are not touched.
+//! Copies of unsaved changes, for the case that the process or its connection ends before the user
+//! saves them. Each session has a file of its own, which stays locked while the session runs. Files
+//! of the user are never touched.
 
 use asperity_data::{into_text, open_regular, path_name, read_limited};
 use asperity_scene::Document;
@@ -11,14 +12,16 @@ use std::path::{Path, PathBuf, absolute};
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
-/// Largest size of a file, bytes: enough for many scenes of a few hundred bytes each.
+/// Largest size of a file in bytes. This is enough for many scenes, which have a few hundred bytes
+/// each.
 const LONGEST: usize = 1 << 24;
 
-/// A scene with unsaved changes. The explored scene is the first in a file.
+/// Scene with unsaved changes, as a file stores it. The first scene in the file is the one that was
+/// explored.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Copy {
-    /// Absolute path of the file, or name of a built-in scene.
+    /// Absolute path of the scene file, or name of a built-in scene.
     name: String,
     opened: String,
     text: String,
@@ -40,40 +43,40 @@ impl Copy {
     }
 }
 
-/// The file of a session.
+/// File with the unsaved changes of a session.
 pub struct Autosave {
     path: PathBuf,
-    /// The locked file; `None` without unsaved changes.
+    /// The locked file; `None` if there are no unsaved changes.
     own: Option<File>,
 }
 
-/// Returns the folder of the copies; `None` if the system has none.
+/// Returns the folder of the copies; `None` if the system has no such folder.
 pub fn folder() -> Option<PathBuf> {
     let strategy = choose_base_strategy().ok()?;
     let state = strategy.state_dir().unwrap_or_else(|| strategy.data_dir());
     Some(state.join("asperity").join("unsaved"))
 }
 
-/// Unsaved changes of an ended session, the explored scene first, and their file, which belongs to
-/// this process alone while this value exists.
+/// Unsaved changes of an ended session. The first document is the scene that was explored. The file
+/// is locked as long as this value exists, so that no other process can take it.
 pub struct Kept {
     path: PathBuf,
     lock: File,
     pub documents: Vec<Document>,
 }
 
-/// What the folder has of ended sessions.
+/// Unsaved changes of ended sessions that were found in the folder.
 #[derive(Default)]
 pub struct Newest {
     /// The newest unsaved changes that can be read.
     pub kept: Option<Kept>,
-    /// Newer files that cannot be read, each with the reason, the newest first. A power cut may
-    /// have damaged them.
+    /// Names of newer files that cannot be read, each with the reason, the newest first. A power
+    /// cut may have damaged them.
     pub unreadable: Vec<String>,
 }
 
-/// Returns the newest unsaved changes of an ended session that can be read, and the newer files
-/// that cannot.
+/// Returns the newest unsaved changes of an ended session that can be read, and the names of newer
+/// files that cannot be read.
 pub fn newest(folder: &Path) -> Newest {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
@@ -100,8 +103,8 @@ pub fn newest(folder: &Path) -> Newest {
     newest
 }
 
-/// Opens a file of an ended session; `None` for a session that runs, or that has taken the file at
-/// the same time.
+/// Opens the file of an ended session. Returns `None` if the session is still running, or if
+/// another session has just taken the file.
 fn open(path: PathBuf) -> Result<Option<Kept>, String> {
     let lock = open_regular(&path).map_err(|error| error.to_string())?;
     if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
@@ -118,7 +121,8 @@ fn open(path: PathBuf) -> Result<Option<Kept>, String> {
     }))
 }
 
-/// Returns the message that offers the newest unsaved changes of an ended session.
+/// Returns a message that offers the newest unsaved changes of an ended session; `None` if there
+/// are none.
 pub fn offer(folder: &Path) -> Option<String> {
     let mut names = Vec::new();
     for document in newest(folder).kept?.documents {
@@ -132,7 +136,7 @@ pub fn offer(folder: &Path) -> Option<String> {
     ))
 }
 
-/// Reads the scenes in a file, the explored one first.
+/// Reads the scenes in a file. The first is the scene that was explored.
 fn read(file: &File) -> Result<Vec<Document>, String> {
     let text = read_limited(file, LONGEST)
         .and_then(into_text)
@@ -148,7 +152,8 @@ fn read(file: &File) -> Result<Vec<Document>, String> {
 }
 
 impl Autosave {
-    /// Begins a session without a file, or with the file of an ended session.
+    /// Prepares the copies of a new session. If the session continues an ended session (`restored`),
+    /// it takes over the file of the ended session; otherwise it has no file yet.
     pub fn new(folder: &Path, restored: Option<Kept>) -> Self {
         if let Some(Kept { path, lock, .. }) = restored {
             return Autosave {
@@ -171,8 +176,8 @@ impl Autosave {
         self.own.is_some()
     }
 
-    /// Keeps these scenes in place of all kept before; for an empty list the file is removed. The
-    /// file is complete at every moment.
+    /// Replaces the kept scenes by these scenes. If there are none, the file is removed. The file
+    /// always has either its old or its new complete content, even if the process is killed.
     pub fn keep(&mut self, documents: &[&Document]) -> io::Result<()> {
         if documents.is_empty() {
             return match self.own.take() {
@@ -188,11 +193,12 @@ impl Autosave {
         fs::create_dir_all(self.path.parent().unwrap_or(Path::new("")))?;
         let unfinished = self.path.with_extension("new");
         let mut file = File::create(&unfinished)?;
-        // A file system without locks offers the copies to other sessions too early, which harms
-        // nobody.
+        // On a file system without locks, another session may offer these copies while this session
+        // is still running. This does no harm.
         let _ = file.try_lock();
         file.write_all(text.as_bytes())?;
-        // The content must be on the disk before the name is.
+        // The content must be on the disk before the file gets its name, or else a power cut could
+        // leave a damaged file.
         file.sync_all()?;
         self.own = Some(file);
         fs::rename(&unfinished, &self.path)
@@ -244,8 +250,8 @@ mod tests {
         );
     }
 
-    /// A power cut may have damaged the newest file, and anything may be in the folder. What is
-    /// older is found all the same.
+    /// A file that cannot be read is named, and does not hide an older file that can be read. It
+    /// may have been damaged by a power cut, or may not be a copy at all.
     #[test]
     fn files_that_cannot_be_read_are_stated_and_hide_no_older_one() {
         let folder = tempfile::tempdir().unwrap();

@@ -1,13 +1,13 @@
-//! The event at the shown state of the contact in words: first contact, spreading, preload,
-//! detachment, pull-off, separation.
+//! Name of the event at the shown state of the contact: first contact, spreading, preload,
+//! detachment, pull-off or separation.
 
 use super::app::App;
 use super::request::Drive;
 use asperity_contact::Branch;
 use asperity_report::event;
 
-/// Event at the shown state, short enough for the title of a pane of 34 columns; `None` before the
-/// first result and while the body does not move.
+/// Returns the event at the shown state, in words that fit into the title of a pane 34 columns
+/// wide. `None` before the first result, and if the stage does not move the body.
 pub fn caption(app: &App) -> Option<&'static str> {
     let snapshot = app.present()?;
     let Drive::Leg(index) = snapshot.drive else {

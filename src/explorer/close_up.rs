@@ -1,4 +1,4 @@
-//! The close-up of one contact patch: its position, its stretches, its force.
+//! The close-up of a contact patch: its position, the stretches of its springs and its force.
 
 use super::request::{Focus, SnapshotRequest};
 use super::snapshot::{CloseUp, PatchFacts};
@@ -7,7 +7,7 @@ use asperity_contact::motion::Leg;
 use asperity_report::{LineColumns, Part, SectionContact};
 use std::ops::Range;
 
-/// Makes the close-up of the requested part of the profile, with the patch nearest to its middle.
+/// Makes the close-up of the requested springs, and of the patch that is nearest to their middle.
 pub fn close_up(
     contact: &SectionContact<'_>,
     leg: &Leg,
@@ -30,8 +30,8 @@ pub fn close_up(
     }
 }
 
-/// First and last spring of each patch, as far as they are among the shown springs, with their
-/// heights in m.
+/// Returns the first and the last spring of each patch with their heights in m. Springs that are
+/// not shown are left out.
 fn boundaries(contact: &SectionContact<'_>, shown: Range<usize>) -> Vec<(usize, f64)> {
     let mut boundaries = Vec::new();
     let first_patch = contact
@@ -59,13 +59,14 @@ fn facts(contact: &SectionContact<'_>, leg: &Leg, number: usize) -> Option<Patch
     })
 }
 
-/// Smallest number of springs around a patch.
+/// Smallest number of springs in a close-up of a patch.
 const FEWEST: usize = 32;
-/// Number of parts of the profile, of which one is shown if nothing is in contact.
+/// Number of equal parts of the profile. If nothing is in contact, the close-up shows one part.
 const PARTS: usize = 32;
 
-/// The springs of a close-up: this number of springs around its centre, or the whole patch in a
-/// part whose size is a power of two, so that it stays the same while the patch grows a little.
+/// Returns the springs of a close-up. If the user has chosen the number of springs, these springs
+/// lie around the centre. Otherwise the close-up contains the whole patch; the number of springs is
+/// then a power of two, so that it does not change while the patch grows a little.
 fn shown(
     count: usize,
     centre: usize,
@@ -90,7 +91,7 @@ fn shown(
     first..first + springs
 }
 
-/// The spring that a close-up is asked for.
+/// Returns the spring at the centre of a close-up.
 fn centre(contact: &SectionContact<'_>, focus: Focus) -> usize {
     match focus {
         Focus::Summit => summit(contact),
@@ -106,14 +107,15 @@ fn centre(contact: &SectionContact<'_>, focus: Focus) -> usize {
     }
 }
 
-/// The first spring at the highest point of the profile.
+/// Returns the first spring at the highest point of the profile.
 fn summit(contact: &SectionContact<'_>) -> usize {
     let highest = contact.gaps.iter().position(|gap| *gap == 0.0);
     highest.unwrap_or(contact.gaps.len() / 2)
 }
 
-/// The middle of the patch that is `steps` after the patch nearest to a spring; the first patch
-/// follows the last. Without patches this is the spring.
+/// Starts at the patch nearest to `spring`, goes `steps` patches to the right, and returns the
+/// middle of the patch found there. The first patch follows the last one. If there are no patches,
+/// it returns `spring`.
 fn middle_of_neighbour(contact: &SectionContact<'_>, spring: usize, steps: usize) -> usize {
     match nearest(contact.patches, spring) {
         Some(number) => contact.patches[(number + steps) % contact.patches.len()].middle(),
@@ -121,14 +123,16 @@ fn middle_of_neighbour(contact: &SectionContact<'_>, spring: usize, steps: usize
     }
 }
 
-/// Number of the patch nearest to a spring; the first one of two that are equally near.
+/// Returns the index of the patch nearest to a spring. If two patches are equally near, it is the
+/// first of them.
 fn nearest(patches: &[Patch], spring: usize) -> Option<usize> {
     let after = patches.partition_point(|patch| patch.last < spring);
     let near = after.saturating_sub(1)..(after + 1).min(patches.len());
     near.min_by_key(|number| distance(patches[*number], spring))
 }
 
-/// Number of springs between a spring and a patch; zero for a spring of the patch.
+/// Returns the distance of a spring from a patch, in springs. The distance is zero if the spring
+/// belongs to the patch.
 fn distance(patch: Patch, spring: usize) -> usize {
     let before = patch.first.saturating_sub(spring);
     let after = spring.saturating_sub(patch.last);

@@ -7,8 +7,8 @@ use std::path::{MAIN_SEPARATOR, Path, is_separator};
 
 const MOST_ENTRIES: usize = 10_000;
 
-/// Returns the paths that begin as the typed one, sorted. Folders end in a separator; hidden files
-/// need a typed dot.
+/// Returns the paths that begin with the typed path, in alphabetical order. A folder ends with a
+/// separator. Hidden files are included only if the user has typed their dot.
 pub fn complete(typed: &str) -> Vec<String> {
     let typed = typed.trim_start();
     let end_of_folder = match typed.rfind(is_separator) {
@@ -23,7 +23,7 @@ pub fn complete(typed: &str) -> Vec<String> {
     };
     let entries = read_dir(directory).into_iter().flatten();
     let mut paths = Vec::new();
-    // An entry that cannot be read counts as well, so that the number of attempts is limited.
+    // Entries that cannot be read count too, so that the number of attempts is limited.
     for entry in entries.take(MOST_ENTRIES).flatten() {
         let Ok(found) = entry.file_name().into_string() else {
             continue;
@@ -42,7 +42,7 @@ pub fn complete(typed: &str) -> Vec<String> {
     paths
 }
 
-/// Returns the longest text with which all paths begin.
+/// Returns the longest text with which all the paths begin.
 pub fn common_start(paths: &[String]) -> String {
     let Some((first, others)) = paths.split_first() else {
         return String::new();

@@ -1,5 +1,5 @@
 //! Configuration file of the explorer: appearance, animation, default scene and keys. The explorer
-//! never writes it.
+//! only reads this file.
 
 use super::keys::bindings::Bindings;
 use super::theme::{Marker, Theme};
@@ -21,16 +21,16 @@ pub struct Config {
     pub theme: Option<Theme>,
     pub markers: Option<Marker>,
     pub frame_rate: u32,
-    /// Speed of the animation; at 1 a loading stage takes six seconds.
+    /// Speed of the animation. At a speed of 1, a loading stage takes six seconds.
     pub speed: f64,
-    /// True if the animation begins again at its end.
+    /// True if the animation starts again after its end.
     pub repeat: bool,
-    /// False to leave the mouse to the terminal.
+    /// True if the explorer uses the mouse; false if the terminal keeps it.
     pub mouse: bool,
-    /// Name of the scene that opens if none is given.
+    /// Name of the scene that opens if the user names no scene.
     pub scene: String,
     keys: Vec<KeySetting>,
-    /// All keys; empty before the configuration has been read.
+    /// The keys in use; empty before the configuration has been read.
     #[serde(skip)]
     pub bindings: Bindings,
 }
@@ -59,8 +59,8 @@ impl Default for Config {
     }
 }
 
-/// Path of this user's file, `asperity/config.ron` in the configuration folder; the file need not
-/// exist.
+/// Returns the path of the user's configuration file: `asperity/config.ron` in the configuration
+/// folder. The file may not exist.
 pub fn default_path() -> Option<PathBuf> {
     let folder = choose_base_strategy().ok()?.config_dir();
     Some(folder.join("asperity").join("config.ron"))
@@ -74,8 +74,9 @@ impl Config {
         }
     }
 
-    /// Reads a configuration file that may change these keys. A missing file is an error if the
-    /// user has named it (`is_named`), and otherwise means the defaults.
+    /// Reads a configuration file. `bindings` are the keys that the file may change. If the file
+    /// does not exist, the defaults apply; but if the user has named the file (`is_named` is true),
+    /// this is an error.
     pub fn read(path: &Path, is_named: bool, bindings: Bindings) -> Result<Config, String> {
         if !is_named && is_missing(path) {
             return Ok(Config::new(bindings));
@@ -86,7 +87,7 @@ impl Config {
         }
     }
 
-    /// Reads the text of a configuration file that may change these keys.
+    /// Reads the text of a configuration file. `bindings` are the keys that the file may change.
     pub fn parse(text: &str, path: &Path, bindings: Bindings) -> Result<Config, String> {
         let source = Source { text, path };
         let mut config: Config = read_ron(text).map_err(|error| {
@@ -108,7 +109,8 @@ impl Config {
             }
         }
         if let Some((key, action, other)) = config.bindings.conflict() {
-            // The last setting of one of the two functions; the key itself may be in either.
+            // The message points to the last setting of one of the two actions, because either of
+            // them may contain the key.
             let mut settings = config.keys.iter();
             let number = settings
                 .rposition(|setting| setting.action == action || setting.action == other)
@@ -122,7 +124,8 @@ impl Config {
     }
 }
 
-/// Returns true if there is no such file. A broken link is a file that cannot be read.
+/// Returns true if there is no file at the path. A broken link counts as a file, which then cannot
+/// be read.
 fn is_missing(path: &Path) -> bool {
     match path.symlink_metadata() {
         Ok(_) => false,
@@ -130,7 +133,7 @@ fn is_missing(path: &Path) -> bool {
     }
 }
 
-/// A configuration file, for messages with the places of what is wrong in it.
+/// A configuration file, for error messages that state the place of a mistake in the file.
 struct Source<'a> {
     text: &'a str,
     path: &'a Path,
@@ -142,7 +145,8 @@ impl Source<'_> {
         format!("{}:{line}:{column}: {message}", self.path.display())
     }
 
-    /// Message about the value of a field, at its place in the file.
+    /// Returns the error message about the value of a field, with the place of the value in the
+    /// file.
     fn wrong(&self, field: &str, message: String) -> String {
         let start = Text::new(self.text)
             .ok()

@@ -1,4 +1,4 @@
-//! Options of reading a measured curve, as rows of the list of parameters.
+//! Options for reading a measured curve, as rows of the list of parameters.
 
 use super::measured::Measured;
 use asperity_data::{exact_quantity, format_quantity, in_unit, parse_quantity, unit_of};
@@ -7,26 +7,27 @@ use asperity_scene::fields::{Field, Range};
 use asperity_scene::text::ron_float;
 use std::ops::Bound::{Excluded, Included};
 
-/// Path of the group of the measured curve in the list of parameters.
+/// Path of the rows of the measured curve in the list of parameters.
 pub const GROUP: &str = "measured";
 
-/// The first row of the group: the name of the file.
+/// First row of the group, which shows the name of the file.
 pub static HEAD: Field = Field::beside(GROUP, "measured curve", Range::Group, "");
 
-/// How a force is written, given its unit.
+/// Function that formats a value with its unit.
 type Format = fn(f64, &str) -> String;
 
-/// A row of the list of parameters for an option of reading, typed as on the command line.
+/// Row of the list of parameters for an option. Its value is typed as on the command line.
 pub struct CurveOptionRow {
     pub field: Field,
-    /// The value of a curve that is read without the option, in words.
+    /// Text for the usual value, which applies if the option is not set.
     pub usual: &'static str,
-    /// Values that the arrows go through, the usual one first; empty for a value that is only
-    /// typed.
+    /// Values among which the arrow keys step, the usual value first. Empty if the value can only
+    /// be typed.
     choices: &'static [&'static str],
-    /// The value as it is typed; `None` for the usual one. Forces are written in a given format.
+    /// Returns the value of the option as it is typed; `None` for the usual value. The format
+    /// applies to forces.
     written: fn(&CurveOptions, Format) -> Option<String>,
-    /// Takes a typed value; the usual one is an empty text.
+    /// Sets the option to a typed value. An empty text means the usual value.
     take: fn(&mut CurveOptions, &str) -> Result<(), String>,
 }
 
@@ -36,7 +37,7 @@ const TEXT: Range = Range::Text {
     lines: false,
 };
 const FORCE: Range = Range::Real(Included(-1e6), Included(1e6));
-/// Allowed lengths, m.
+/// Allowed lengths in m.
 const LENGTH: Range = Range::Real(Excluded(0.0), Included(1e3));
 const NEGATED: &[&str] = &["by the approach", "none", "displacement", "force", "both"];
 const KEPT: &[&str] = &["keep", "remove"];
@@ -50,7 +51,7 @@ const fn option(
     Field::beside(path, name, range, meaning)
 }
 
-/// The options in the order of the list: options that decide whether a curve is read at all come
+/// The options in the order of the list. Options without which some files cannot be read come
 /// first.
 pub static OPTIONS: [CurveOptionRow; 10] = [
     CurveOptionRow {
@@ -219,7 +220,7 @@ pub static OPTIONS: [CurveOptionRow; 10] = [
     },
 ];
 
-/// The words between commas, without blanks around them.
+/// Splits a text at its commas, and removes blanks around the words.
 fn words(typed: &str) -> Vec<String> {
     typed
         .split(',')
@@ -241,12 +242,12 @@ fn quantity(typed: &str, unit: &str) -> Result<Option<f64>, String> {
         .map_err(|error| error.to_string())
 }
 
-/// Message for a typed value that is not one of the choices.
+/// Returns the error message for a typed value that is not one of the choices.
 fn not_among(typed: &str, choices: &'static [&'static str]) -> String {
     format!("{typed}: allowed: {}", Range::Choice(choices))
 }
 
-/// Numbers of segments, from 1.
+/// Reads the numbers of segments, which count from 1.
 fn segments(typed: &str) -> Result<Vec<usize>, String> {
     let mut numbers = Vec::new();
     for word in words(typed) {
@@ -287,7 +288,7 @@ fn count(typed: &str) -> Result<Option<usize>, String> {
 }
 
 impl CurveOptionRow {
-    /// The value for the list.
+    /// Returns the value as the list shows it.
     pub fn shown(&self, measured: &Measured) -> String {
         let given = (self.written)(&measured.options, format_quantity);
         given.unwrap_or_else(|| match self.field.path {
@@ -296,7 +297,8 @@ impl CurveOptionRow {
         })
     }
 
-    /// What the option does, and its values or what an empty text means.
+    /// Returns what the option does, followed by its allowed values or by the meaning of an empty
+    /// text.
     pub fn explanation(&self) -> String {
         let meaning = self.field.meaning;
         match self.field.range {
@@ -305,18 +307,18 @@ impl CurveOptionRow {
         }
     }
 
-    /// The value when its editor opens; empty for the usual one.
+    /// Returns the text with which the editor of the value opens. It is empty for the usual value.
     pub fn editable(&self, options: &CurveOptions) -> String {
         (self.written)(options, exact_quantity).unwrap_or_default()
     }
 
-    /// The value in words, for a list of changes.
+    /// Returns the value as text for a list of changes.
     pub fn in_words(&self, options: &CurveOptions) -> String {
         (self.written)(options, format_quantity).unwrap_or_else(|| self.usual.to_owned())
     }
 
-    /// The number of a given force in the notation of a scene; `None` for the usual one and for
-    /// other values.
+    /// Returns the value as a number in the notation of a scene, if it is a force that the user has
+    /// given; otherwise `None`.
     pub fn value(&self, options: &CurveOptions) -> Option<String> {
         if self.field.unit != "N" {
             return None;
@@ -326,8 +328,8 @@ impl CurveOptionRow {
         Some(ron_float(force))
     }
 
-    /// A typed value; a force without a unit gets the shown unit of force, or else the unit of the
-    /// noise.
+    /// Adds a unit to a typed force without a unit. It is the unit of the shown value or, if that
+    /// is not a force, the unit of the noise. Other values stay unchanged.
     pub fn with_unit(&self, measured: &Measured, typed: &str) -> String {
         let is_force = self.field.unit == "N" || self.field.path == "measured.drift";
         if !is_force {
@@ -342,11 +344,11 @@ impl CurveOptionRow {
         in_unit(typed, unit_of(&noise))
     }
 
-    /// The options with a typed value of this one; an empty text, or the words of the usual value,
-    /// leave the option out.
+    /// Returns the options with this option set to a typed value. An empty text, or the text for
+    /// the usual value, removes the option.
     ///
     /// # Errors
-    /// The reason why the value is no value of the option.
+    /// Returns the reason if the option cannot have this value.
     pub fn with(&self, options: &CurveOptions, typed: &str) -> Result<CurveOptions, String> {
         let mut changed = options.clone();
         let typed = typed.trim();
@@ -355,22 +357,24 @@ impl CurveOptionRow {
         Ok(changed)
     }
 
-    /// The choice after the present value or, unless `forwards`, before it; `None` for a value that
-    /// is only typed.
+    /// Returns the choice after the present value if `forwards` is true, otherwise the choice
+    /// before it. `None` if the value can only be typed.
     pub fn next_choice(&self, options: &CurveOptions, forwards: bool) -> Option<&'static str> {
         let last = self.choices.len().checked_sub(1)?;
         let present = self.in_words(options);
         let next = match self.choices.iter().position(|choice| *choice == present) {
             Some(place) if forwards && place < last => place + 1,
             Some(place) if !forwards => place.checked_sub(1).unwrap_or(last),
-            // The first choice follows the last one, and any value that is no choice.
+            // After the last choice the first one follows. It also follows a value that is not one
+            // of the choices.
             _ => 0,
         };
         self.choices.get(next).copied()
     }
 }
 
-/// Differences between options in words: `noise by the curve → 2 nN`.
+/// Returns the differences between two sets of options as text, such as `noise by the curve → 2
+/// nN`.
 pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
     let mut changes = Vec::new();
     for option in &OPTIONS {

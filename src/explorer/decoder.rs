@@ -1,20 +1,20 @@
-//! Bytes of a terminal become keys, pastes and gestures of the mouse. What a terminal begins and
-//! does not finish, as on a broken line, is given up after a pause, so that it swallows no later
-//! key.
+//! Converts the bytes of a terminal to keys, pasted texts and gestures of the mouse. A broken line
+//! may deliver only the beginning of a key or a paste. Such a beginning is given up after a pause,
+//! so that later keys are read correctly.
 
 use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 use std::time::Duration;
 
-/// Longest pause within the sequence of a key. A slow line may separate the bytes of a sequence.
+/// Longest pause between the bytes of a key. On a slow line, these bytes may arrive separately.
 const SEQUENCE_PAUSE: Duration = Duration::from_millis(80);
 
-/// Longest pause within a pasted text. The rest of a text that ends too early would be read as
-/// keys.
+/// Longest pause within a pasted text. It is long because the rest of a paste that is ended too
+/// early would be read as keys.
 const PASTE_PAUSE: Duration = Duration::from_secs(1);
 
-/// Most bytes that a sequence can have and still be known.
+/// Largest number of parameter bytes that are kept of a sequence. All known sequences are shorter.
 const LONGEST_SEQUENCE: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
@@ -24,32 +24,32 @@ const BELL: u8 = 0x07;
 
 const PASTE_END: &[u8] = b"\x1b[201~";
 
-/// What has begun and is not finished.
+/// Input that has begun and is not complete yet.
 #[derive(Debug, Default)]
 enum Pending {
     #[default]
     Nothing,
     /// The first bytes of a character in UTF-8.
     Character { bytes: Vec<u8>, is_alt: bool },
-    /// ESC: the key, or the beginning of a sequence.
+    /// ESC: the key of this name, or the beginning of a sequence.
     Escape,
     /// ESC O: a key of the application mode.
     Application,
-    /// ESC [ and the parameters so far.
+    /// ESC [ followed by parameters. The value contains the parameters read so far.
     Control(Vec<u8>),
     /// ESC [ [: a function key of the Linux console.
     Console,
-    /// ESC [ M: a gesture of the mouse in three bytes.
+    /// ESC [ M: a gesture of the mouse, which consists of three more bytes.
     Gesture(Vec<u8>),
     /// ESC ], ESC P or ESC _: an answer of the terminal, which ends with BEL or ESC \.
     Answer,
-    /// ESC within an answer.
+    /// ESC inside an answer of the terminal.
     EscapeInAnswer,
-    /// The text after ESC [ 200 ~.
+    /// ESC [ 200 ~: a pasted text. The value contains the text read so far.
     Paste(Vec<u8>),
 }
 
-/// Reads the bytes of a terminal.
+/// Converts the bytes of a terminal to events.
 #[derive(Debug, Default)]
 pub struct Decoder {
     pending: Pending,
@@ -57,12 +57,13 @@ pub struct Decoder {
 }
 
 impl Decoder {
-    /// Reads bytes that arrived together, and returns the events that they complete.
+    /// Reads bytes that arrived together, and returns the events that are now complete.
     pub fn read(&mut self, bytes: &[u8]) -> Vec<Event> {
         if let Pending::Paste(_) = self.pending
             && bytes.iter().all(|byte| *byte == INTERRUPT)
         {
-            // A pasted text arrives in larger pieces: this is Ctrl+C.
+            // Pasted text arrives in larger pieces. Therefore a piece that consists only of this
+            // byte is a Ctrl+C of the user.
             self.end();
         }
         for byte in bytes {
@@ -71,7 +72,8 @@ impl Decoder {
         std::mem::take(&mut self.events)
     }
 
-    /// How long the rest of what has begun may take to arrive; `None` if nothing has begun.
+    /// Returns how long to wait for the rest of the incomplete input; `None` if no input is
+    /// incomplete.
     pub fn pause(&self) -> Option<Duration> {
         match self.pending {
             Pending::Nothing => None,
@@ -80,7 +82,8 @@ impl Decoder {
         }
     }
 
-    /// Gives up the rest of what has begun. ESC alone is the key, and a paste is its text so far.
+    /// Ends the incomplete input without its rest. An ESC alone becomes the key, and an incomplete
+    /// paste becomes the text read so far.
     pub fn give_up(&mut self) -> Vec<Event> {
         self.end();
         std::mem::take(&mut self.events)
@@ -94,8 +97,8 @@ impl Decoder {
         }
     }
 
-    /// Ends a paste without its end. A Ctrl+C in it was typed by the user, whom the paste did not
-    /// let through.
+    /// Ends a paste whose end sequence is missing or incomplete. If its text contains a Ctrl+C, the
+    /// user has tried to interrupt the explorer, so this key is pressed afterwards.
     fn end_paste(&mut self, text: &[u8]) {
         let mut end = text.len();
         for length in 1..PASTE_END.len() {
@@ -160,7 +163,7 @@ impl Decoder {
         }
     }
 
-    /// The first byte of a key.
+    /// Begins a new key with its first byte.
     fn begin(&mut self, byte: u8, is_alt: bool) {
         let alt = if is_alt {
             KeyModifiers::ALT
@@ -183,12 +186,13 @@ impl Decoder {
                     is_alt,
                 }
             }
-            // No character begins with these bytes.
+            // No character in UTF-8 begins with these bytes.
             0x80..=0xc1 | 0xf5..=0xff => {}
         }
     }
 
-    /// The byte that ends a broken sequence: text is part of it, a control character or ESC is not.
+    /// Handles a byte that does not fit an incomplete sequence. A printable byte is dropped,
+    /// because it belongs to the broken sequence. A control character or ESC begins a new key.
     fn begin_unless_text(&mut self, byte: u8) {
         if byte < b' ' {
             self.begin(byte, false);
@@ -213,7 +217,7 @@ impl Decoder {
                     self.press_character(character, is_alt);
                 }
             }
-            // More bytes may complete it.
+            // The character needs more bytes.
             Err(error) if error.error_len().is_none() => {
                 self.pending = Pending::Character { bytes, is_alt };
             }
@@ -254,7 +258,7 @@ impl Decoder {
     }
 
     fn continue_gesture(&mut self, mut bytes: Vec<u8>, byte: u8) {
-        // Each of the three bytes is a number plus 32.
+        // The terminal sends each of the three numbers increased by 32.
         let Some(number) = byte.checked_sub(b' ') else {
             return self.begin(byte, false);
         };
@@ -269,7 +273,7 @@ impl Decoder {
     }
 }
 
-/// The key after ESC O.
+/// Returns the key for a byte after ESC O.
 fn application_key(byte: u8) -> Option<KeyCode> {
     match byte {
         b'P'..=b'S' => Some(KeyCode::F(1 + byte - b'P')),
@@ -277,7 +281,7 @@ fn application_key(byte: u8) -> Option<KeyCode> {
     }
 }
 
-/// The key of a letter after ESC O or ESC [.
+/// Returns the key for a letter after ESC O or ESC [.
 fn moving_key(letter: u8) -> Option<KeyCode> {
     match letter {
         b'A' => Some(KeyCode::Up),
@@ -290,7 +294,7 @@ fn moving_key(letter: u8) -> Option<KeyCode> {
     }
 }
 
-/// The key of a number before ~.
+/// Returns the key for a number before `~`.
 fn numbered_key(number: u8) -> Option<KeyCode> {
     match number {
         1 | 7 => Some(KeyCode::Home),
@@ -308,8 +312,8 @@ fn numbered_key(number: u8) -> Option<KeyCode> {
     }
 }
 
-/// Returns the event of a sequence `ESC [` with these parameters and last byte. It is `None` for an
-/// answer of the terminal and for a key that the explorer does not use.
+/// Returns the event of a sequence that consists of `ESC [`, these parameters and this last byte.
+/// `None` for an answer of the terminal, and for a key that the explorer does not use.
 fn control_event(parameters: &str, last: u8) -> Option<Event> {
     if let Some(gesture) = parameters.strip_prefix('<') {
         return if matches!(last, b'M' | b'm') {
@@ -338,7 +342,8 @@ fn control_event(parameters: &str, last: u8) -> Option<Event> {
                 modifiers | KeyModifiers::SHIFT,
             )));
         }
-        // ESC [ … R is an answer: the position of the cursor.
+        // `ESC [ … R` is not a key but an answer of the terminal that states the position of the
+        // cursor.
         b'P' | b'Q' | b'S' if matches!(first, "" | "1") => application_key(last)?,
         _ if matches!(first, "" | "1") => moving_key(last)?,
         _ => return None,
@@ -346,7 +351,7 @@ fn control_event(parameters: &str, last: u8) -> Option<Event> {
     Some(Event::Key(KeyEvent::new(code, modifiers)))
 }
 
-/// Modifiers of a key: one more than the sum of their bits.
+/// Returns the modifiers of a key. `mask` is one more than the sum of their bits.
 fn modifiers_of(mask: u8) -> KeyModifiers {
     let bits = mask.saturating_sub(1);
     let mut modifiers = KeyModifiers::NONE;
@@ -359,7 +364,7 @@ fn modifiers_of(mask: u8) -> KeyModifiers {
     modifiers
 }
 
-/// The key of a character code before u.
+/// Returns the key for a character code before `u`.
 fn coded_key(code: u32) -> Option<KeyCode> {
     match char::from_u32(code)? {
         '\x1b' => Some(KeyCode::Esc),
@@ -370,7 +375,7 @@ fn coded_key(code: u32) -> Option<KeyCode> {
     }
 }
 
-/// The gesture of `button;column;row`.
+/// Returns the gesture of the mouse for the parameters `button;column;row`.
 fn sgr_mouse_event(parameters: &str, is_release: bool) -> Option<Event> {
     let mut numbers = parameters.split(';');
     let button = numbers.next()?.parse().ok()?;
@@ -379,7 +384,8 @@ fn sgr_mouse_event(parameters: &str, is_release: bool) -> Option<Event> {
     mouse_event(button, column, row, is_release)
 }
 
-/// The gestures that the explorer uses; column and row are counted from one.
+/// Returns the gesture of the mouse; `None` if the explorer does not use it. Column and row are
+/// counted from 1.
 fn mouse_event(button: u8, column: u16, row: u16, is_release: bool) -> Option<Event> {
     const MODIFIERS: u8 = 4 + 8 + 16;
     let kind = match (button & !MODIFIERS, is_release) {
@@ -428,7 +434,7 @@ mod tests {
         })
     }
 
-    /// Sequences of terminals and the event of each.
+    /// Returns sequences that terminals send, each with the event that it means.
     fn sequences() -> Vec<(&'static [u8], Event)> {
         let shift = KeyModifiers::SHIFT;
         let alt = KeyModifiers::ALT;
@@ -517,7 +523,7 @@ mod tests {
             .flat_map(|(bytes, _)| bytes.iter().copied())
             .collect();
         let events: Vec<Event> = sequences.into_iter().map(|(_, event)| event).collect();
-        // A piece of one byte in a paste may be a Ctrl+C.
+        // A piece of one byte is left out, because inside a paste it could be a Ctrl+C.
         for size in 2..40 {
             let mut decoder = Decoder::default();
             let read: Vec<Event> = bytes
@@ -594,8 +600,8 @@ mod tests {
     }
 
     proptest! {
-        /// Bytes of which many begin sequences; the next key after a pause counts, and a Ctrl+C at
-        /// any time.
+        /// Most of these bytes begin sequences. After a pause the next key must be read correctly,
+        /// and a Ctrl+C at any time.
         #[test]
         fn no_bytes_swallow_later_keys(
             pieces in prop::collection::vec(

@@ -1,4 +1,4 @@
-//! The scene as edited: its list of parameters, its history, and whether it is saved.
+//! The edited scene: its list of parameters, its history, and whether it is saved.
 
 use super::curve_options;
 use super::measured::Measured;
@@ -13,50 +13,51 @@ use std::sync::Arc;
 
 const UNDO_DEPTH: usize = 1000;
 
-/// The scene and the measured curve before or after an edit.
+/// Scene and measured curve, as they were before or after an edit.
 #[derive(Clone, Debug)]
 pub struct Edited {
     pub document: Document,
     pub measured: Option<Measured>,
 }
 
-/// Returns true if a row has this path. A loading stage with a number has its row at the path of
-/// the number.
+/// Returns true if a row of the list belongs to this path. If a loading stage has a number, the
+/// path of its row is the path of the number, which ends in `.0`.
 fn is_at(parameter: &Parameter, path: &str) -> bool {
     parameter.path == path || parameter.path.strip_suffix(".0") == Some(path)
 }
 
 impl Edited {
-    /// Returns true if an edit from one to the other changes something that an undo restores.
+    /// Returns true if the scenes or the curves differ in anything that undo restores.
     fn differs(&self, other: &Edited) -> bool {
         self.document.name() != other.document.name()
             || self.document.text() != other.document.text()
             || self.curve_source() != other.curve_source()
     }
 
-    /// File of the measured curve, and the options of reading it.
+    /// Returns the file of the measured curve, and the options with which the curve was read.
     fn curve_source(&self) -> Option<(&Path, &CurveOptions)> {
         let measured = self.measured.as_ref()?;
         Some((&measured.path, &measured.options))
     }
 }
 
-/// The scene as edited, its history, and its list of parameters.
+/// The edited scene, its history, and its list of parameters.
 #[derive(Clone, Debug)]
 pub struct Editor {
     pub document: Document,
     /// The measured curve beside the scene.
     pub measured: Option<Measured>,
-    /// The checked scene of the document, with its files named from the working folder.
+    /// The checked scene of the document. The paths of its files are relative to the working
+    /// folder.
     pub scene: Arc<CheckedScene>,
-    /// What was edited before each edit, the newest last.
+    /// Scenes and curves before each edit, the newest last.
     pub past: Vec<Edited>,
     future: Vec<Edited>,
-    /// For each scene by its name, the document on disk or as opened.
+    /// The document of each scene as it was saved or opened, by the name of the scene.
     pub saved: BTreeMap<String, Document>,
-    /// Number of times that a scene was saved or opened.
+    /// Number of times that a scene has been saved or opened.
     pub saves: u64,
-    /// Scenes by their names that were left with unsaved changes.
+    /// Other scenes that still have unsaved changes, by their names.
     left: BTreeMap<String, Document>,
     pub generation: u64,
     pub parameters: Vec<Parameter>,
@@ -86,12 +87,12 @@ impl Editor {
         self.parameters.get(self.selected)
     }
 
-    /// Selects the parameter in a row, or the last one.
+    /// Selects the parameter in this row. If there is no such row, it is the last one.
     pub fn select(&mut self, row: usize) {
         self.selected = row.min(self.parameters.len().saturating_sub(1));
     }
 
-    /// Selects the row of a loading stage, if there is one.
+    /// Selects the row of a loading stage. Does nothing if there is no such row.
     pub fn select_stage(&mut self, stage: usize) {
         let mut rows = self.parameters.iter();
         if let Some(row) = rows.position(|parameter| parameter.leg == Some(stage)) {
@@ -99,14 +100,15 @@ impl Editor {
         }
     }
 
-    /// Moves the selection by a number of rows, up to the first or last row.
+    /// Moves the selection by a number of rows. It stops at the first and the last row.
     pub fn move_selection(&mut self, rows: i32) {
         self.select(self.selected.saturating_add_signed(rows as isize));
     }
 
-    /// Row of the field at a path, or of the group around it; the selected row if there is neither.
-    /// So the selection stays in place when rows come and go, and the row that switched an effect
-    /// off can switch it on again.
+    /// Returns the row of the field with this path or, if there is none, the row of the nearest
+    /// group that contains the field. If there is no such group, it returns the selected row. As a
+    /// result, the selection stays in place when rows appear or disappear, and the row that
+    /// switched an effect off can switch it on again.
     fn row_of(&self, path: &str) -> usize {
         let mut path = path;
         loop {
@@ -121,8 +123,8 @@ impl Editor {
         }
     }
 
-    /// Makes a document the explored one; an undo returns to the former document, unless both are
-    /// the same.
+    /// Makes a document the explored scene. Undo returns to the previous document, unless the
+    /// documents are the same.
     pub fn adopt(&mut self, document: Document) {
         self.adopt_all(Edited {
             document,
@@ -130,7 +132,7 @@ impl Editor {
         });
     }
 
-    /// Makes a document and a measured curve the explored ones, in one edit.
+    /// Makes a document and a measured curve the explored scene and curve, in one edit.
     pub fn adopt_all(&mut self, edited: Edited) {
         let before = self.exchange(edited);
         if before.differs(&self.edited()) {
@@ -150,7 +152,7 @@ impl Editor {
         }
     }
 
-    /// Puts document and measured curve in the place of the present ones, which are returned.
+    /// Replaces the present document and the present curve. Returns the replaced ones.
     fn exchange(&mut self, Edited { document, measured }: Edited) -> Edited {
         Edited {
             document: replace(&mut self.document, document),
@@ -158,15 +160,15 @@ impl Editor {
         }
     }
 
-    /// Continues the last edit: the new document replaces the result of the edit.
+    /// Continues the last edit: the document replaces the result of this edit.
     pub fn replace(&mut self, document: Document) {
         self.document = document;
         self.future.clear();
         self.renew();
     }
 
-    /// Undoes the last edit or, unless `back`, redoes the last undone edit. Returns the change in
-    /// words; `None` without such an edit.
+    /// If `back` is true, undoes the last edit; otherwise redoes the last undone edit. Returns the
+    /// changes as text; `None` if there is no such edit.
     pub fn undo(&mut self, back: bool) -> Option<String> {
         let next = if back {
             self.past.pop()?
@@ -196,20 +198,21 @@ impl Editor {
         Some(changes.join(", "))
     }
 
-    /// Keeps a document if it has unsaved changes, since another scene replaces it.
+    /// Keeps a document with unsaved changes before another scene takes its place.
     pub fn leave(&mut self, document: Document) {
         if self.is_changed(&document) {
             self.left.insert(document.name().to_owned(), document);
         }
     }
 
-    /// Renews what follows from document and measured curve after an edit.
+    /// Updates everything that depends on the document and the measured curve.
     fn renew(&mut self) {
         let selected = self
             .parameter()
             .map(|parameter| parameter.path.clone())
             .unwrap_or_default();
-        // A scene left before is the present one again.
+        // The present scene may have been left earlier with the same content. Then its unsaved
+        // changes need not be kept twice.
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());
@@ -223,8 +226,8 @@ impl Editor {
         self.is_changed(&self.document)
     }
 
-    /// Returns true if a document differs from the saved one by a value or a comment; another
-    /// notation of a number is no change.
+    /// Returns true if a document differs from its saved version in a value or a comment. Another
+    /// notation of the same number does not count as a change.
     fn is_changed(&self, document: &Document) -> bool {
         let Some(saved) = self.saved.get(document.name()) else {
             return true;
@@ -234,7 +237,8 @@ impl Editor {
         saved.text() != document.text() && !has_same_content
     }
 
-    /// All scenes with unsaved changes, the explored one first if it has any.
+    /// Returns all scenes with unsaved changes. If the explored scene has unsaved changes, it is
+    /// the first.
     pub fn unsaved(&self) -> Vec<&Document> {
         let mut unsaved = vec![&self.document];
         unsaved.extend(self.left.values());
@@ -242,7 +246,8 @@ impl Editor {
         unsaved
     }
 
-    /// Takes scenes as the unsaved changes of another session; the first is the explored scene.
+    /// Continues with the unsaved changes of another session. The first document is the explored
+    /// scene.
     pub fn restore(&mut self, documents: &[Document]) {
         for (number, document) in documents.iter().enumerate() {
             let name = document.name().to_owned();
@@ -256,18 +261,18 @@ impl Editor {
         }
     }
 
-    /// Shows a measured curve from the beginning, which no undo removes.
+    /// Shows a measured curve that was named when the explorer started. Undo does not remove it.
     pub fn begin_with(&mut self, measured: Measured) {
         self.measured = Some(measured);
         self.renew();
     }
 
-    /// Selects the row of the measured curve, if there is one.
+    /// Selects the row of the measured curve, if there is such a row.
     pub fn select_measured(&mut self) {
         self.select(self.row_of(curve_options::GROUP));
     }
 
-    /// Marks the scene as saved to a file, which becomes its own file.
+    /// Marks the scene as saved. From now on, this file is the file of the scene.
     pub fn set_saved_as(&mut self, path: &Path) {
         let text = self.document.text_for_own_file();
         if let Ok(document) = Document::parse(&text, &path.to_string_lossy()) {
@@ -284,7 +289,7 @@ impl Editor {
     }
 }
 
-/// Changes from one measured curve to another, in words.
+/// Returns the changes from one measured curve to another as text.
 fn changes_of_curve(before: Option<&Measured>, present: Option<&Measured>) -> Vec<String> {
     match (before, present) {
         (None, None) => Vec::new(),
@@ -296,7 +301,8 @@ fn changes_of_curve(before: Option<&Measured>, present: Option<&Measured>) -> Ve
     }
 }
 
-/// The checked scene of a document, with its files named from the working folder.
+/// Returns the checked scene of a document. The paths of its files are relative to the working
+/// folder.
 pub fn scene_of(document: &Document) -> Arc<CheckedScene> {
     let scene = document.scene().with_files_named(|file: &str| {
         let path = document.resolve(file);

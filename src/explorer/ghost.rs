@@ -1,4 +1,4 @@
-//! Computed scenes kept for comparison.
+//! Computed scenes that are kept for comparison.
 
 use asperity_scene::fields::Change;
 use asperity_scene::{Document, Outcome};
@@ -11,7 +11,8 @@ pub struct Ghost {
 }
 
 impl Ghost {
-    /// Differences of the kept scene from another one, in words.
+    /// Returns the changes from the kept scene to the scene `present` as text. `words` formats a
+    /// single change.
     pub fn changes(&self, present: &Document, words: impl Fn(&Change) -> String) -> String {
         let changes = self.document.changes_to(present);
         let parts: Vec<String> = changes.iter().map(words).collect();

@@ -1,16 +1,17 @@
-//! Input: reads keys and mouse on a thread of its own, and converts them to actions.
+//! Input: reads keys and mouse on threads of its own, and converts them to actions.
 
 use super::action::{Action, Gesture, Mouse};
 use crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
 
-/// Reads input on threads of their own, which end with the terminal or the explorer. `send` returns
-/// true while anyone receives; the end of the input is sent as `None`.
+/// Reads input on two new threads, which end when the terminal disappears or the explorer ends.
+/// `send` receives each event, and `None` when the input ends. It returns false when nobody
+/// receives events any more.
 #[cfg(unix)]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     use super::decoder::Decoder;
     use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 
-    // One piece: further bytes wait in the terminal.
+    // At most one piece waits in this channel. Further bytes wait in the terminal.
     let (pieces, received) = sync_channel(1);
     let terminal = keyboard()?;
     spawn("terminal", move || {
@@ -26,7 +27,8 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
             let events = match piece {
                 Ok(bytes) => decoder.read(&bytes),
                 Err(RecvTimeoutError::Timeout) => decoder.give_up(),
-                // A dropped connection must not leave a process behind that reads nothing for ever.
+                // When the connection drops, the input ends here. Otherwise the process would stay
+                // and read nothing for ever.
                 Err(RecvTimeoutError::Disconnected) => {
                     send(None);
                     return;
@@ -49,8 +51,8 @@ fn spawn(name: &str, work: impl FnOnce() + Send + 'static) -> std::io::Result<()
         .map(drop)
 }
 
-/// The terminal as the user's keyboard: standard input, or the terminal of the process if input
-/// comes from elsewhere.
+/// Returns the keyboard of the user: standard input if it is a terminal, otherwise the terminal
+/// that controls the process.
 #[cfg(unix)]
 fn keyboard() -> std::io::Result<std::fs::File> {
     use std::io::IsTerminal;
@@ -63,7 +65,7 @@ fn keyboard() -> std::io::Result<std::fs::File> {
     std::fs::File::open("/dev/tty")
 }
 
-/// Reads what arrives until the terminal is gone or `send` returns false.
+/// Reads bytes until the terminal disappears or `send` returns false.
 #[cfg(unix)]
 fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -79,7 +81,8 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
                 }
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            // Another program that shares the terminal may have made reads return at once.
+            // If another program that shares the terminal has switched it to non-blocking reads,
+            // wait here for the next bytes.
             Err(error) if error.kind() == ErrorKind::WouldBlock => {
                 let _ = poll(&mut [PollFd::new(&terminal, PollFlags::IN)], None);
             }
@@ -88,8 +91,9 @@ fn read_pieces(mut terminal: std::fs::File, send: impl Fn(Vec<u8>) -> bool) {
     }
 }
 
-/// Reads input on a thread of its own, which ends with the terminal or the explorer. `send` returns
-/// true while anyone receives; the end of the input is sent as `None`.
+/// Reads input on a new thread, which ends when the terminal disappears or the explorer ends.
+/// `send` receives each event, and `None` when the input ends. It returns false when nobody
+/// receives events any more.
 #[cfg(not(unix))]
 pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::Result<()> {
     std::thread::Builder::new()
@@ -106,12 +110,13 @@ pub fn read(send: impl Fn(Option<Event>) -> bool + Send + 'static) -> std::io::R
         .map(drop)
 }
 
-/// The action that an input event causes; `None` for an event without a meaning.
+/// Returns the action that an event of the terminal causes; `None` if the event means nothing to
+/// the explorer.
 pub fn action_of(event: Event) -> Option<Action> {
     match event {
         Event::Key(key) if key.kind == KeyEventKind::Press => Some(Action::Key(key)),
         Event::Paste(text) => Some(Action::Paste(text)),
-        // Elsewhere a signal of its own.
+        // On Unix, a signal announces the new size of the window instead.
         Event::Resize(columns, rows) if cfg!(not(unix)) => Some(Action::Resize(columns, rows)),
         Event::Mouse(mouse) => gesture_of(mouse),
         _ => None,

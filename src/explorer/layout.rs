@@ -1,4 +1,4 @@
-//! Positions of the panes on the screen: all four in a large window, fewer in a small one.
+//! Positions of the panes on the screen. A large window shows four panes, a small window fewer.
 
 use super::app::App;
 use super::pane::Pane;
@@ -9,21 +9,21 @@ use ratatui::layout::Rect;
 pub struct Layout {
     pub title: Option<Rect>,
     pub panes: Vec<(Pane, Rect)>,
-    /// Lines with the headline figures, or with the typed text.
+    /// Lines for the headline figures, or for the line being typed.
     pub status: Rect,
     pub footer: Option<Rect>,
 }
 
 impl Layout {
-    /// The layout of the explorer's state in its own window.
+    /// Returns the layout for the present size of the window.
     pub fn of(app: &App) -> Self {
         Layout::within(app, app.view.size)
     }
 
-    /// The layout in a window of this size, in cells.
+    /// Returns the layout for a window of this size, in columns and rows.
     pub fn within(app: &App, size: (u16, u16)) -> Self {
         let (width, height) = size;
-        // The lines around the panes give way before the panes.
+        // A small window first loses the lines around the panes, and only then panes.
         let has_footer = height >= 6;
         let top = if height >= 32 {
             2
@@ -66,14 +66,14 @@ impl Layout {
             .unwrap_or_default()
     }
 
-    /// The area of a pane with its title; `None` for a pane that is not shown.
+    /// Returns the area of a pane including its title; `None` if the pane is not shown.
     pub fn pane(&self, wanted: Pane) -> Option<Rect> {
         let mut panes = self.panes.iter();
         let (_, area) = panes.find(|(pane, _)| *pane == wanted)?;
         Some(*area)
     }
 
-    /// Width of the profile in cells, without its histogram.
+    /// Returns the width of the profile in columns, without the histogram of heights beside it.
     pub fn profile_cells(&self) -> usize {
         let Some(area) = self.pane(Pane::Profile) else {
             return 0;
@@ -88,8 +88,8 @@ impl Layout {
     }
 }
 
-/// The area below the title of a pane, without a blank column on the right; a pane too small for a
-/// title has none.
+/// Returns the area below the title of a pane, without a blank column on the right. If a pane is
+/// too small for a title, it returns the whole area.
 pub fn inside(area: Rect) -> Rect {
     if !has_title(area) {
         return area;
@@ -102,27 +102,28 @@ pub fn inside(area: Rect) -> Rect {
     }
 }
 
-/// Returns true if a pane is large enough for a title.
+/// Returns true if a pane of this size has a title.
 pub fn has_title(area: Rect) -> bool {
     area.height >= 5 && area.width >= 16
 }
 
-/// Smallest window, columns, with the list of parameters at the side.
+/// Smallest width in columns of a window that has the list of parameters at its side.
 const WITH_LIST: u16 = 60;
-/// Smallest width of the list at the side, columns.
+/// Smallest width in columns of the list at the side.
 const NARROWEST_LIST: u16 = 32;
-/// Largest width of the list at the side, columns.
+/// Largest width in columns of the list at the side.
 const WIDEST_LIST: u16 = 48;
-/// Smallest number of rows of a window with panes below the main pane.
+/// Smallest height in rows of an area that has panes below the main pane.
 const WITH_LOWER: u16 = 20;
-/// Smallest number of columns with two panes below the main pane.
+/// Smallest width in columns of an area that has two panes below the main pane.
 const WITH_CLOSE_UP: u16 = 60;
-/// Smallest number of rows of a narrow window with several rows of the list.
+/// Smallest height in rows of a narrow window that shows several rows of the list.
 const WITH_ROWS: u16 = 16;
 
-/// The main pane, which is the force curve unless another one takes its place, has the most room;
-/// the list of parameters has the height of the window. Small windows give up the close-up, the
-/// profile and the list, but for its selected row.
+/// Returns the panes of the window with their areas. The main pane is the largest; it is the force
+/// curve, unless another pane takes its place. The list of parameters at the side is as high as the
+/// window. A small window omits the close-up, then the profile, and finally the list except for its
+/// selected row.
 fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     if body.is_empty() {
         return Vec::new();
@@ -150,12 +151,12 @@ fn panes(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     panes
 }
 
-/// The pane that has the most room.
+/// Returns the pane that has the main place.
 fn main_pane(app: &App) -> Pane {
     app.view.large.unwrap_or(Pane::Force)
 }
 
-/// The pane beside the list of parameters if there is room for one only.
+/// Returns the pane to show beside the list of parameters if there is room for only one.
 fn only_pane(app: &App) -> Pane {
     if app.view.pane == Pane::Parameters {
         main_pane(app)
@@ -164,8 +165,8 @@ fn only_pane(app: &App) -> Pane {
     }
 }
 
-/// The panes of a window that is too narrow for the list at the side: one pane, and some rows of
-/// the list below it.
+/// Returns the panes of a window that is too narrow for the list at the side: one pane, and below
+/// it some rows of the list.
 fn panes_of_narrow(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     let selected = app.view.pane;
     if body.height < 3 || selected == Pane::Parameters {
@@ -188,10 +189,11 @@ fn panes_of_narrow(app: &App, body: Rect) -> Vec<(Pane, Rect)> {
     vec![(only_pane(app), upper), (Pane::Parameters, lower)]
 }
 
-/// The panes on the left of the list of parameters: the main pane, and below it the others.
+/// Returns the panes on the left of the list of parameters: the main pane, and the other panes
+/// below it.
 fn panes_beside_list(app: &App, left: Rect) -> Vec<(Pane, Rect)> {
     let main = main_pane(app);
-    // All that this pane states needs the height of the window.
+    // The pane of accuracy needs the whole height of the window for its lines.
     let is_alone = main == Pane::Trust && app.view.pane != Pane::Force;
     if left.height < WITH_LOWER || is_alone {
         return vec![(only_pane(app), left)];

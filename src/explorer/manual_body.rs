@@ -1,4 +1,5 @@
-//! The body under manual loading, with the path of its force curve.
+//! The body under manual loading, and its path, which is the force curve since manual loading
+//! began.
 
 use super::request::ManualMove;
 use super::snapshot::ManualPath;
@@ -7,37 +8,39 @@ use asperity_contact::{CurvePoint, Direction, Move};
 use asperity_data::round_to;
 use asperity_scene::stages::Reach;
 
-/// Number of points of the curve for one move.
+/// Number of points on the curve of one move.
 const POINTS: u32 = 16;
-/// Largest number of points of the curve for a motion to separation.
+/// Largest number of points on the curve of a move to separation.
 const MOST_POINTS: u32 = 512;
 
-/// Where and how manual loading begins.
+/// State in which manual loading begins.
 pub struct ManualBegin {
-    /// Indentation at the begin, m.
+    /// Indentation in m.
     pub indentation: f64,
-    /// True if the contact is separated there.
+    /// True if the contact is already separated.
     pub is_separated: bool,
-    /// Distance of the points of a pull, m.
+    /// Distance in m between the points of the curve when the body is pulled off.
     pub step: f64,
-    /// Stages of the loading so far.
+    /// Loading stages that led to this state.
     pub loading: Vec<Move>,
-    /// Direction of the last of these stages.
+    /// Direction of the last of these stages; `None` if there are none.
     pub direction: Option<Direction>,
 }
 
 pub struct ManualBody {
     body: Body,
     travel: ManualPath,
-    /// Distance of the points of a pull, m: a small part of the range of indentations.
+    /// Distance in m between the points of the curve when the body is pulled off. It is a small
+    /// part of the range of indentations.
     step: f64,
     reach: Reach,
-    /// Direction of the last stage of the path.
+    /// Direction of the last stage of the loading so far.
     direction: Option<Direction>,
 }
 
 impl ManualBody {
-    /// Begins manual loading of a body that moves along a leg. `None` without enough memory.
+    /// Begins manual loading of a body that has moved along a leg (a motion in one direction).
+    /// `None` if there is not enough memory.
     pub fn take(leg: &Leg, begin: ManualBegin) -> Option<Self> {
         let mut body = Body::at(leg, begin.indentation).ok()?;
         if begin.is_separated {
@@ -63,7 +66,7 @@ impl ManualBody {
         self.body.leg()
     }
 
-    /// Takes what the body has travelled since the last call.
+    /// Returns what the body has done since the last call.
     pub fn travel(&mut self) -> ManualPath {
         let further = ManualPath {
             released_energy: self.travel.released_energy,
@@ -73,12 +76,12 @@ impl ManualBody {
         std::mem::replace(&mut self.travel, further)
     }
 
-    /// Moves the body; a refused move leaves it where it is.
+    /// Moves the body. If the move is refused, the body stays where it is.
     pub fn follow(&mut self, order: ManualMove) {
         let from = self.body.point();
         let target = match order {
             ManualMove::Take { .. } => return,
-            // Few digits, since the path may become the loading of the scene.
+            // The target has few digits, because the path may become the loading of the scene.
             ManualMove::To(indentation) => Move::ToIndentation(round_to(indentation, 10)),
             ManualMove::By(distance) => {
                 Move::ToIndentation(round_to(from.indentation + distance, 10))
@@ -89,7 +92,7 @@ impl ManualBody {
         self.travel.refused = self.go(from, target).err();
     }
 
-    /// Moves the body to a target, or returns the reason why not.
+    /// Moves the body to a target, or returns the reason why the move is refused.
     fn go(&mut self, from: CurvePoint, target: Move) -> Result<(), String> {
         if let Some(why) = self.reach.refusal(target) {
             return Err(why);
@@ -103,7 +106,7 @@ impl ManualBody {
         let distance = to.indentation - from.indentation;
         let mut path = self.points_between(&leg, from, distance, target)?;
         path.push(to);
-        // Motions in one direction are one stage, to the last target.
+        // Successive motions in the same direction are one stage, which ends at the last target.
         let direction = Some(leg.direction());
         if self.direction == direction {
             self.travel.loading.pop();
@@ -115,7 +118,8 @@ impl ManualBody {
             self.travel.path.push((stage, point));
         }
         self.travel.changed += to.springs.abs_diff(from.springs);
-        // All springs attach or detach between contact and separation.
+        // Between contact and separation all springs attach or detach, so no spring may be left out
+        // at the lower end.
         let passes_separation = from.springs == 0 || to.springs == 0;
         let below = if passes_separation {
             f64::NEG_INFINITY
@@ -126,8 +130,8 @@ impl ManualBody {
         Ok(())
     }
 
-    /// Points of the curve of a motion over a distance, m, without its ends. The points of a
-    /// motion to separation have a fixed distance.
+    /// Returns the points of the force curve of a motion, without its two ends. `distance` is the
+    /// change of the indentation in m. In a motion to separation, the points are `self.step` apart.
     fn points_between(
         &self,
         leg: &Leg,

@@ -1,4 +1,5 @@
-//! State of the shown map, over H and κ or over the axes of a study.
+//! State of the map that is shown: the live map over H and κ, or a map of a study over the axes of
+//! the study.
 
 use asperity_scene::Scene;
 use asperity_study::maps::{Grid, LiveMap, StudyMap};
@@ -7,20 +8,20 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapState {
-    /// Quantity to show; a map without it shows its first one.
+    /// Quantity to show. If the map does not contain it, the first quantity of the map is shown.
     pub quantity: Quantity,
-    /// A finished study; kept until another one is opened.
+    /// A finished study. It stays open until another study is opened.
     pub study: Option<OpenStudy>,
-    /// True if the map of the study is shown in place of the live map.
+    /// True if the map of the study is shown instead of the live map.
     pub of_study: bool,
-    /// True if the last edit moved the mark: the next move then belongs to the same edit.
+    /// True if the last edit moved the mark. Another move then belongs to the same edit.
     pub moving: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpenStudy {
     pub study_map: Arc<StudyMap>,
-    /// Number of the shown map among the maps of the study, from 0.
+    /// Index of the shown map among the maps of the study, from 0.
     pub slice: u64,
     pub grid: Arc<Grid>,
 }
@@ -52,13 +53,14 @@ impl OpenStudy {
         }
     }
 
-    /// Returns true if a scene belongs to the shown map: it differs from the study in the
-    /// quantities of the axes only.
+    /// Returns true if a scene belongs to the shown map. It may differ from the scene of the study
+    /// only in the quantities of the axes.
     pub fn is_of(&self, scene: &Scene) -> bool {
         self.study_map.is_of(self.slice, scene)
     }
 
-    /// Number of the map `steps` after the shown one; the first follows the last.
+    /// Returns the index of the map that is `steps` maps after the shown one. The first map follows
+    /// the last one.
     pub fn stepped(&self, steps: i32) -> u64 {
         let slices = i128::from(self.study_map.slices().max(1));
         (i128::from(self.slice) + i128::from(steps)).rem_euclid(slices) as u64
@@ -83,7 +85,8 @@ impl MapState {
         Plan::of_map(scene).ok()
     }
 
-    /// Key of the live map of a scene; it stays the same while only κ and H change.
+    /// Returns the key of the live map of a scene. Changes of κ and H do not change the key. `None`
+    /// if the scene has no live map.
     pub fn key(&self, scene: &Scene) -> Option<String> {
         self.plan(scene).map(|plan| format!("{plan:?}"))
     }

@@ -1,4 +1,4 @@
-//! A measured force curve, placed over the displacement of the instrument beside the scene.
+//! A measured force curve beside the scene. It states forces over displacements of the instrument.
 
 use super::studies::Findings;
 use crate::explorer::advice;
@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// Path of the file without control characters, for the screen.
+    /// Path of the file for the screen, without control characters.
     pub name: String,
     pub path: PathBuf,
     pub curve: Arc<MeasuredCurve>,
-    /// Options with which the curve was read.
+    /// Options with which the curve has been read.
     pub options: CurveOptions,
-    /// Measured displacement at first touch, m.
+    /// Measured displacement at first touch in m.
     pub offset: f64,
 }
 
@@ -24,7 +24,7 @@ impl Measured {
     /// Reads a curve from a file.
     ///
     /// # Errors
-    /// The reason why the file is not read with these options.
+    /// Returns an error if the file cannot be read with these options.
     pub fn read(path: &Path, options: CurveOptions) -> Result<Self, ExperimentError> {
         let curve = MeasuredCurve::read(path, &options)?;
         Ok(Measured {
@@ -36,8 +36,8 @@ impl Measured {
         })
     }
 
-    /// The curve as read with other options. First touch stays where it was found if the
-    /// displacements are the same.
+    /// Reads the file again with other options. If the displacements stay the same, the point of
+    /// first touch is kept.
     pub fn read_again(&self, options: CurveOptions) -> Result<Self, ExperimentError> {
         let mut measured = Measured::read(&self.path, options)?;
         if measured.curve.displacement == self.curve.displacement {
@@ -53,7 +53,8 @@ impl Measured {
         sentences.join(" ")
     }
 
-    /// The measured points as points of a force curve, for an instrument of this stiffness, N/m.
+    /// Returns the measured points as points of a force curve, with the indentations that follow
+    /// from the stiffness of the instrument (N/m).
     pub fn points(&self, stiffness: f64) -> Vec<CurvePoint> {
         let mut points = Vec::new();
         for (displacement, force) in self.curve.displacement.iter().zip(&self.curve.force) {
@@ -66,7 +67,8 @@ impl Measured {
         points
     }
 
-    /// Differences of the measured forces from the forces of a model, N, in units of the noise.
+    /// Returns the residuals: the measured forces minus the forces of a model (in N), divided by
+    /// the noise.
     pub fn residuals(&self, model: &[f64]) -> Vec<f64> {
         let forces = self.curve.force.iter().zip(model);
         forces
@@ -75,7 +77,7 @@ impl Measured {
     }
 }
 
-/// A fit of parameters to the curve, while it is computed.
+/// Fit of parameters to the measured curve that is being computed.
 #[derive(Clone, Debug)]
 pub struct Fitting {
     pub free: Vec<Free>,
@@ -83,13 +85,14 @@ pub struct Fitting {
     pub found: Option<Result<Arc<FitResult>, String>>,
 }
 
-/// The fit to the present scene, of the position of the curve only, or of parameters too; `None` if
-/// not known yet.
+/// Returns the fit of the present scene to the measured curve. It fits the displacement at first
+/// touch, and further parameters if the user has requested them. `None` if the fit is not computed
+/// yet.
 pub fn fitted(studies: &Findings) -> Option<&FitResult> {
     studies.value::<Arc<FitResult>>().map(|fit| &**fit)
 }
 
-/// Reason why the scene cannot be compared with the curve, if it cannot.
+/// Returns the reason why the scene cannot be compared with the curve; `None` if there is none.
 pub fn failure(studies: &Findings) -> Option<&str> {
     studies.failure::<Arc<FitResult>>()
 }

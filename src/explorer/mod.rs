@@ -1,8 +1,9 @@
-//! The explorer. Threads for input, solver and studies send actions into one channel; `update`
-//! changes the state, and the views draw it. This thread computes nothing, and sleeps while there
-//! are no events.
+//! The explorer. Threads for input, solver and studies send actions into one channel. The main
+//! thread takes the actions from this channel; `update` changes the state, and the views draw it.
+//! The main thread computes no contact, and sleeps while there are no actions.
 
-// Public only for the tests: names and types state what a doc would repeat.
+// This module is public only for the tests. Names and types say what such documentation would
+// repeat.
 #![allow(missing_docs)]
 
 pub mod action;

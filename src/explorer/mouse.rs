@@ -1,4 +1,5 @@
-//! The mouse: it selects panes and rows, drags the body and scrolls. Keys can do all of this too.
+//! The mouse: it selects panes and rows, drags the body and scrolls. Everything can be done with
+//! keys too.
 
 use super::action::{Gesture, Mouse};
 use super::app::App;
@@ -23,7 +24,7 @@ pub fn act(app: &mut App, mouse: Mouse) {
     };
     match mouse.gesture {
         Gesture::Wheel(turns) => wheel(app, pane, under, turns),
-        // A drag stays in the pane in which it began.
+        // A drag is ignored outside the pane in which it began.
         Gesture::Drag if pane != app.view.pane => {}
         gesture => {
             app.view.pane = pane;
@@ -50,8 +51,8 @@ fn wheel(app: &mut App, pane: Pane, under: Under, turns: i32) {
     }
 }
 
-/// Acts on what is under the mouse in the selected pane, when a button is pressed (`is_press`) or
-/// during a drag.
+/// Acts on what is under the mouse in the selected pane. `is_press` is true when the button is
+/// pressed, and false during a drag.
 fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
     match (app.view.pane, under) {
         (Pane::Map, Under::Data(across, up)) if is_press || app.map.moving => {
@@ -63,18 +64,20 @@ fn point(app: &mut App, here: Position, under: Under, is_press: bool) {
             app.edit.select(row);
         }
         (_, Under::Data(x, _)) if app.view.crosshair.is_some() => crosshair::point_at(app, x),
-        // A click without a drag selects the pane; a drag begins manual loading.
+        // A click only selects the pane. A drag begins manual loading.
         (Pane::Force, Under::Data(x, _)) if !is_press || app.manual.is_some() => drag(app, here, x),
         _ => {}
     }
 }
 
-/// Moves the body to the indentation under the mouse; `x` is the number on the horizontal axis.
+/// Moves the body to the indentation under the mouse. `x` is the number on the horizontal axis
+/// there.
 fn drag(app: &mut App, here: Position, x: f64) {
     if indentation_at(app, x).is_none() {
         return;
     }
-    // Manual loading begins first: its axis may reach further than the axis of the loading.
+    // Manual loading begins before the position is read, because it can change the range of the
+    // axis.
     if app.manual.is_none() {
         movement::take(app, None);
     }

@@ -1,5 +1,5 @@
-//! What the explorer opens on: a scene, or a finished study with its scene; and what a path is
-//! opened as later.
+//! What the explorer shows when it starts (a scene, or a finished study with its scene), and what
+//! it opens later by a path.
 
 use super::ghost::Ghost;
 use super::measured::Measured;
@@ -18,7 +18,7 @@ use thiserror::Error;
 #[derive(Clone, Debug)]
 pub struct Opening {
     pub document: Document,
-    /// The study, whose maps are shown.
+    /// The study whose maps are shown; `None` if a scene was opened.
     pub study_map: Option<Arc<StudyMap>>,
     pub ghost: Option<Ghost>,
     pub measured: Option<Measured>,
@@ -34,7 +34,7 @@ pub enum OpeningError {
          merged study"
     )]
     Folder(String),
-    /// The folder holds a study that cannot be shown.
+    /// The folder contains a study that cannot be shown.
     #[error(transparent)]
     Study(Box<StudyError>),
 }
@@ -51,14 +51,14 @@ impl From<Document> for Opening {
 }
 
 impl Opening {
-    /// Opens a scene by its name or file, or a study by its folder. A folder of a study has
-    /// precedence over a built-in scene of the same name.
+    /// Opens a scene by its name or file, or a study by its folder. If a folder of a study has the
+    /// same name as a built-in scene, the study is opened.
     pub fn of(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open)
     }
 
-    /// Opens as [`Self::of`] does, for an argument of a command, which may also name a stream; see
-    /// [`open_argument`].
+    /// Opens the argument of a command as [`Self::of`] does. The argument may also name a stream;
+    /// see [`open_argument`].
     pub fn of_argument(name: &str) -> Result<Self, OpeningError> {
         Self::with(name, open_argument)
     }
@@ -93,11 +93,11 @@ impl Opening {
     }
 }
 
-/// What a path was opened as while the explorer runs.
+/// What was found at a path that the user opened while the explorer runs.
 #[derive(Clone, Debug)]
 pub enum Opened {
     Scene(Box<Opening>),
-    /// A measured force curve, shown beside the present scene.
+    /// Measured force curve, to be shown beside the present scene.
     Curve(Box<Measured>),
 }
 
@@ -105,7 +105,8 @@ impl Opened {
     /// Opens a scene, the folder of a study, or a measured force curve.
     ///
     /// # Errors
-    /// The reason why it is not opened; for a surface the way to a scene with it.
+    /// Returns the reason if nothing can be opened. For a measured surface, the message says how to
+    /// use it in a scene.
     pub fn of(name: &str) -> Result<Self, String> {
         let error = match Opening::of(name) {
             Ok(opening) => return Ok(Opened::Scene(Box::new(opening))),

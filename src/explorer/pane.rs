@@ -1,4 +1,4 @@
-//! The panes of the explorer, and the context of their keys.
+//! The panes of the explorer, and the contexts of their keys.
 
 use super::keys::bindings::Context;
 
@@ -7,22 +7,23 @@ pub enum Pane {
     Force,
     Profile,
     CloseUp,
-    /// Cost of accuracy, errors by their sources, and other theories.
+    /// Accuracy: errors and their cost in computing time, the sources of the errors, and other
+    /// theories.
     Trust,
     Spectrum,
     Preloads,
-    /// Changes of the results with each number of the scene.
+    /// Sensitivity: how the results change with each number of the scene.
     Sensitivity,
-    /// Regimes over κ and H, or the map of a study.
+    /// Regimes over κ and H, or a map of a study.
     Map,
     Parameters,
 }
 
 impl Pane {
-    /// All panes, in the order of the help.
+    /// All panes, in the order in which the help describes them.
     pub const ALL: &[Pane] = <Pane as strum::VariantArray>::VARIANTS;
 
-    /// Returns true for a pane that takes the place of profile and close-up.
+    /// Returns true for a pane that takes the main place, so that profile and close-up are hidden.
     pub fn is_large(self) -> bool {
         !matches!(
             self,
@@ -30,7 +31,8 @@ impl Pane {
         )
     }
 
-    /// Name for a file with the content of the pane; the parameters export the force curve.
+    /// Returns the name of a file with the content of the pane. The list of parameters exports the
+    /// force curve.
     pub fn file_name(self) -> &'static str {
         match self {
             Self::Force | Self::Parameters => "force",
@@ -44,7 +46,8 @@ impl Pane {
         }
     }
 
-    /// Context of the keys while the pane is selected; a crosshair acts only while it is shown.
+    /// Returns the context of the keys while this pane is selected. A crosshair has keys only while
+    /// it is shown.
     pub fn keys(self) -> Context {
         match self {
             Self::Sensitivity => Context::Explore,

@@ -1,5 +1,5 @@
-//! Panels: the content of panes as data. One renderer draws all of them, and finds from the same
-//! division of an area what is under a cell.
+//! Panels: the content of panes as data. The same renderer draws all panels. It also finds what a
+//! panel shows in a given cell, with the same division of the area.
 
 use super::layout::{has_title, inside};
 use super::text::{Part, filled, fitted, wrapped};
@@ -16,31 +16,32 @@ pub struct Panel {
     pub head: Vec<Line<'static>>,
     pub body: Body,
     pub foot: Vec<Line<'static>>,
-    /// Texts on the right of the title, the most important first.
+    /// Texts on the right of the title line, the most important first.
     pub edge: Vec<Part>,
 }
 
 pub enum Body {
     Chart(Box<PaneChart>),
-    /// A list, scrolled so that the selected row is visible.
+    /// List of rows, scrolled so that the selected row is visible.
     Rows {
         rows: Vec<Line<'static>>,
         selected: usize,
     },
-    /// A text in place of a chart, such as the reason why the chart is missing.
+    /// Text instead of a chart, such as the reason why there is no chart.
     Text(String),
 }
 
-/// Largest number of divisions of a pane between its legend and its chart that are tried.
+/// Largest number of attempts to divide a pane between its legend and its chart.
 const MOST_ROUNDS: usize = 4;
-/// Share of an axis below which a distance is one of rounding.
+/// Share of the length of an axis below which two positions count as equal.
 const HAIR: f64 = 1e-9;
-/// Width of a pane, columns, below which its title has as many readings as there is room for.
+/// Width in columns below which a pane is narrow. If its readings do not all fit beside the title,
+/// the title line of a narrow pane still shows as many as possible.
 const NARROW: u16 = 40;
-/// Smallest number of rows of a chart with both scales; only the remaining rows are for lines above
-/// and below.
+/// Smallest height in rows of a chart with both scales. Lines above and below the chart get only
+/// the rows that remain.
 const FEWEST_ROWS: u16 = 6;
-/// Columns of the title line that neither the title nor the texts on its right may use.
+/// Number of columns of the title line that neither the title nor the texts on its right may use.
 const FRAME_OF_TITLE: usize = 8;
 
 impl Panel {
@@ -70,8 +71,9 @@ impl Panel {
         }
     }
 
-    /// Adds a vertical line at a share of the horizontal axis, with the values of all named curves
-    /// there: beside the title or, if they need more than this width, below the chart.
+    /// Adds a vertical line at a position on the horizontal axis (`share` from 0 to 1), and the
+    /// values that all named curves have there. The values are written beside the title or, if they
+    /// do not fit into `width` columns, below the chart.
     pub fn read_at(&mut self, share: f64, look: Appearance, width: u16) {
         let Body::Chart(plot) = &mut self.body else {
             return;
@@ -92,7 +94,8 @@ impl Panel {
         self.show(readings, width);
     }
 
-    /// Shows readings beside the title or, if there is no room for all of them, below the chart.
+    /// Writes readings beside the title. If they do not all fit there, they are written below the
+    /// chart.
     pub fn show(&mut self, readings: Vec<Part>, width: u16) {
         let taken = self.title.chars().count() + FRAME_OF_TITLE;
         let room = usize::from(width).saturating_sub(taken);
@@ -102,7 +105,8 @@ impl Panel {
             self.edge = readings;
             return;
         }
-        // A low pane has no rows below its chart, so a narrow one has them beside its title too.
+        // A low pane has no rows below its chart. Therefore a narrow pane also writes as many
+        // readings as possible beside its title.
         self.edge = if width < NARROW {
             readings.clone()
         } else {
@@ -112,12 +116,13 @@ impl Panel {
     }
 }
 
-/// A vertical line of the crosshair.
+/// Returns the vertical line of the crosshair.
 fn upright(x: f64) -> Layer {
     Layer::unnamed(Ink::Cursor, Shape::Upright(x))
 }
 
-/// The number on the horizontal axis at a coordinate, and the values of all named curves there.
+/// Returns the number on the horizontal axis at a coordinate and the values of all named curves
+/// there, as texts.
 fn values_at(chart: &Chart, coordinate: f64) -> Vec<String> {
     let x = chart.x.scale.number(coordinate);
     let mut texts = vec![format!(
@@ -152,13 +157,13 @@ fn values_at(chart: &Chart, coordinate: f64) -> Vec<String> {
     texts
 }
 
-/// The number on the vertical axis at which a curve passes a coordinate of the horizontal axis for
-/// the first time; `None` if the curve does not reach it.
+/// Returns the number on the vertical axis at the first point where a curve passes this coordinate
+/// of the horizontal axis; `None` if the curve does not reach the coordinate.
 fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f64> {
     for pair in points.windows(2) {
         let from = chart.x.scale.coordinate(pair[0].0);
         let to = chart.x.scale.coordinate(pair[1].0);
-        // An end of the curve may be away from the coordinate by rounding.
+        // Due to rounding, the end of a curve may miss the coordinate slightly.
         let rounding = HAIR * chart.x.span.width() * (to - from).abs();
         let is_between = (from - coordinate) * (to - coordinate) <= rounding;
         if !is_between || from == to {
@@ -166,8 +171,8 @@ fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f6
         }
         let low = chart.y.scale.coordinate(pair[0].1);
         let high = chart.y.scale.coordinate(pair[1].1);
-        // Without a coordinate, as of a negative number on a logarithmic axis, nothing is between
-        // the points.
+        // If a point has no coordinate, such as a negative number on a logarithmic axis, no value
+        // between the points can be computed.
         if low == high || !low.is_finite() || !high.is_finite() {
             return Some(pair[0].1);
         }
@@ -177,13 +182,13 @@ fn height_at(chart: &Chart, points: &[(f64, f64)], coordinate: f64) -> Option<f6
     None
 }
 
-/// Entries of the legend of a chart.
+/// Returns the entries of the legend of a chart.
 pub fn entries(chart: &Chart, look: Appearance) -> Vec<Part> {
     in_theme(look, |style| legend(std::slice::from_ref(chart), style))
 }
 
-/// Label of the vertical axis of a map, and its shades with their numbers, each at most `width`
-/// columns wide.
+/// Returns the label of the vertical axis of a map, and the colour scale of the map with its
+/// numbers. The colour scale is at most `width` columns wide.
 pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     let style = look.theme.style(Meaning::Title);
     let label = Span::styled(format!("↑ {}", chart.y.label_with_unit()), style);
@@ -200,7 +205,7 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     parts
 }
 
-/// Calls `draw` with the styles of charts for this appearance.
+/// Calls `draw` with the style of charts in this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     draw(&CellStyle {
         ink: &|ink| look.theme.style(meaning(ink)),
@@ -220,7 +225,7 @@ pub fn meaning(ink: Ink) -> Meaning {
         Ink::Unloading => Retraction,
         Ink::Manual => Manual,
         Ink::Kept => Ghost,
-        // The colours not used by the present curve.
+        // These are the colours that the present curve does not use.
         Ink::Compared(number) => [Surface, Manual, Text, Ghost][number % 4],
         Ink::Cursor => Meaning::Cursor,
         Ink::Series(number) => [Retraction, Surface, Manual, Approach, Quiet, Text][number % 6],
@@ -234,8 +239,8 @@ struct Places {
 }
 
 impl Places {
-    /// Divides the area below the title into head, body and foot: in small windows first the foot
-    /// becomes shorter, then the head.
+    /// Divides the area below the title into head, body and foot. In a small window, the foot
+    /// becomes shorter first, and then the head.
     fn within(panel: &Panel, legend: usize, area: Rect) -> Places {
         let least = match &panel.body {
             Body::Chart(_) => FEWEST_ROWS,
@@ -265,7 +270,8 @@ impl Places {
     }
 }
 
-/// Draws a panel into an area, with a title if there is room; a selected panel is marked.
+/// Draws a panel into an area, with a title if there is room for it. If the panel is selected, its
+/// title is marked.
 pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buffer: &mut Buffer) {
     let Heading { legend, edge } = heading(panel, area, look);
     let Places { head, body, foot } = Places::within(panel, legend.len(), inside(area));
@@ -292,15 +298,15 @@ pub fn draw(panel: &Panel, area: Rect, is_selected: bool, look: Appearance, buff
         Body::Chart(plot) => drop(in_theme(look, |style| plot.draw(body, style, buffer))),
     }
     if has_title(area) {
-        // A blank column is between two panes.
+        // One column between two panes stays blank.
         let width = area.width - u16::from(area.right() < buffer.area.right());
         let line = title_line(&panel.title, edge, width, is_selected, look);
         draw_lines(&[line], area, buffer);
     }
 }
 
-/// Draws the scrollbar of a list whose first visible row is `first`, and of which `hidden` rows are
-/// not visible.
+/// Draws the scrollbar of a list. `first` is the first visible row, and `hidden` the number of rows
+/// that are not visible.
 fn draw_scrollbar(
     first: usize,
     hidden: usize,
@@ -320,17 +326,17 @@ fn draw_scrollbar(
     bar.render(column, buffer, &mut state);
 }
 
-/// What a panel shows above its chart.
+/// What a panel shows above its chart, in addition to its title and its head.
 struct Heading {
-    /// Entries of the legend as lines above the chart.
+    /// Lines above the chart with entries of the legend.
     legend: Vec<Line<'static>>,
-    /// Texts on the right of the title.
+    /// Texts on the right of the title line.
     edge: Vec<Part>,
 }
 
-/// Places the entries of the legend that have no room beside their curves: on the right of the
-/// title before the texts that are there, if there is room for all of them, and otherwise in lines
-/// above the chart.
+/// Places the entries of the legend for curves whose names do not fit beside them. If there is room
+/// for all these entries in the title line, they come before the texts on its right. Otherwise they
+/// are written in lines above the chart.
 fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     let mut heading = Heading {
         legend: Vec::new(),
@@ -341,8 +347,8 @@ fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     };
     let inner = inside(area);
     let mut entries: Vec<Part> = Vec::new();
-    // Lines of the legend leave less room for names beside the curves, so more names may need an
-    // entry.
+    // Lines of the legend leave less room for names beside the curves, so that further names may
+    // need an entry. Therefore the division is repeated.
     for _ in 0..MOST_ROUNDS {
         let body = Places::within(panel, heading.legend.len(), inner).body;
         let left_out = in_theme(look, |style| {
@@ -366,7 +372,7 @@ fn heading(panel: &Panel, area: Rect, look: Appearance) -> Heading {
     heading
 }
 
-/// Returns true if a title line of this width has room for all texts.
+/// Returns true if a title line of this width has room for the title and all texts.
 fn fits_into_title(title: &str, texts: &[Part], width: u16) -> bool {
     let mut taken = title.chars().count() + FRAME_OF_TITLE;
     for text in texts {
@@ -375,7 +381,8 @@ fn fits_into_title(title: &str, texts: &[Part], width: u16) -> bool {
     taken <= usize::from(width)
 }
 
-/// The title of a pane on a line across it, with texts on the right as far as there is room.
+/// Returns the title line of a pane: the title, a line, and as many of the texts `edge` as fit on
+/// the right.
 fn title_line(
     title: &str,
     edge: Vec<Part>,
@@ -404,16 +411,17 @@ fn title_line(
     line
 }
 
-/// Draws lines from the top of an area down, as far as there is room; a line that is too wide ends
-/// in `…`.
+/// Draws as many of the lines as fit into an area, from its top downwards. A line that is too wide
+/// is cut and ends in `…`.
 pub fn draw_lines(lines: &[Line<'static>], area: Rect, buffer: &mut Buffer) {
     for (y, line) in (area.y..area.bottom()).zip(lines) {
         buffer.set_line(area.x, y, &fitted(line.clone(), area.width), area.width);
     }
 }
 
-/// First visible row of a list. It depends only on the selected row, so that a click on a visible
-/// row does not scroll the list; the rows above and below the selected one are visible.
+/// Returns the first visible row of a list. It depends only on the selected row, so that a click on
+/// a visible row usually does not scroll the list. The rows above and below the selected row are
+/// visible too.
 fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     let height = usize::from(height.max(1));
     let margin = usize::from(height >= 3);
@@ -421,8 +429,8 @@ fn first_row(selected: usize, rows: usize, height: u16) -> usize {
     (selected.saturating_sub(margin) / page * page).min(rows.saturating_sub(height))
 }
 
-/// A line of the parts up to the first one that does not fit into a number of columns; two blanks
-/// apart if all fit, otherwise one.
+/// Joins parts to one line, up to the first part that does not fit into the columns. The parts are
+/// two blanks apart if all of them fit in this way, otherwise one blank.
 fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
     let widths: usize = parts.iter().flatten().map(Span::width).sum();
     let fits_wide = widths + 2 * parts.len().saturating_sub(1) <= columns;
@@ -444,13 +452,14 @@ fn spaced(mut parts: Vec<Part>, columns: usize) -> Line<'static> {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Under {
-    /// Numbers on the axes of a chart; for a cell beside the plot the numbers of the nearest cell.
+    /// Numbers on the two axes of a chart. For a cell beside the plot, these are the numbers of the
+    /// nearest cell of the plot.
     Data(f64, f64),
     Row(usize),
     Frame,
 }
 
-/// Returns what a panel drawn into an area shows in a cell.
+/// Returns what a panel shows in a cell, if the panel is drawn into this area.
 pub fn under(panel: &Panel, area: Rect, look: Appearance, cell: Position) -> Under {
     let inner = inside(area);
     let legend = heading(panel, area, look).legend;

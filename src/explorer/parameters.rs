@@ -1,4 +1,4 @@
-//! The list of parameters: the fields of the present scene that can be changed, in groups.
+//! The list of parameters: the fields of the present scene that can be changed, arranged in groups.
 
 use super::curve_options;
 use super::measured::Measured;
@@ -10,9 +10,9 @@ use asperity_scene::loading::{loading_text, stage_in_ron};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Document, RoughnessParameter, Scene};
 
-/// Groups in the order of the list. Parameters that are varied most come first: adhesion, load and
-/// roughness; form and material are usually chosen once for a scene, and a measured curve is beside
-/// the scene.
+/// Groups in the order of the list. The groups that users change most often come first: adhesion,
+/// load and roughness. Form and material are usually chosen once. The measured curve is not part of
+/// the scene, so it comes last.
 const GROUPS: [&str; 8] = [
     "adhesion",
     "loading",
@@ -24,7 +24,8 @@ const GROUPS: [&str; 8] = [
     curve_options::GROUP,
 ];
 
-/// Fields of the scene file without a row in the list; the choice of a tolerance sets the edges.
+/// Fields of the scene file that the list does not show. The edges are set together with the number
+/// of springs for a tolerance.
 const HIDDEN: [&str; 5] = [
     "version",
     "observe",
@@ -33,17 +34,18 @@ const HIDDEN: [&str; 5] = [
     "numerics.solver",
 ];
 
-/// Three ways to give the adhesion; each determines the others.
+/// Three ways to state the adhesion. Each value determines the other two.
 const ADHESION: [&str; 3] = [
     "adhesion.work",
     "adhesion.kappa",
     "adhesion.elastic_energy_ratio",
 ];
 
-/// Two ways to give the amplitude of the roughness, of which the other follows.
+/// Two ways to state the amplitude of the roughness. Each value determines the other.
 const AMPLITUDE: [&str; 2] = ["roughness.rms_height", "roughness.rms_gradient"];
 
-/// Order in a group: the first row, these fields, and the others as in the scene file.
+/// Fields that come first in their group, after the first row of the group. The other fields have
+/// the order of the scene file.
 const FIRST: [&str; 7] = [
     ADHESION[0],
     ADHESION[1],
@@ -58,13 +60,14 @@ const FIRST: [&str; 7] = [
 pub struct Parameter {
     pub field: &'static Field,
     pub path: String,
-    /// Name of the group: the path of its first row.
+    /// Name of the group, which is the path of its first row.
     pub group: &'static str,
-    /// Index of the loading stage, for a row of a stage.
+    /// Index of the loading stage; `None` if the row is not a loading stage.
     pub leg: Option<usize>,
-    /// Value as written in the scene file.
+    /// Value in the notation of the scene file.
     pub written: String,
-    /// Value for readers; empty if the value follows from others and must be computed.
+    /// Value as shown to the user. It is empty if the value follows from other values and must be
+    /// computed.
     pub shown: String,
     pub effect: Option<Effect>,
     pub setting: Setting,
@@ -73,13 +76,14 @@ pub struct Parameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     Field,
-    /// It cannot be set: a group without a value of its own.
+    /// The row cannot be changed, because it is the heading of a group.
     Heading,
-    /// κ or e_el/γ, in place of any of γ, κ and e_el/γ that the scene states.
+    /// κ or e_el/γ. A new value replaces the value of γ, κ or e_el/γ that the scene states.
     RoughnessParameter(RoughnessParameter),
-    /// γ, in place of any of γ, κ and e_el/γ that the scene states.
+    /// γ. A new value replaces the value of γ, κ or e_el/γ that the scene states.
     WorkOfAdhesion,
-    /// Option of reading the measured curve, by its index in [`curve_options::OPTIONS`].
+    /// Option for reading the measured curve. The number is its index in
+    /// [`curve_options::OPTIONS`].
     CurveOption(usize),
 }
 
@@ -98,7 +102,7 @@ impl Parameter {
         }
     }
 
-    /// Name, with the number of the loading stage if it is of one.
+    /// Returns the name of the parameter. For a loading stage, the number of the stage follows.
     pub fn name(&self) -> String {
         match self.leg {
             Some(leg) => format!("{} {}", self.field.name, leg + 1),
@@ -106,7 +110,7 @@ impl Parameter {
         }
     }
 
-    /// Returns true if the value is typed as a number.
+    /// Returns true if the user can type a number as the value.
     pub fn takes_number(&self) -> bool {
         let is_text = matches!(
             self.field.range,
@@ -114,15 +118,17 @@ impl Parameter {
         );
         match self.setting {
             Setting::Heading => false,
-            // Numbers of segments and of points are typed as texts.
+            // Numbers of segments and of points are read from a text, but the user types them as
+            // numbers.
             Setting::CurveOption(_) => !matches!(self.field.range, Range::Choice(_)),
-            // A stage in words may become one with a number.
+            // A stage without a number may be replaced by a stage with a number.
             _ => self.leg.is_some() || !is_text,
         }
     }
 
-    /// The stated quantity from which the shown value follows, and which typing a value replaces;
-    /// `None` for a stated value.
+    /// Returns the symbol or the name of the quantity in the scene from which the shown value
+    /// follows. If the user types a value, it replaces this quantity. `None` if the scene states
+    /// the value itself.
     pub fn follows_from(&self, scene: &Scene) -> Option<&'static str> {
         let is_computed = self.shown.is_empty() || self.shown.starts_with('=');
         if !is_computed {
@@ -142,13 +148,14 @@ impl Parameter {
         }
     }
 
-    /// Returns true for the first row of a group.
+    /// Returns true if this is the first row of a group.
     pub fn is_head(&self) -> bool {
         self.path == self.group
     }
 
-    /// Texts of a search: symbol, in Greek and spelled, path, name and meaning. The path has blanks
-    /// in place of its separators, since the path of the length L is a whole word of other names.
+    /// Returns the texts that are compared with a search: the symbol, the symbol with spelled Greek
+    /// letters, the path, the name and the meaning. In the path, blanks replace the separators,
+    /// because the path `length` of the length L is also a word in other paths.
     pub fn texts(&self) -> Vec<String> {
         let symbol = self.field.symbol;
         vec![
@@ -161,7 +168,7 @@ impl Parameter {
     }
 }
 
-/// Greek letters of symbols, which keyboards rarely have, with their names.
+/// Greek letters in symbols, with their names, because keyboards rarely have Greek letters.
 const GREEK: [(char, &str); 6] = [
     ('γ', "gamma"),
     ('κ', "kappa"),
@@ -179,8 +186,9 @@ fn spelled(symbol: &str) -> String {
     spelled
 }
 
-/// The group of a field, which is the first name of its path. The diameter belongs to the form, the
-/// stiffness of the instrument to the loading, and the notice to the title.
+/// Returns the group of a field, which is the first part of its path. There are exceptions: the
+/// stiffness of the instrument belongs to the loading, the notice to the title, and any other
+/// single field, such as the diameter, to the form.
 fn group_of(path: &str) -> &'static str {
     let first = match path {
         "notice" => "title",
@@ -191,8 +199,8 @@ fn group_of(path: &str) -> &'static str {
     group.unwrap_or("form")
 }
 
-/// Path of the field that a field replaces where it gets a value: modes and wavelengths, rms height
-/// and rms gradient.
+/// Returns the path of the field whose value is removed if the field `path` gets a value. Modes and
+/// wavelengths replace each other, and so do rms height and rms gradient.
 pub fn replaced_by(path: &str) -> Option<&'static str> {
     match path {
         "roughness.modes" => Some("roughness.wavelengths"),
@@ -203,7 +211,7 @@ pub fn replaced_by(path: &str) -> Option<&'static str> {
     }
 }
 
-/// The rows for a scene and the measured curve beside it.
+/// Returns the rows for a scene and for the measured curve beside it.
 pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for field in document.fields() {
@@ -227,7 +235,8 @@ pub fn parameters(document: &Document, measured: Option<&Measured>) -> Vec<Param
     parameters
 }
 
-/// The row of a field of the scene; `None` for a field that the list does not show in this scene.
+/// Returns the row of a field of the scene; `None` if the list does not show the field in this
+/// scene.
 fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter> {
     let row = Parameter::new(field, field.path);
     if field.range == Range::Group {
@@ -238,7 +247,8 @@ fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter>
         });
     }
     let written = document.value(field.path)?;
-    // The stiffness of a rigid instrument has a row only where a stage prescribes its displacement.
+    // If the instrument is rigid, its stiffness has a row only if a stage prescribes the
+    // displacement of the instrument.
     let is_rigid = field.path == "loading_stiffness" && written == "None";
     if is_rigid && !has_displacement_stage(document.scene()) {
         return None;
@@ -256,10 +266,10 @@ fn row_of_field(document: &Document, field: &'static Field) -> Option<Parameter>
         });
     }
     if AMPLITUDE.contains(&field.path) {
-        // Its value is computed with the scene.
+        // The value is computed together with the scene.
         return Some(row);
     }
-    // Any other field without a value is shown only if its value follows from the scene.
+    // Any other field without a value is shown only if its value follows from other fields.
     let written = waves(document, field)?;
     let shown = match field.path {
         "roughness.roll_off" => "none".to_owned(),
@@ -277,7 +287,8 @@ fn has_displacement_stage(scene: &Scene) -> bool {
     stages.any(|stage| matches!(stage, Move::ToDisplacement(_)))
 }
 
-/// The effect that a field belongs to; observation is no effect of the contact.
+/// Returns the effect to which a field belongs; `None` if there is none. The group `observe` is not
+/// an effect of the contact.
 fn effect_of(path: &str) -> Option<Effect> {
     let mut effects = Effect::ALL.into_iter();
     effects.find(|effect| {
@@ -294,7 +305,7 @@ fn setting_of(path: &str) -> Setting {
     }
 }
 
-/// Adds rows for the two of γ, κ and e_el/γ that follow from the stated one.
+/// The scene states one of γ, κ and e_el/γ. Adds rows for the other two, which follow from it.
 fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     let mut others = ADHESION.to_vec();
     others.retain(|path| !parameters.iter().any(|listed| listed.path == *path));
@@ -308,8 +319,9 @@ fn add_other_adhesion(parameters: &mut Vec<Parameter>) {
     }
 }
 
-/// Value of a field that follows from others: the other way to give the waves of a self-affine
-/// profile, and as a roll-off without effect the longest wave.
+/// Returns the value of a field of a self-affine spectrum that follows from other fields: the modes
+/// or the wavelengths, whichever the scene does not state. For the roll-off, it returns the longest
+/// wavelength, with which the roll-off has no effect.
 fn waves(document: &Document, field: &Field) -> Option<String> {
     let scene = document.scene();
     let spectrum = scene.spectrum()?;
@@ -323,7 +335,8 @@ fn waves(document: &Document, field: &Field) -> Option<String> {
     }
 }
 
-/// A row with the name of the measured curve, and one for each option of reading it.
+/// Returns the rows of the measured curve: one with its name, and one for each option for reading
+/// it.
 fn curve_rows(measured: &Measured) -> Vec<Parameter> {
     let head = &curve_options::HEAD;
     let mut rows = vec![Parameter {
@@ -341,7 +354,7 @@ fn curve_rows(measured: &Measured) -> Vec<Parameter> {
     rows
 }
 
-/// A row for each loading stage.
+/// Returns one row for each loading stage.
 fn stage_rows(loading: &[Move]) -> Vec<Parameter> {
     let mut rows = Vec::new();
     for (index, stage) in loading.iter().enumerate() {
@@ -350,7 +363,8 @@ fn stage_rows(loading: &[Move]) -> Vec<Parameter> {
     rows
 }
 
-/// The row of a loading stage; a stage with a number has the path of its number.
+/// Returns the row of a loading stage. If the stage has a number, the path of the row is the path
+/// of this number.
 fn stage_row(index: usize, stage: Move) -> Parameter {
     let Some((field, value)) = target_field(stage) else {
         return Parameter {
@@ -370,7 +384,7 @@ fn stage_row(index: usize, stage: Move) -> Parameter {
     }
 }
 
-/// A written value in the format for readers.
+/// Converts a value from the notation of the scene file to the form that is shown to the user.
 fn shown(field: &Field, written: &str) -> String {
     if let Some(quantities) = field.quantities(written, format_quantity) {
         return quantities;
@@ -390,7 +404,8 @@ fn shown(field: &Field, written: &str) -> String {
     }
 }
 
-/// The name of a choice in words; its parts have rows of their own.
+/// Returns the name of a choice in words. The fields of the choice are left out, because they have
+/// rows of their own.
 fn shown_choice(field: &Field, written: &str) -> String {
     let name = written.split('(').next().unwrap_or(written).trim();
     if name.is_empty() && matches!(field.path, "material" | "adhesion") {
@@ -400,7 +415,8 @@ fn shown_choice(field: &Field, written: &str) -> String {
     }
 }
 
-/// The text of a string as written in RON, on one line; any other value as it is written.
+/// Returns the text of a string in the notation of RON, on one line. Any other value is returned as
+/// it is written.
 pub(super) fn text_of(written: &str) -> String {
     match ron::from_str::<String>(written) {
         Ok(text) => on_one_line(&text),
@@ -408,7 +424,8 @@ pub(super) fn text_of(written: &str) -> String {
     }
 }
 
-/// The first name in a group, in words: `work` of `(work: 0.05)`.
+/// Returns the first name in a group, in words. For example, it returns the words for `work` in
+/// `(work: 0.05)`.
 fn first_name(written: &str) -> &str {
     let group = written.trim_start_matches('(');
     let name = group.split(':').next().unwrap_or("").trim();

@@ -2,17 +2,18 @@
 
 use asperity_contact::{Branch, LegRecord};
 
-/// Height, as a share of the range of indentations, at which the body begins above first touch.
+/// Distance above first touch at which the animation begins, divided by the range of indentations.
 const LIFT: f64 = 0.12;
 
-/// Position of the animation in a loading stage.
+/// Position of the animation within a loading stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum At {
     Start,
     Indentation(f64),
-    /// The pull-off of the loading, at which the animation rests; without one the end of the stage.
+    /// The pull-off of the loading, where the animation rests. If there is no pull-off, it is the
+    /// end of the stage.
     PullOff,
-    /// After the stage; after a stage to separation nothing is in contact.
+    /// The end of the stage. After a stage to separation, nothing is in contact.
     End,
 }
 
@@ -30,8 +31,8 @@ impl Player {
         playing: true,
     };
 
-    /// The state in which the animation of these loading stages rests: at the pull-off, or without
-    /// one at the end.
+    /// Returns the state in which the animation of these loading stages rests: at the pull-off or,
+    /// if there is none, at the end.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
         let (leg, at) = match pull_off(legs) {
             Some((leg, _)) => (leg, At::PullOff),
@@ -44,9 +45,9 @@ impl Player {
         }
     }
 
-    /// This state for loading stages that may have changed: at the end of the last stage if its own
-    /// does not exist any more, and otherwise between the ends of its stage. A state of rest stays
-    /// one.
+    /// Adapts this state to loading stages that may have changed. If its stage no longer exists,
+    /// the state moves to the end of the last stage. Otherwise it stays between the ends of its
+    /// stage. A state of rest at the pull-off moves to the new pull-off.
     pub fn within(self, legs: &[LegRecord]) -> Player {
         let Some(last) = legs.len().checked_sub(1) else {
             return self;
@@ -67,7 +68,7 @@ impl Player {
         }
     }
 
-    /// The indentation that the animation shows, m.
+    /// Returns the indentation in m that the animation shows.
     pub fn indentation(&self, legs: &[LegRecord]) -> f64 {
         match self.at {
             At::Start => start_of(legs, self.leg),
@@ -77,7 +78,7 @@ impl Player {
         }
     }
 
-    /// Played share of the stage, from 0 to 1.
+    /// Returns the share of the stage that has been played, from 0 to 1.
     pub fn share(&self, legs: &[LegRecord]) -> f64 {
         let Some(end) = legs.get(self.leg).map(LegRecord::end) else {
             return 0.0;
@@ -91,7 +92,8 @@ impl Player {
         }
     }
 
-    /// The position further on by a share of the stage, limited to its ends.
+    /// Returns the position that is further on by `share` of the stage, but not beyond the ends of
+    /// the stage.
     pub fn advanced(&self, legs: &[LegRecord], share: f64) -> At {
         let reached = self.share(legs) + share;
         let start = start_of(legs, self.leg);
@@ -108,14 +110,15 @@ impl Player {
     }
 }
 
-/// Loading stage and indentation (m) of the pull-off; `None` without a tensile force in the last
-/// unloading.
+/// Returns the loading stage and the indentation in m of the pull-off; `None` if the force in the
+/// last unloading is never tensile.
 fn pull_off(legs: &[LegRecord]) -> Option<(usize, f64)> {
     let (leg, point) = Branch::pull_off(legs).filter(|(_, point)| point.force < 0.0)?;
     Some((leg, point.indentation))
 }
 
-/// Lowest and highest indentation of the curves of loading stages, m; `None` without points.
+/// Returns the lowest and the highest indentation (m) on the curves of loading stages; `None` if
+/// there are no points.
 pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     let mut range: Option<(f64, f64)> = None;
     for point in legs.iter().flat_map(|leg| &leg.curve) {
@@ -128,8 +131,8 @@ pub fn indentations(legs: &[LegRecord]) -> Option<(f64, f64)> {
     range
 }
 
-/// Indentation at which the animation begins a loading stage, m; the first stage begins a little
-/// above first touch.
+/// Returns the indentation in m at which the animation begins a loading stage. The first stage
+/// begins a little above first touch.
 pub fn start_of(legs: &[LegRecord], leg: usize) -> f64 {
     let (low, high) = indentations(legs).unwrap_or((0.0, 0.0));
     let lift = if leg == 0 { LIFT * (high - low) } else { 0.0 };

@@ -1,4 +1,5 @@
-//! Prompts: a line being typed for a purpose, with a list of matches; questions; and the help.
+//! Prompts: a line that is typed for a purpose, possibly with a list of matches; questions; and the
+//! help.
 
 use super::action::OutputFile;
 use super::keys::bindings::{Binding, Context, Row};
@@ -10,18 +11,19 @@ use asperity_scene::library::{Entry, Source};
 use asperity_scene::{Document, Preset};
 use std::path::is_separator;
 
-/// A prompt: it receives the keys until it is closed.
+/// A prompt, which receives all keys until it is closed.
 #[derive(Clone, Debug)]
 pub struct Prompt {
     pub purpose: Purpose,
     pub line: TextLine,
-    /// Indices of the rows of the list that match the line, the best first.
+    /// Indices of the list entries that match the line, the best first.
     pub found: Vec<usize>,
-    /// Index of the selected row in `found`.
+    /// Index in `found` of the selected entry.
     pub selected: usize,
-    /// Words of the list in place of typed words that the list does not have.
+    /// Corrected search: words of the list that are similar to the typed words. `None` if the list
+    /// contains the typed words.
     pub corrected: Option<String>,
-    /// Paths that begin as the typed one, if there are several.
+    /// Paths that begin with the typed path, if there are several.
     pub paths: Vec<String>,
     pub refused: Option<String>,
 }
@@ -30,22 +32,22 @@ pub struct Prompt {
 pub enum Purpose {
     Value,
     Force,
-    /// A quantity with its value, for the inverse question on the selected row.
+    /// Target of the inverse question: a quantity and its value.
     Target,
-    /// A relative error, for the choice of the number of springs.
+    /// Relative error for which the number of springs is chosen.
     Tolerance,
-    /// Names of parameters, for a fit to the measured curve.
+    /// Names of the parameters to be fitted to the measured curve.
     Fit,
     Save {
         then_quit: bool,
     },
     Export,
-    /// The search of a scene, or the path of a scene or a study.
+    /// Search for a scene, or the path of a scene or a study.
     Scene(Vec<Entry>),
     Parameter {
         before: Pane,
     },
-    /// The help or the list of commands; its entries are searched if `is_typed`.
+    /// The help or the list of commands. The user searches its entries if `is_typed` is true.
     Topics {
         name: &'static str,
         topics: Vec<Topic>,
@@ -55,30 +57,30 @@ pub enum Purpose {
     Leave,
 }
 
-/// An entry of the help or of the list of commands, parameters and scenes.
+/// Entry of the help, or of the list of commands, parameters and scenes.
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
-    /// Names of keys, or the name of a pane, a parameter or a scene.
+    /// Names of keys, or name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
-    /// Everyday words that also find the entry.
+    /// Everyday words with which a search also finds the entry.
     pub words: String,
     pub aim: Aim,
 }
 
-/// What is done with an entry that is accepted.
+/// What happens if the user accepts an entry.
 #[derive(Clone, Debug)]
 pub enum Aim {
     Nothing,
     Command(&'static Row),
-    /// Selects the parameter in this row of the list.
+    /// The parameter in this row of the list is selected.
     Parameter(usize),
     Open(String),
 }
 
 impl Topic {
-    /// An entry of the help that is only read.
+    /// Creates an entry of the help that can only be read.
     pub fn read_only(name: &str, text: &str) -> Self {
         Topic {
             section: "What you see",
@@ -100,7 +102,7 @@ impl Topic {
         }
     }
 
-    /// The entry of the parameter in a row of the list.
+    /// Creates the entry for the parameter in this row of the list.
     pub fn of_parameter(row: usize, parameter: &Parameter) -> Self {
         Topic {
             section: "Parameters of this scene",
@@ -125,7 +127,8 @@ impl Topic {
         }
     }
 
-    /// Texts that a search compares: each key, name, other words, description, section.
+    /// Returns the texts that are compared with a search: each key, the name, the everyday words,
+    /// the description and the section.
     fn texts(&self) -> Vec<String> {
         let mut texts: Vec<String> = self.name.split(' ').map(str::to_owned).collect();
         texts.push(self.name.clone());
@@ -137,8 +140,8 @@ impl Topic {
 }
 
 impl Prompt {
-    /// Creates a prompt with this text; `parameters` are the parameters of the scene. The first
-    /// typed character replaces a value or the name of a file.
+    /// Creates a prompt with this text in its line. `parameters` are the parameters of the scene.
+    /// If the text is a value or the name of a file, the first typed character replaces it.
     pub fn new(purpose: Purpose, text: &str, parameters: &[Parameter]) -> Self {
         let is_replaced = matches!(
             purpose,
@@ -162,7 +165,8 @@ impl Prompt {
         prompt
     }
 
-    /// Returns the context of the keys: help, a list, a line or a question.
+    /// Returns the context that determines the meaning of the keys: the help, a list, a line or a
+    /// question.
     pub fn context(&self) -> Context {
         match self.purpose {
             Purpose::Topics {
@@ -175,12 +179,12 @@ impl Prompt {
         }
     }
 
-    /// Finds the rows of the list that match the line, and selects the best one.
+    /// Finds the list entries that match the line, and selects the best one.
     pub fn search(&mut self, parameters: &[Parameter]) {
         let query = self.line.text();
         self.selected = 0;
         self.found = match &self.purpose {
-            // A text with a separator is a path, not a name to search for.
+            // A text with a separator is a path, so it is not compared with the names of scenes.
             Purpose::Scene(_) if query.contains(is_separator) => Vec::new(),
             Purpose::Scene(entries) => {
                 let entries = entries.iter().enumerate();
@@ -219,8 +223,9 @@ impl Prompt {
     }
 }
 
-/// Texts that a search compares: number of a built-in scene (these come first), name, title and
-/// notice.
+/// Returns the texts of a scene that are compared with a search: the number of a built-in scene,
+/// the name, the title and the notice. Built-in scenes come first in the list, so their numbers are
+/// their places in it.
 fn scene_texts(index: usize, entry: &Entry) -> Vec<String> {
     let number = if entry.origin == Source::BuiltIn {
         (index + 1).to_string()

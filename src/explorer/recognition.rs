@@ -1,5 +1,5 @@
-//! Recognition of measured files that are given in another place than theirs, by what the readers
-//! find in them.
+//! Recognition of measured files that the user has given in the wrong place. Whether a file is a
+//! force curve or a surface depends on what the readers find in it.
 
 use asperity_data::{Remedied, Wording, path_name, printable};
 use asperity_experiment::{ExperimentError, MeasuredCurve};
@@ -8,7 +8,7 @@ use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, SurfaceError, read};
 use std::path::Path;
 
-/// What a measured file holds.
+/// Content of a measured file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasuredFile {
     Curve,
@@ -16,7 +16,8 @@ pub enum MeasuredFile {
 }
 
 impl MeasuredFile {
-    /// Reads a file as a force curve and as a surface; `None` if it is neither.
+    /// Recognises a file that can be read as a force curve or as a surface; `None` if it is
+    /// neither.
     pub fn of(path: &Path) -> Option<MeasuredFile> {
         if !path.is_file() {
             None
@@ -29,9 +30,9 @@ impl MeasuredFile {
         }
     }
 
-    /// What the file is, and the commands that use it.
+    /// Returns a sentence that says what the file is, and which commands use it.
     fn way(self, path: &Path) -> String {
-        // Control characters of a name would act on the terminal.
+        // A terminal would obey control characters in the name.
         let file = printable(&quoted(path)).into_owned();
         match self {
             MeasuredFile::Curve => format!(
@@ -46,8 +47,8 @@ impl MeasuredFile {
     }
 }
 
-/// Returns true if a file is read as a surface. Units and spacing may be missing in a file that no
-/// text editor would show, since this file cannot be anything else.
+/// Returns true if a file can be read as a surface. In a binary file, units and spacing may be
+/// missing, because such a file can hardly be anything else.
 fn is_surface(path: &Path) -> bool {
     if read(path, &ReadOptions::default()).is_ok() {
         return true;
@@ -65,13 +66,15 @@ fn is_surface(path: &Path) -> bool {
     read(path, &assumed).is_ok()
 }
 
-/// What a measured file is that was given as a scene, in one line; `None` if it is no such file.
+/// Returns a line that says what a file is that was given as a scene; `None` if it is not a
+/// measured file.
 pub fn no_scene(path: &Path) -> Option<String> {
     let file = MeasuredFile::of(path)?;
     Some(format!("{}: {}", path_name(path), file.way(path)))
 }
 
-/// The reason why a file is not read as a force curve, with the way to read it if it is a surface.
+/// Returns the reason why a file cannot be read as a force curve. If it is a surface, the reason
+/// says how to use it.
 pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match (why, MeasuredFile::of(path)) {
@@ -82,7 +85,8 @@ pub fn no_curve(path: &Path, why: &ExperimentError, wording: Wording) -> String 
     }
 }
 
-/// The reason why a file is not read as a surface, with the way to read it if it is a force curve.
+/// Returns the reason why a file cannot be read as a surface. If it is a force curve, the reason
+/// says how to use it.
 pub fn no_surface(path: &Path, why: &SurfaceError, wording: Wording) -> String {
     let reason = why.in_words(wording);
     match MeasuredFile::of(path) {

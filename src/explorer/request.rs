@@ -4,20 +4,20 @@ use super::player::At;
 use asperity_scene::CheckedScene;
 use std::sync::Arc;
 
-/// Request for a state of a scene after manual moves, reduced to a snapshot. The scene is solved
-/// first, unless it is the last one.
+/// Request for a snapshot of the contact in a scene, after manual moves. If the scene has not been
+/// solved yet, the solver solves it first.
 #[derive(Clone, Debug)]
 pub struct Request {
     pub generation: u64,
     pub scene: Arc<CheckedScene>,
-    /// Manual moves since the last request.
+    /// Manual moves since the previous request.
     pub moves: Vec<ManualMove>,
     pub snapshot: SnapshotRequest,
 }
 
 impl Request {
-    /// Merges this request with an earlier one that was not answered: manual moves of the same
-    /// scene are kept.
+    /// Combines this request with an earlier request that has not been answered. If both are for
+    /// the same scene, the manual moves of the earlier request come first.
     pub fn after(mut self, mut earlier: Request) -> Request {
         if earlier.generation == self.generation {
             earlier.moves.append(&mut self.moves);
@@ -29,41 +29,41 @@ impl Request {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ManualMove {
-    /// Begins manual loading at a position of a loading stage.
+    /// Begins manual loading at this position of a loading stage.
     Take {
         leg: usize,
         at: At,
     },
     To(f64),
-    /// Moves the body by a distance, m; positive presses.
+    /// Moves the body by this distance in m. A positive distance presses.
     By(f64),
     ToForce(f64),
     Separate,
 }
 
-/// Request for a snapshot of the contact, in the resolution of the panes.
+/// Request for a snapshot of the contact, with as many columns as the panes can show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SnapshotRequest {
     pub drive: Drive,
-    /// Position of the animation in the stage; not used under manual loading.
+    /// Position of the animation in the stage. Manual loading does not use it.
     pub at: At,
-    /// Width of the profile pane, columns of dots.
+    /// Width of the profile pane in columns of dots.
     pub profile_columns: usize,
     pub profile: LineView,
-    /// Width of the close-up pane, columns of dots.
+    /// Width of the close-up in columns of dots.
     pub close_up_columns: usize,
     pub focus: Focus,
-    /// Number of springs in the close-up; `None`: as many as show the whole patch.
+    /// Number of springs in the close-up; `None` to show the whole patch.
     pub close_up_springs: Option<usize>,
-    /// Position of the crosshair as a share of the profile, 0 to 1.
+    /// Position of the crosshair along the profile, from 0 to 1; `None` if there is no crosshair.
     pub crosshair: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineView {
-    /// Middle of the shown part, as a share of the line.
+    /// Middle of the visible part, from 0 at the left end of the profile to 1 at the right end.
     pub centre: f64,
-    /// Shown part, as a share of the line, above 0 and at most 1.
+    /// Length of the visible part divided by the length of the profile; above 0, at most 1.
     pub share: f64,
 }
 
@@ -77,12 +77,12 @@ impl LineView {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseUpTarget {
     pub focus: Focus,
-    /// Number of springs; `None`: as many as show the whole patch.
+    /// Number of springs; `None` to show the whole patch.
     pub springs: Option<usize>,
 }
 
 impl CloseUpTarget {
-    /// The patch at first touch as a whole.
+    /// The whole patch at the point of first touch.
     pub const WHOLE: CloseUpTarget = CloseUpTarget {
         focus: Focus::Summit,
         springs: None,
@@ -93,14 +93,14 @@ impl CloseUpTarget {
 pub enum Focus {
     Summit,
     Spring(usize),
-    /// The patch that follows the patch nearest to this spring.
+    /// The patch after the patch that is nearest to this spring.
     After(Option<usize>),
-    /// The patch that precedes the patch nearest to this spring.
+    /// The patch before the patch that is nearest to this spring.
     Before(Option<usize>),
 }
 
 impl Focus {
-    /// Returns true for a question that the solver answers by a spring.
+    /// Returns true if the focus is a question, which the solver answers with a spring.
     pub fn is_question(self) -> bool {
         !matches!(self, Focus::Summit | Focus::Spring(_))
     }
@@ -108,7 +108,7 @@ impl Focus {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
-    /// A loading stage of the scene, by its index.
+    /// Loading stage of the scene, given by its index.
     Leg(usize),
     Manual,
 }

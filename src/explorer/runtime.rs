@@ -1,5 +1,6 @@
-//! The interpreter of tasks, the same for a session, for demos and for tests. Solver and studies
-//! run on threads of their own, or at once: the same actions then give the same screens.
+//! Performs the tasks of the explorer. Sessions, demos and tests use the same code. In a session,
+//! solver and studies run on threads of their own. In demos and tests they answer at once, so that
+//! the same actions always give the same screens.
 
 use super::action::{Action, Task};
 use super::app::App;
@@ -19,11 +20,12 @@ use asperity_scene::library::{Entry, own_folder, scenes};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Solver and studies; they answer at once, or later by actions.
+/// Solver and studies. They answer either at once, or later by sending actions.
 pub struct Engine {
-    /// Asks the solver.
+    /// Sends a request to the solver. Returns the answers that are known at once.
     solve: Box<dyn FnMut(Request) -> Vec<Action>>,
-    /// Performs these studies in place of all others.
+    /// Performs these studies instead of all earlier ones. Returns the results that are known at
+    /// once.
     perform: Box<dyn FnMut(Vec<Study>) -> Vec<Action>>,
     /// True while the solver has not answered the last request.
     is_waiting: bool,
@@ -44,8 +46,8 @@ impl Engine {
         }
     }
 
-    /// Creates an engine that answers at once and performs the studies for which `performs` returns
-    /// true.
+    /// Creates an engine that answers at once. It performs only the studies for which `performs`
+    /// returns true.
     pub fn inline(solve: Solve, performs: fn(&Study) -> bool) -> Self {
         let mut solver = Solver::new(solve, Default::default());
         Engine {
@@ -56,14 +58,14 @@ impl Engine {
     }
 }
 
-/// The replies of a solver to a request.
+/// Returns all replies of a solver to a request.
 fn replies(solver: &mut Solver, request: Request) -> Vec<Action> {
     let mut actions = Vec::new();
     solver.answer(request, &mut |reply| actions.push(Action::Reply(reply)));
     actions
 }
 
-/// The findings of those studies for which `performs` returns true.
+/// Performs the studies for which `performs` returns true, and returns their results.
 fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
     let mut actions = Vec::new();
     for study in studies {
@@ -75,19 +77,19 @@ fn findings(studies: Vec<Study>, performs: fn(&Study) -> bool) -> Vec<Action> {
     actions
 }
 
-/// The explorer with all that its tasks need, except the terminal.
+/// The explorer, with everything that its tasks need except the terminal.
 pub struct Runtime {
     pub app: App,
     pub engine: Engine,
-    /// Generation of the scene that was requested last.
+    /// Generation of the scene in the last request.
     pub asked: u64,
-    /// Folder to which paths are relative; empty for the working folder.
+    /// Folder to which paths are relative. It is empty if they are relative to the working folder.
     pub folder: PathBuf,
 }
 
 impl Runtime {
-    /// Applies an action and performs the tasks that follow; returns the tasks that need the
-    /// terminal.
+    /// Applies an action, and performs the tasks that follow from it. Returns the tasks that need
+    /// the terminal.
     pub fn act(&mut self, action: Action) -> Vec<Task> {
         if let Action::Reply(reply) = &action
             && reply.is_answer()
@@ -103,8 +105,9 @@ impl Runtime {
         self.engine.is_waiting
     }
 
-    /// Runs a command by its name, if its keys are valid here or, while exploring, in another pane;
-    /// returns the tasks that need the terminal.
+    /// Runs the command with this name, if its keys are valid in the present context. Without a
+    /// prompt, commands that are valid in other panes run too. Returns the tasks that need the
+    /// terminal.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let mut command = bindings.named(name, self.app.keys());
@@ -117,7 +120,7 @@ impl Runtime {
         }
     }
 
-    /// Performs tasks, and the tasks of the actions that follow; returns the tasks that need the
+    /// Performs tasks, and all further tasks that follow from them. Returns the tasks that need the
     /// terminal.
     pub fn perform(&mut self, tasks: Vec<Task>) -> Vec<Task> {
         let mut waiting = VecDeque::from(tasks);
@@ -134,7 +137,7 @@ impl Runtime {
         of_terminal
     }
 
-    /// Performs one task; returns the actions that follow at once.
+    /// Performs a task. Returns the actions that follow at once.
     pub fn answer(&mut self, task: Task) -> Vec<Action> {
         let action = match task {
             Task::Ask => return self.ask(),
@@ -158,8 +161,8 @@ impl Runtime {
         vec![action]
     }
 
-    /// Asks the solver for the state that the screen waits for. Studies of a former scene are
-    /// stopped, since they are of no use and take time from this one.
+    /// Requests from the solver the state that the screen waits for. If the scene has changed, the
+    /// studies of the previous scene are stopped, because they would only slow down the solver.
     fn ask(&mut self) -> Vec<Action> {
         let request = request(&mut self.app);
         if request.generation != self.asked {
@@ -173,7 +176,8 @@ impl Runtime {
         replies
     }
 
-    /// The scenes that can be opened; in a folder of tests and demos without those of the user.
+    /// Returns the scenes that can be opened. In tests and demos with a folder of their own, the
+    /// scenes of the user are not included.
     fn scenes(&self) -> Vec<Entry> {
         if self.folder.as_os_str().is_empty() {
             scenes(own_folder().as_deref(), Path::new("."))

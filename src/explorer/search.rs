@@ -1,17 +1,18 @@
-//! Search of lists by words, for parameters, commands and scenes.
+//! Search for words in lists of parameters, commands and scenes.
 
 use super::text::on_one_line;
 use asperity_scene::text::nearest;
 
-/// Limit of the length of a query, bytes: longer than all names. Each word is searched in all of
-/// them.
+/// Largest length of a query in bytes. Each of its words is searched in all texts, so a longer
+/// query would take long; no name is as long.
 const LONGEST_QUERY: usize = 256;
-/// Number of ranks that a word can have in one text.
+/// Number of ranks that a word can have in a text.
 const RANKS: usize = 4;
 
-/// Returns the indices of the candidates that contain every word of a query, the best first;
-/// equally good candidates keep their order. The texts of a candidate are in the order of their
-/// importance. An empty query finds everything, one longer than 256 bytes nothing.
+/// Returns the indices of the candidates that contain every word of a query, the best first.
+/// Equally good candidates keep their order. The texts of each candidate must be in the order of
+/// their importance. An empty query finds all candidates, and a query longer than 256 bytes finds
+/// none.
 pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Vec<usize> {
     if query.len() > LONGEST_QUERY {
         return Vec::new();
@@ -28,8 +29,8 @@ pub fn find(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> V
     found.into_iter().map(|(_, index)| index).collect()
 }
 
-/// How late and how badly texts have a word; `None` if no text has it. A worse rank in an earlier
-/// text is better than any rank in a later one.
+/// Returns a number that says how well texts match a word; the smallest is best. `None` if no text
+/// contains the word. Any match in an earlier text is better than any match in a later text.
 fn cost(texts: &[String], word: &str) -> Option<usize> {
     for (number, text) in texts.iter().enumerate() {
         if let Some(word_rank) = rank(text, word) {
@@ -39,8 +40,9 @@ fn cost(texts: &[String], word: &str) -> Option<usize> {
     None
 }
 
-/// A query with the nearest word of the candidates in place of each word that none of them has;
-/// `None` for a query without such a word, or if no word is near.
+/// Returns the query with corrected words: each word that occurs in no candidate is replaced by the
+/// most similar word of the candidates. `None` if every word occurs, or if there is no similar
+/// word.
 pub fn corrected(candidates: impl IntoIterator<Item = Vec<String>>, query: &str) -> Option<String> {
     if query.len() > LONGEST_QUERY {
         return None;
@@ -68,8 +70,9 @@ fn words_of(texts: &[String]) -> impl Iterator<Item = &str> {
         .flat_map(|text| text.split(|c: char| !c.is_alphanumeric()))
 }
 
-/// Rank of a word in a text: it is the whole text, its start, the start of a word, or inside. Upper
-/// and lower case differ only for whole texts: `h` and `H`.
+/// Returns how well a text matches a word: the word is the whole text (best), the beginning of the
+/// text, the beginning of a word in the text, or inside a word. Upper and lower case matter only if
+/// the word is the whole text, as in `h` and `H`.
 fn rank(text: &str, word: &str) -> Option<usize> {
     if text == word {
         return Some(0);

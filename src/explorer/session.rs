@@ -30,38 +30,38 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel, sync_channel};
 use std::time::{Duration, Instant};
 
-/// Limit of the frame rate over SSH, 1/s, where each frame has to be transmitted.
+/// Largest frame rate over SSH in 1/s. It is low because each frame has to be transmitted.
 const REMOTE_FRAMES: u32 = 12;
 
-/// Longest time for which a frame over SSH waits for the answer of the solver.
+/// Longest time for which a frame over SSH waits for an answer of the solver.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
 
-/// Time without input after which unsaved changes are kept. Writing them waits for the disk, which
-/// takes longer than a frame where home folders are on another machine.
+/// Time without input after which unsaved changes are written to a file. The explorer waits for the
+/// disk then. If home folders are on another computer, this takes longer than a frame.
 const KEEPING_PAUSE: Duration = Duration::from_secs(1);
 
-/// Number of input events that may wait for the loop; the terminal keeps further ones.
+/// Largest number of input events that wait for the loop. Further input waits in the terminal.
 const MOST_WAITING: usize = 64;
 
-/// Longest time in which actions are applied before a frame is drawn.
+/// Longest time for which actions are applied without drawing a frame.
 const DRAINING: Duration = Duration::from_millis(100);
 
 pub struct Options {
-    /// Colours; `None` to choose them by the environment.
+    /// Colours; `None` if the environment determines them.
     pub theme: Option<Theme>,
-    /// Marker of plots; `None` to choose it by the environment.
+    /// Characters with which plots are drawn; `None` if the environment determines them.
     pub marker: Option<Marker>,
-    /// Unsaved changes of another session; the opened scene is the first of them.
+    /// Unsaved changes of another session, to be continued. The opened scene is the first of them.
     pub restored: Option<Kept>,
-    /// Configuration; the options here have precedence over it.
+    /// Configuration. The options above have precedence over the configuration.
     pub config: Config,
     pub warning: Option<String>,
-    /// Folder in which unsaved changes are kept; `None` to keep none.
+    /// Folder for copies of unsaved changes; `None` to make no copies.
     pub unsaved: Option<PathBuf>,
 }
 
 impl Options {
-    /// Options of a session with this configuration.
+    /// Returns the options of a session that follows this configuration.
     pub fn new(config: Config) -> Self {
         Options {
             theme: None,
@@ -77,24 +77,24 @@ impl Options {
 pub struct SessionEnd {
     pub document: Document,
     pub computed: Option<Arc<SolvedScene>>,
-    /// Number of the signal that ended the explorer; `None` if the user left it.
+    /// Number of the signal that ended the explorer; `None` if the user ended it.
     pub signal: Option<i32>,
 }
 
 /// Function that draws the state of the explorer; see [`super::view::draw`].
 pub type Draw = fn(&mut Frame<'_>, &App);
 
-/// What a thread sends to the loop of the session.
+/// What a thread can send to the loop of the session.
 enum Incoming {
-    /// Input of the user; `None` when it ends.
+    /// Input of the user; `None` if the input has ended.
     Input(Option<Event>),
     Signal(SystemSignal),
-    /// Result of solver or studies.
+    /// Action with a result of the solver or of a study.
     Act(Box<Action>),
 }
 
-/// Opens the explorer on a scene or a finished study, with functions that solve and draw, and
-/// returns its final state.
+/// Runs the explorer, beginning with a scene or a finished study, and returns its final state.
+/// `solve` computes scenes, and `draw` draws the screen.
 pub fn open(
     opening: impl Into<Opening>,
     options: Options,
@@ -103,12 +103,12 @@ pub fn open(
 ) -> io::Result<SessionEnd> {
     let size = terminal::window()?;
     let guard = TerminalGuard::take(options.config.mouse)?;
-    // This sender lives as long as the session, so that the inbox is never closed.
+    // `sender` exists as long as the session, so that `inbox` is never closed.
     let (sender, inbox) = channel();
     let engine = start_engine(solve, &sender)?;
     let waiting = start_input(&sender)?;
-    // The guard restores everything; ratatui's own drop would complain on standard error, and panic
-    // where that is gone together with the terminal.
+    // `guard` restores the whole terminal. The destructor of ratatui is not run: if the terminal is
+    // gone, the destructor would write to standard error, and panic if standard error is gone too.
     let writer = FrameWriter::new(io::stdout());
     let mut terminal = ManuallyDrop::new(Terminal::new(CrosstermBackend::new(writer))?);
     let appearance = chosen_appearance(&options);
@@ -157,7 +157,7 @@ pub fn open(
         touched: now,
     };
     let end = catch_unwind(AssertUnwindSafe(|| session.run()));
-    // After a panic too: another session can open them.
+    // Unsaved changes are kept even after a panic, so that another session can open them.
     session.keep_unsaved();
     match end {
         Ok(end) => Ok(session.end(end?)),
@@ -165,8 +165,8 @@ pub fn open(
     }
 }
 
-/// Takes over the unsaved changes of another session, or else returns the message that offers the
-/// newest ones.
+/// Continues the unsaved changes of another session. If there are none to be continued, it returns
+/// a message that offers the newest unsaved changes.
 fn restore_or_offer(
     app: &mut App,
     restored: Option<&Kept>,
@@ -179,7 +179,7 @@ fn restore_or_offer(
     autosave::offer(unsaved?)
 }
 
-/// Starts the threads of solver and studies, which send their results.
+/// Starts the threads of the solver and of the studies, which send their results to the loop.
 fn start_engine(solve: Solve, sender: &Sender<Incoming>) -> io::Result<Engine> {
     let replies = sender.clone();
     let solver = SolverThread::start(solve, move |reply| {
@@ -194,9 +194,9 @@ fn start_engine(solve: Solve, sender: &Sender<Incoming>) -> io::Result<Engine> {
     Ok(Engine::threads(solver, studies))
 }
 
-/// Starts the threads that wait for the user and the system. Returns a receiver with one entry for
-/// each input event in the inbox: it is full if the loop cannot follow, and further input then
-/// waits in the terminal.
+/// Starts the threads that receive input, signals and the end of the connection. Returns a receiver
+/// with one entry for each input event that waits for the loop. If the receiver is full, further
+/// input waits in the terminal.
 fn start_input(sender: &Sender<Incoming>) -> io::Result<Receiver<()>> {
     let hang_up = sender.clone();
     terminal::watch_for_hang_up(move || {
@@ -212,8 +212,8 @@ fn start_input(sender: &Sender<Incoming>) -> io::Result<Receiver<()>> {
     Ok(waiting)
 }
 
-/// Appearance by the options of the command line, else by the configuration, else by the
-/// environment.
+/// Returns the appearance. The options of the command line have precedence over the configuration,
+/// and the configuration has precedence over the environment.
 fn chosen_appearance(options: &Options) -> Appearance {
     let environment = Appearance::of_environment();
     let config = &options.config;
@@ -239,7 +239,7 @@ struct Session<'a> {
     runtime: Runtime,
     terminal: &'a mut Screen,
     guard: TerminalGuard,
-    /// True if the content of the screen is unknown and has to be drawn anew.
+    /// True if the content of the screen is unknown, so that the next frame must draw everything.
     redraw: bool,
     draw: Draw,
     remote: bool,
@@ -247,34 +247,35 @@ struct Session<'a> {
     frame_time: Duration,
     /// True if the state has changed since the last frame.
     changed: bool,
-    /// Time before which nothing is drawn. Over SSH a held key or a dragged mouse would otherwise
-    /// fill the line with frames that nobody sees in time.
+    /// Earliest time of the next frame. Without it, a held key or a dragged mouse would fill a
+    /// connection over SSH with frames that are outdated before they arrive.
     due: Instant,
-    /// Time since which an answer of the solver is awaited, if one is.
+    /// Time since which the session has been waiting for an answer of the solver; `None` if it is
+    /// not waiting.
     asked: Option<Instant>,
     /// Time of the last step of the animation.
     moved: Instant,
     inbox: Receiver<Incoming>,
-    /// One entry for each input event in the inbox.
+    /// One entry for each input event that waits in the inbox.
     waiting: Receiver<()>,
     autosave: Option<Autosave>,
-    /// Generation of the scene and number of saves when changes were last kept.
+    /// Generation of the scene and number of saves when unsaved changes were last kept.
     kept: (u64, u64),
     /// Time of the last input.
     touched: Instant,
 }
 
-/// Why a session ends without the user leaving it.
+/// Reason why a session ends although the user has not ended it.
 enum Interruption {
     /// The terminal is gone.
     NoInput,
-    /// A signal with this number asked for it.
+    /// A signal has asked the explorer to end. The value is the number of the signal.
     Signal(i32),
 }
 
 impl Session<'_> {
-    /// Runs until the explorer is to end; returns the number of the signal that ended it, if one
-    /// did.
+    /// Runs the loop of the session until it ends. Returns the number of the signal that ended it;
+    /// `None` if no signal did.
     fn run(&mut self) -> io::Result<Option<i32>> {
         self.runtime.perform(vec![Task::Ask]);
         while !self.runtime.app.finished {
@@ -300,8 +301,8 @@ impl Session<'_> {
                 None => {}
             }
             if playing && self.moved.elapsed() >= self.frame_time {
-                // A frame follows with the snapshot that the new position requests: time alone
-                // changes nothing on the screen.
+                // Elapsed time alone changes nothing on the screen. A frame follows when the
+                // snapshot for the new position arrives.
                 let elapsed = self.moved.elapsed().min(4 * self.frame_time);
                 self.moved = Instant::now();
                 self.act(Action::Elapse(elapsed))?;
@@ -310,13 +311,14 @@ impl Session<'_> {
         Ok(None)
     }
 
-    /// The final state, after the signal with this number if one ended the session.
+    /// Returns the final state of the session. `signal` is the number of the signal that ended it,
+    /// if one did.
     fn end(self, signal: Option<i32>) -> SessionEnd {
         let app = self.runtime.app;
         if app.finished
             && let Some(mut autosave) = self.autosave
         {
-            // The user was asked about the changes.
+            // The user has already been asked about unsaved changes, so no copy is kept.
             let _ = autosave.keep(&[]);
         }
         let computed = app.current().cloned();
@@ -327,9 +329,9 @@ impl Session<'_> {
         }
     }
 
-    /// Time before which nothing is drawn. Over SSH the frame after a key waits a little for the
-    /// answer of the solver: a frame without the answer would hold it back until the next frame is
-    /// due, and would cost as many bytes.
+    /// Returns the earliest time of the next frame. Over SSH, a frame after a key waits a short
+    /// time for the answer of the solver. A frame without the answer would cost as many bytes, and
+    /// would delay the answer until the next frame is due.
     fn next_frame(&self) -> Instant {
         match self.asked {
             Some(asked) if self.remote => self.due.max(asked + ANSWER_TIME),
@@ -342,8 +344,8 @@ impl Session<'_> {
         app.play.playing && app.is_current() && app.manual.is_none()
     }
 
-    /// Waits until something comes in; `None` when the next step of the animation or the next frame
-    /// is due before.
+    /// Waits for input or a result. Returns `None` if a step of the animation, a frame or a copy of
+    /// unsaved changes is due first.
     fn wait(&mut self, playing: bool) -> Option<Incoming> {
         let mut deadlines = Vec::new();
         if playing {
@@ -362,8 +364,8 @@ impl Session<'_> {
         }
     }
 
-    /// Handles what has come in, and what comes in meanwhile. If keys come faster than they are
-    /// handled, a frame is drawn after some time all the same, so that the user sees their effects.
+    /// Handles what has arrived, and what arrives in the meantime. If keys arrive faster than they
+    /// can be handled, this ends after some time, so that a frame shows their effects.
     fn handle_all(&mut self, first: Option<Incoming>) -> io::Result<Option<Interruption>> {
         let begun = Instant::now();
         let mut next = first;
@@ -412,8 +414,8 @@ impl Session<'_> {
     fn show(&mut self) -> io::Result<()> {
         terminal::checked(self.terminal.size()?)?;
         if take(&mut self.redraw) {
-            // Unlike `clear` this does not query the position of the cursor on the input that the
-            // other thread reads.
+            // `clear` would ask the terminal for the position of the cursor, but another thread
+            // reads the answer. `resize` clears the screen without asking.
             let size = self.terminal.size()?;
             self.terminal.resize(Rect::from((Position::ORIGIN, size)))?;
         }
@@ -423,12 +425,12 @@ impl Session<'_> {
     }
 
     fn act(&mut self, action: Action) -> io::Result<()> {
-        // A window that shrank and grew back between two frames has lost its content, though its
-        // size is that of the last frame.
+        // If the window shrinks and grows back between two frames, its content is lost, although it
+        // has the same size as in the last frame.
         self.redraw |= matches!(action, Action::Resize(..));
         for task in self.runtime.act(action) {
             match task {
-                // Sent with the next frame; the terminal does not confirm a copy.
+                // The text is sent together with the next frame.
                 Task::Copy(text) => {
                     let copy = CopyToClipboard::to_clipboard_from(text);
                     queue!(self.terminal.backend_mut(), copy)?;
@@ -436,7 +438,8 @@ impl Session<'_> {
                 Task::Redraw => self.redraw = true,
                 Task::Suspend => {
                     self.keep_unsaved();
-                    // With the signal of continuation the size of the window is read again.
+                    // The signal of continuation makes the explorer read the size of the window
+                    // again.
                     self.guard.suspend()?;
                     self.redraw = true;
                 }
@@ -451,8 +454,8 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// Time at which the unsaved changes are to be kept; `None` if they are kept already, or if
-    /// there are none and no file to remove.
+    /// Returns the time at which unsaved changes are to be kept. `None` if they are already kept,
+    /// or if there are no unsaved changes and no file to be removed.
     fn next_keeping(&mut self) -> Option<Instant> {
         let state = self.state_of_changes();
         if state == self.kept {
@@ -466,16 +469,17 @@ impl Session<'_> {
         Some(self.touched + KEEPING_PAUSE)
     }
 
-    /// Generation of the scene and number of saves, which change with every edit and every save.
+    /// Returns the generation of the scene and the number of saves. One of them changes with every
+    /// edit and every save.
     fn state_of_changes(&self) -> (u64, u64) {
         let edit = &self.runtime.app.edit;
         (edit.generation, edit.saves)
     }
 
-    /// Keeps the unsaved changes for another session, if they differ from those kept before. This
-    /// is done after a second without input, and at once before the explorer ends or stops. So a
-    /// process that is killed, or a signal while the terminal accepts no output, may lose the
-    /// changes of the last second.
+    /// Keeps the unsaved changes for another session, if they have changed since they were last
+    /// kept. This happens after a second without input, and also before the explorer ends or is
+    /// stopped. If the process is killed, or if it gets a signal while the terminal accepts no
+    /// output, the changes of the last second may be lost.
     fn keep_unsaved(&mut self) {
         let state = self.state_of_changes();
         if state == self.kept {

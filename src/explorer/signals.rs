@@ -1,22 +1,24 @@
-//! Signals that the explorer handles; before a signal ends it, the terminal is restored.
+//! Signals that the explorer handles. If a signal ends the explorer, the terminal is restored
+//! first.
 
 use std::io;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemSignal {
-    /// Request to end, with the number of the signal.
+    /// A signal has asked the process to end. The value is the number of the signal.
     End(i32),
-    /// Continuation after the process was stopped.
+    /// The process continues after it was stopped.
     Continue,
-    /// The window has another size.
+    /// The size of the window has changed.
     Resize,
 }
 
 /// Calls `report` when a signal asks the process to end, continues it, or announces another size of
-/// the window; `report` returns false once nobody receives.
+/// the window. `report` must return false when nobody receives the signals any more.
 ///
-/// If the explorer has not ended some time after the request, for example because the terminal
-/// accepts no output, the process ends by the signal, with the attributes of the terminal restored.
+/// The explorer may be unable to end soon after such a signal, for example if the terminal accepts
+/// no output. In this case, the attributes of the terminal are restored, and then the signal ends
+/// the process.
 #[cfg(unix)]
 pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     use signal_hook::consts::{SIGCONT, SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGWINCH};
@@ -39,7 +41,8 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
                 if report(SystemSignal::End(signal)) {
                     std::thread::sleep(PATIENCE);
                     if !report(SystemSignal::End(signal)) {
-                        // The explorer has ended, and its caller continues or ends by itself.
+                        // The explorer has ended in the meantime. Its caller decides whether the
+                        // process continues.
                         continue;
                     }
                     let _ = crossterm::terminal::disable_raw_mode();
@@ -50,16 +53,16 @@ pub fn watch_for_signals(report: impl Fn(SystemSignal) -> bool + Send + 'static)
         .map(drop)
 }
 
-/// Other systems have no such signals.
+/// Other systems do not have these signals.
 #[cfg(not(unix))]
 pub fn watch_for_signals(_: impl Fn(SystemSignal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the process by the default action of a signal, so that its parent sees the signal.
+/// Ends the process as the signal does by default, so that the parent process sees the signal.
 #[cfg(unix)]
 pub fn end_by(signal: i32) {
-    // Returns only for a signal that ends nothing.
+    // This returns only if the default action of the signal does not end the process.
     let _ = signal_hook::low_level::emulate_default_handler(signal);
 }
 

@@ -1,5 +1,5 @@
-//! Results of the solver: immutable, stamped with the generation of their scene, and already
-//! reduced to the resolution of a pane.
+//! Results of the solver. They never change, state the generation of their scene, and contain only
+//! as many columns as the panes show.
 
 use super::request::{Drive, Focus, LineView, ManualMove, SnapshotRequest};
 use asperity_contact::motion::PatchState;
@@ -22,30 +22,32 @@ pub struct ContactSnapshot {
     pub generation: u64,
     pub drive: Drive,
     pub line: LineFacts,
-    /// Requested position of the close-up.
+    /// The focus of the close-up in the request.
     pub focus: Focus,
-    /// Point of the force curve: indentation, force, number of springs in contact and of patches.
+    /// Point of the force curve, with indentation, force, number of springs in contact and number
+    /// of patches.
     pub point: CurvePoint,
-    /// Half the distance between the outermost edges of the contact, m; zero in separation.
+    /// Half the distance between the outermost edges of the contact in m; zero if nothing is in
+    /// contact.
     pub contact_radius: f64,
     pub profile: Section,
     pub springs: SpringsInContact,
     pub close_up: CloseUp,
-    /// Readings at the crosshair on the profile.
+    /// Values at the crosshair on the profile; `None` if there is no crosshair.
     pub probe: Option<Probe>,
-    /// Path of manual loading to this state.
+    /// Path of manual loading to this state; `None` if there is no manual loading.
     pub manual: Option<ManualPath>,
 }
 
-/// The springs in a state and their patches. The snapshot does not keep the springs alive: they are
-/// gone as soon as the solver begins another profile.
+/// Springs and contact patches at a state. The snapshot does not own the springs, so they disappear
+/// when the solver begins another profile.
 #[derive(Clone, Debug, Default)]
 pub struct SpringsInContact {
     pub gaps: Weak<Vec<f64>>,
     pub patches: Vec<Patch>,
 }
 
-/// Compares the patches: equal patches of equal sections have equal springs.
+/// Compares only the patches. For snapshots with equal sections, equal patches mean equal springs.
 impl PartialEq for SpringsInContact {
     fn eq(&self, other: &Self) -> bool {
         self.patches == other.patches
@@ -57,15 +59,16 @@ impl PartialEq for SpringsInContact {
 pub struct Probe {
     pub spring: usize,
     pub height: f64,
-    /// Height of the undeformed elastic surface, m.
+    /// Height in m of the undeformed elastic surface.
     pub level: f64,
-    /// Number, from 0, of the contact patch that the spring belongs to; `None` if it is not in
-    /// contact.
+    /// Index (from 0) of the contact patch to which the spring belongs; `None` if the spring is not
+    /// in contact.
     pub patch: Option<usize>,
 }
 
 impl Probe {
-    /// Reads profile and contact at a share of the profile; `None` for a profile without springs.
+    /// Reads profile and contact at a position along the profile, from 0 to 1. `None` if the
+    /// profile has no springs.
     pub fn at(contact: &SectionContact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
@@ -84,7 +87,8 @@ impl Probe {
 }
 
 impl ContactSnapshot {
-    /// A part of the profile and its contact, reduced to columns; `None` if the springs are gone.
+    /// Returns a part of the profile and its contact, reduced to columns; `None` if the springs no
+    /// longer exist.
     pub fn section(&self, part: Part) -> Option<Section> {
         let gaps = self.springs.gaps.upgrade()?;
         let contact = SectionContact {
@@ -97,7 +101,8 @@ impl ContactSnapshot {
     }
 }
 
-/// The springs that the profile pane shows, within the profile.
+/// Returns the part of the profile that the profile pane shows. `count` is the number of springs of
+/// the profile.
 pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
     let LineView { centre, share } = request.profile;
     let springs = ((count as f64 * share).round() as usize).clamp(1, count.max(1));
@@ -112,58 +117,60 @@ pub fn profile_part(request: &SnapshotRequest, count: usize) -> Part {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualPath {
-    /// Points of the force curve since then, each with the index of its loading stage.
+    /// Points of the force curve since the previous snapshot, each with the index of its loading
+    /// stage.
     pub path: Vec<(usize, CurvePoint)>,
-    /// Loading history from separation to this state: the loading of the scene, then the turning
+    /// Loading history from separation to this state: the stages of the scene, then the turning
     /// points of manual loading.
     pub loading: Vec<Move>,
-    /// Number of springs that attached or detached since then.
+    /// Number of springs that have attached or detached since the previous snapshot.
     pub changed: u64,
-    /// Elastic energy released since manual loading began, J.
+    /// Elastic energy in J that has been released since manual loading began.
     pub released_energy: f64,
-    /// Reason why the body was not moved, if it was refused.
+    /// Reason why the last move was refused; `None` if it was not refused.
     pub refused: Option<String>,
 }
 
-/// Manual loading so far.
+/// Manual loading from its beginning to the present state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ManualState {
-    /// Points of the path so far, the newest last.
+    /// Points of the path, the newest last.
     pub path: Vec<CurvePoint>,
-    /// Index of the loading stage of each point of the path.
+    /// For each point of the path, the index of its loading stage.
     pub stages: Vec<usize>,
     pub loading: Vec<Move>,
     /// Number of springs that attached or detached in the last move.
     pub changed: u64,
-    /// Elastic energy released since manual loading began, J.
+    /// Elastic energy in J that has been released since manual loading began.
     pub released_energy: f64,
     pub moves: Vec<ManualMove>,
-    /// The text of the force typed last, which the solver may refuse.
+    /// Text of the force that the user typed last. The solver may still refuse this force.
     pub typed: String,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CloseUp {
-    /// The part of the profile that is shown.
+    /// The visible part of the profile.
     pub section: Section,
-    /// Boundary points of the shown patches: spring, and height in m (the white circles of Fig. 3).
+    /// Ends of the visible patches, each as a spring and its height in m (the white circles of Fig.
+    /// 3 of the paper).
     pub boundaries: Vec<(usize, f64)>,
-    /// The patch nearest to the middle; `None` if nothing is in contact.
+    /// The patch nearest to the middle of the close-up; `None` if nothing is in contact.
     pub patch: Option<PatchFacts>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFacts {
-    /// Number of the patch along the line, from 0.
+    /// Index of the patch along the profile, from 0.
     pub number: usize,
     pub patch: Patch,
     pub state: PatchState,
 }
 
-/// Outcome for a value that is being typed.
+/// Outcome for the value that the user is typing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
-    /// The text of the scene, which identifies the scene.
+    /// Text of the scene, which says to which scene the outcome belongs.
     pub text: String,
     pub outcome: Outcome,
 }
@@ -177,7 +184,7 @@ impl Reply {
         }
     }
 
-    /// Returns true for the last reply to a request, after which none follows.
+    /// Returns true if this is the last reply to a request.
     pub fn is_answer(&self) -> bool {
         !matches!(self, Reply::Progress { .. })
     }
@@ -185,14 +192,14 @@ impl Reply {
 
 #[derive(Clone, Debug)]
 pub enum Reply {
-    /// A scene is computed; with its first snapshot, unless its loading is empty.
+    /// A scene has been computed. Its first snapshot is included, unless the loading is empty.
     Solved(Arc<SolvedScene>, Option<Arc<ContactSnapshot>>),
-    /// A further snapshot of a scene is ready.
+    /// Another snapshot of the scene has been computed.
     Shown(Arc<ContactSnapshot>),
-    /// Part of the stages of a scene is computed.
+    /// Some stages of a scene have been computed.
     Progress {
         generation: u64,
-        /// Number of computed loading stages.
+        /// Number of loading stages that have been computed.
         legs: usize,
     },
     Failed {

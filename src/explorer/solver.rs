@@ -1,5 +1,6 @@
-//! The solver: it owns the simulation and the legs of the newest scene, and answers the newest
-//! request of the explorer, on a thread of its own or at once.
+//! The solver. It owns the simulation and the legs of the newest scene (a leg is a motion of the
+//! body in one direction), and answers the newest request of the explorer, on a thread of its own
+//! or at once.
 
 use super::close_up::close_up;
 use super::manual_body::{ManualBegin, ManualBody};
@@ -21,11 +22,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Limit of the memory of kept legs, bytes; a leg beyond it is computed again when the animation
-/// reaches it.
+/// Largest memory in bytes for legs. Further legs are computed again when the animation reaches
+/// them.
 const BYTES_KEPT: usize = 1 << 29;
 
-/// Number of curve points over the range of indentations when the body is pulled off manually.
+/// Number of points on the curve from the highest to the lowest indentation, if the user pulls the
+/// body off.
 const STEPS_OF_A_PULL: f64 = 200.0;
 
 /// Function that computes a scene, as [`Simulation::run`] does.
@@ -39,7 +41,8 @@ pub type Solve = fn(
 pub struct Solver {
     solve: Solve,
     simulation: Simulation,
-    /// Generation of the scene that the explorer waits for; a run of any other scene stops.
+    /// Generation of the scene for which the explorer waits. The computation of any other scene
+    /// stops.
     awaited: Arc<AtomicU64>,
     newest: Newest,
 }
@@ -47,24 +50,25 @@ pub struct Solver {
 #[derive(Default)]
 struct Newest {
     generation: u64,
-    /// The scene as computed; `None` if it failed.
+    /// The scene with the observers that the explorer needs; `None` if it could not be computed.
     scene: Option<CheckedScene>,
     solved: Option<Arc<SolvedScene>>,
-    /// Legs of the loading; `None` for a leg that was not kept.
+    /// Legs of the loading; `None` for each leg that is not kept in memory.
     legs: Vec<Option<Leg>>,
     body: Option<ManualBody>,
-    /// Lowest and highest point of the profile in each column, kept between snapshots.
+    /// Lowest and highest point of the profile in each column. They are kept, so that the next
+    /// snapshot need not compute them again.
     profile: LineColumns,
     close_up: LineColumns,
 }
 
-/// The legs of a loading, as far as they are kept in memory.
+/// Legs of a loading that are kept in memory, as far as memory allows.
 #[derive(Default)]
 struct KeptLegs {
     legs: Vec<Option<Leg>>,
-    /// Memory of all legs so far, bytes.
+    /// Memory in bytes that all legs so far would need.
     bytes: usize,
-    /// How far the contact of the first leg can be pressed.
+    /// Largest force and indentation to which the contact of the first leg can be pressed.
     reach: Reach,
 }
 
@@ -80,7 +84,7 @@ impl KeptLegs {
     }
 }
 
-/// A state of the contact to show.
+/// State of the contact to be shown.
 struct ShownState {
     drive: Drive,
     leg: Leg,
@@ -88,7 +92,8 @@ struct ShownState {
 }
 
 impl Solver {
-    /// Creates a solver with this function; it computes only the scene of the awaited generation.
+    /// Creates a solver that computes scenes with the function `solve`. It computes a scene only
+    /// while `awaited` is the generation of this scene.
     pub fn new(solve: Solve, awaited: Arc<AtomicU64>) -> Self {
         Solver {
             solve,
@@ -98,13 +103,14 @@ impl Solver {
         }
     }
 
-    /// Marks the scene of a request as awaited, and answers the request.
+    /// Answers a request. From now on, the explorer waits for the scene of this request.
     pub fn answer(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         self.awaited.store(request.generation, Ordering::Relaxed);
         self.serve(request, report);
     }
 
-    /// Answers a request. A panic ends the request, and not the explorer.
+    /// Answers a request. If the computation panics, only this request ends, and the explorer
+    /// continues.
     pub fn serve(&mut self, request: Request, report: &mut dyn FnMut(Reply)) {
         let generation = request.generation;
         let served = catch_unwind(AssertUnwindSafe(|| self.try_serve(request, report)));
@@ -132,7 +138,8 @@ impl Solver {
             match self.compute(generation, scene, report) {
                 Ok(()) => {}
                 Err(error) if error.is_interruption() => {
-                    // The scene is computed anew if it is awaited again.
+                    // If the explorer waits for this scene again, it is computed from the
+                    // beginning.
                     self.newest.generation = 0;
                     return;
                 }
@@ -153,7 +160,7 @@ impl Solver {
         }
     }
 
-    /// Computes a scene, with the height histogram beside the profile.
+    /// Computes a scene, including the histogram of heights.
     fn compute(
         &mut self,
         generation: u64,
@@ -207,8 +214,8 @@ impl Solver {
         }
     }
 
-    /// Begins manual loading at a position of a loading stage; `None` without enough memory, or if
-    /// there is no such stage.
+    /// Begins manual loading at a position of a loading stage. Returns `None` if there is no such
+    /// stage, or not enough memory.
     fn take(&mut self, number: usize, at: At) -> Option<ManualBody> {
         self.newest.body = None;
         let solved = self.newest.solved.clone()?;
@@ -230,7 +237,8 @@ impl Solver {
         ManualBody::take(&leg, begin)
     }
 
-    /// A leg of the loading by the exact solver, whose legs also continue beyond their stages.
+    /// Returns a leg of the loading from the exact solver. Manual loading needs it, because only
+    /// legs of the exact solver continue beyond the end of their stage.
     fn exact_leg(&mut self, solved: &SolvedScene, number: usize) -> Option<Leg> {
         if solved.scene.numerics.solver == SceneSolver::Exact {
             return self.leg(number);
@@ -242,8 +250,8 @@ impl Solver {
         self.leg_of(&exact, number)
     }
 
-    /// Makes the requested snapshot; `None` if there is no such stage or manual loading has not
-    /// begun.
+    /// Makes the requested snapshot. Returns `None` if there is no such stage, or if manual loading
+    /// has not begun.
     fn snapshot(&mut self, request: &SnapshotRequest) -> Option<ContactSnapshot> {
         let state = match request.drive {
             Drive::Leg(number) => self.state_of_loading(number, request.at)?,
@@ -294,8 +302,8 @@ impl Solver {
         })
     }
 
-    /// The state of the scene's loading that the animation shows, which ends manual loading. If
-    /// there is no such stage, the nearest one is shown.
+    /// Returns the state of the scene's loading at which the animation is. If there is no such
+    /// stage, it uses the nearest one. Manual loading ends.
     fn state_of_loading(&mut self, number: usize, at: At) -> Option<ShownState> {
         self.newest.body = None;
         let legs = &self.newest.solved.as_deref()?.outcome.history.legs;
@@ -307,7 +315,8 @@ impl Solver {
         .within(legs);
         let indentation = player.indentation(legs);
         let record = legs.get(player.leg);
-        // After a separation nothing is in contact, though the indentation is the one before it.
+        // After a separation nothing is in contact, although the animation still shows the
+        // indentation of the last contact. Therefore the point is taken from the end of the curve.
         let end = if player.at == At::End && is_separated(record) {
             record.and_then(|record| record.curve.last().copied())
         } else {
@@ -325,13 +334,13 @@ impl Solver {
         })
     }
 
-    /// A leg of the loading; computed again if it was not kept.
+    /// Returns a leg of the loading. If the leg was not kept in memory, it is computed again.
     fn leg(&mut self, number: usize) -> Option<Leg> {
         if self.newest.legs.get(number)?.is_none() {
             let scene = self.newest.scene.take()?;
             let computed = self.leg_of(&scene, number);
             self.newest.scene = Some(scene);
-            // Only one leg beyond the limit of the memory is kept at a time.
+            // Of the legs beyond the memory limit, only the one computed last is kept.
             let kept = match &computed {
                 Some(leg) => BYTES_KEPT / leg.bytes().max(1),
                 None => 0,
@@ -344,10 +353,12 @@ impl Solver {
         self.newest.legs[number].clone()
     }
 
-    /// Computes the leg of one loading stage by running the scene up to it.
+    /// Computes the leg of one loading stage. For this, it computes the scene up to the end of this
+    /// stage.
     fn leg_of(&mut self, scene: &CheckedScene, wanted: usize) -> Option<Leg> {
         let mut found = None;
-        // The run ends with an error as soon as the leg is found.
+        // As soon as the leg is found, the computation is interrupted with an error, which is
+        // ignored.
         let _ = (self.solve)(
             &mut self.simulation,
             scene,
@@ -372,8 +383,8 @@ fn is_separated(leg: Option<&LegRecord>) -> bool {
     }
 }
 
-/// Returns true if the animation has not begun a stage: it is at the start, or in the first stage
-/// above the foundation.
+/// Returns true if the animation has not moved the contact in this stage yet. It is then at the
+/// start of the stage or, in the first stage, above the springs.
 fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
     match at {
         At::Start => true,
@@ -382,7 +393,7 @@ fn has_not_begun(leg: &LegRecord, number: usize, at: At) -> bool {
     }
 }
 
-/// The loading history up to a position in a stage.
+/// Returns the loading history up to a position in a stage.
 fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
     let loading = &solved.scene.loading;
     let mut stages: Vec<Move> = loading.iter().take(number).copied().collect();
@@ -398,8 +409,8 @@ fn stages_until(solved: &SolvedScene, number: usize, at: At) -> Vec<Move> {
     stages
 }
 
-/// The direction of the last stage of the loading history up to a position in a stage; `None`
-/// before the first one.
+/// Returns the direction of the last stage in the loading history up to a position in a stage;
+/// `None` if the first stage has not begun.
 fn direction_at(solved: &SolvedScene, number: usize, at: At) -> Option<Direction> {
     let legs = &solved.outcome.history.legs;
     let leg = legs.get(number)?;
@@ -426,14 +437,14 @@ pub struct SolverThread {
 }
 
 impl SolverThread {
-    /// Starts the thread of the solver. `report` receives its replies.
+    /// Starts the thread of the solver. `report` receives the replies of the solver.
     pub fn start(solve: Solve, report: impl Fn(Reply) + Send + 'static) -> std::io::Result<Self> {
         let (requests, inbox) = channel();
         let awaited = Arc::new(AtomicU64::new(0));
         let solver = Solver::new(solve, Arc::clone(&awaited));
         let newest = Arc::clone(&awaited);
-        // The explorer may have more input than it can handle, so it gets no replies about scenes
-        // that it has left.
+        // Replies about earlier scenes are dropped here, because the explorer may already be busy
+        // with more input than it can handle.
         let mut report_awaited = move |reply: Reply| {
             if reply.generation() == newest.load(Ordering::Relaxed) {
                 report(reply);
@@ -445,15 +456,16 @@ impl SolverThread {
         Ok(SolverThread { requests, awaited })
     }
 
-    /// Sends a request; a run of any other scene stops.
+    /// Sends a request to the solver. The computation of any other scene stops.
     pub fn ask(&self, request: Request) {
         self.awaited.store(request.generation, Ordering::Relaxed);
-        // The thread only ends with the explorer.
+        // Sending cannot fail, because the thread ends only together with the explorer.
         let _ = self.requests.send(request);
     }
 }
 
-/// Answers the newest request, again and again, until the explorer is gone.
+/// Answers requests until the explorer ends. If several requests are waiting, it combines them and
+/// answers the newest.
 pub fn serve(mut solver: Solver, requests: &Receiver<Request>, report: &mut dyn FnMut(Reply)) {
     while let Ok(first) = requests.recv() {
         let newest = requests

@@ -1,6 +1,8 @@
-//! Values computed after the outcome: its error, springs for a tolerance, data of a shown pane, the
-//! curve for a typed value. The explorer holds one value of each type, with a key for what it was
-//! computed from. A thread of its own performs the newest order of studies; a newer order ends it.
+//! Studies: values that are computed after the outcome of a scene. Examples are the error of the
+//! outcome, the number of springs for a tolerance, the data of a shown pane, and the curve for a
+//! typed value. The explorer holds one value of each type, with a key that says from what it was
+//! computed. A separate thread performs the newest list of studies. A newer list stops the list
+//! before it.
 
 use crate::explorer::advice;
 use asperity_data::Control;
@@ -14,28 +16,28 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-/// Time between a change of the scene and the beginning of a study: a key held down needs the
-/// machine.
+/// Time for which a study waits after a change of the scene. While the user holds a key, the solver
+/// needs the whole computer.
 const QUIET: Duration = Duration::from_millis(300);
 
 type Value = Arc<dyn Any + Send + Sync>;
 
-/// Computation of a value, on a simulation that other studies may have used. Parts of the value are
-/// reported as they are computed.
+/// Function that computes a value. It gets a simulation that other studies may have used before,
+/// and can report the value as far as it is known.
 type Run = dyn FnOnce(&mut Simulation, Control<'_, Value>) -> Result<Value, String> + Send;
 
 pub struct Study {
     kind: TypeId,
     key: String,
-    /// True if a demo leaves the study out, since viewers would have to wait or results differ from
-    /// run to run.
+    /// True if a demo leaves the study out. The viewers would have to wait, or the results would
+    /// differ each time the demo plays.
     pub is_long: bool,
     run: Box<Run>,
 }
 
 impl Study {
-    /// Creates a study; its key identifies the scene or the parameters it depends on. The value so
-    /// far is shown whenever `run` reports it.
+    /// Creates a study. Its key identifies the scene or the parameters on which its value depends.
+    /// Whenever `run` reports the value as far as it is known, the explorer shows it.
     pub fn new<T: Any + Clone + Send + Sync, E: Remedied>(
         key: impl ToString,
         is_long: bool,
@@ -64,8 +66,8 @@ impl Study {
         self.kind == TypeId::of::<T>()
     }
 
-    /// Performs the study. Nothing is reported once `stop` has returned true; a panic counts as a
-    /// failure.
+    /// Performs the study and reports its value. As soon as `stop` returns true, nothing is
+    /// reported any more. A panic counts as a failure of the study.
     pub fn perform(
         self,
         simulation: &mut Simulation,
@@ -104,7 +106,8 @@ impl Study {
     }
 }
 
-/// Key of the random profiles of a scene, which do not depend on its texts.
+/// Returns the key of the random profiles of a scene. Texts of the scene, such as its title, do not
+/// change the key.
 pub fn ensemble_key(scene: &Scene) -> String {
     let scene = Scene {
         title: String::new(),
@@ -115,14 +118,14 @@ pub fn ensemble_key(scene: &Scene) -> String {
     format!("ensemble of {scene:?}")
 }
 
-/// Part of a value, or the end of a study.
+/// Value of a study as far as it is known, or the end of the study.
 #[derive(Clone, Debug)]
 pub struct Finding {
     kind: TypeId,
     slot: Slot,
 }
 
-/// A value so far, and how its study ended if it has.
+/// Value as far as it is known, and the result of its study if the study has ended.
 #[derive(Clone, Debug)]
 struct Slot {
     key: String,
@@ -130,7 +133,7 @@ struct Slot {
     end: Option<Result<(), String>>,
 }
 
-/// Values of the studies so far, one of each type.
+/// Values of studies as far as they are known, at most one of each type.
 #[derive(Clone, Debug, Default)]
 pub struct Findings(HashMap<TypeId, Slot>);
 
@@ -139,18 +142,19 @@ impl Findings {
         self.0.get(&TypeId::of::<T>())
     }
 
-    /// The value of a type so far.
+    /// Returns the value of this type, as far as it is known; `None` if nothing is known.
     pub fn value<T: Any>(&self) -> Option<&T> {
         self.slot::<T>()?.value.as_ref()?.downcast_ref()
     }
 
-    /// Returns true if the value of a type is complete.
+    /// Returns true if the value of this type is complete.
     pub fn is_done<T: Any>(&self) -> bool {
         self.slot::<T>()
             .is_some_and(|slot| slot.end == Some(Ok(())))
     }
 
-    /// Reason why the value of a type is missing or incomplete, if its study failed.
+    /// Returns the reason why the value of this type is missing or incomplete, if its study has
+    /// failed; otherwise `None`.
     pub fn failure<T: Any>(&self) -> Option<&str> {
         self.slot::<T>()?
             .end
@@ -160,7 +164,8 @@ impl Findings {
             .map(String::as_str)
     }
 
-    /// Sets a value; complete, or to be completed by a study with this key.
+    /// Sets a value. If `is_done` is true, the value is complete; otherwise a study with this key
+    /// completes it.
     pub fn set<T: Any + Send + Sync>(&mut self, key: impl ToString, value: T, is_done: bool) {
         let end = is_done.then_some(Ok(()));
         self.0.insert(
@@ -177,12 +182,13 @@ impl Findings {
         self.0.remove(&TypeId::of::<T>());
     }
 
-    /// Drops all values except values with one of these keys.
+    /// Removes all values whose key is not one of `keys`.
     pub fn keep(&mut self, keys: &[&str]) {
         self.0.retain(|_, slot| keys.contains(&slot.key.as_str()));
     }
 
-    /// Stores a finding, unless its value was dropped or depends on another key by now.
+    /// Stores a finding. It is ignored if its value has been removed, or if the value now depends
+    /// on another key.
     pub fn take_in(&mut self, finding: Finding) {
         if let Some(slot) = self
             .0
@@ -194,7 +200,8 @@ impl Findings {
         }
     }
 
-    /// Returns the studies among these that have not ended; their findings will be stored.
+    /// Returns the studies in this list that have not ended yet. From now on, their findings are
+    /// stored.
     pub fn begin(&mut self, studies: Vec<Study>) -> Vec<Study> {
         let is_open = |study: &Study| {
             let slot = self.0.entry(study.kind).or_insert_with(|| Slot {
@@ -217,7 +224,7 @@ pub struct StudyThread {
 }
 
 impl StudyThread {
-    /// Starts the thread of the studies. `report` receives the findings.
+    /// Starts the thread of the studies. `report` receives their findings.
     pub fn start(report: impl Fn(Finding) + Send + 'static) -> std::io::Result<Self> {
         let (orders, inbox) = channel();
         let newest = Arc::new(AtomicU64::new(0));
@@ -229,20 +236,21 @@ impl StudyThread {
         Ok(StudyThread { orders, newest })
     }
 
-    /// Ends the running studies and performs these in their place.
+    /// Stops the present studies, and performs these studies instead.
     pub fn ask(&self, studies: Vec<Study>) {
         let number = self.newest.fetch_add(1, Ordering::Relaxed) + 1;
-        // The thread only ends with the explorer.
+        // Sending cannot fail, because the thread ends only together with the explorer.
         let _ = self.orders.send((number, studies));
     }
 
-    /// Ends the running studies because the scene changes; the next ones wait for a quiet time.
+    /// Stops the present studies because the scene has changed. The next studies wait until the
+    /// scene has not changed for some time.
     pub fn stop(&self) {
         self.ask(Vec::new());
     }
 }
 
-/// Performs the newest order, again and again, until the explorer is gone.
+/// Performs lists of studies until the explorer ends. Only the newest list is performed.
 fn serve(newest: &AtomicU64, orders: &Receiver<(u64, Vec<Study>)>, report: &dyn Fn(Finding)) {
     let mut simulation = Simulation::default();
     let mut begin = Instant::now();

@@ -1,4 +1,5 @@
-//! The terminal: taken over when the explorer opens, restored however it ends.
+//! The terminal. It is taken over when the explorer starts, and restored in whatever way the
+//! explorer ends.
 
 use crossterm::cursor::Show;
 use crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
@@ -12,28 +13,31 @@ use ratatui::layout::Size;
 use std::io;
 use std::io::Write;
 
-/// Largest number of cells of a window; a cell takes about 100 bytes.
+/// Largest number of cells of a window. A cell takes about 100 bytes of memory.
 const MOST_CELLS: u32 = 4_000_000;
 
-/// Control sequence for presses, drags and the wheel of the mouse. The sequence of crossterm
-/// includes every motion, and each would be transmitted and wake the explorer for nothing.
+/// Control sequence that makes the terminal report presses, drags and the wheel of the mouse. The
+/// sequence of crossterm would also report every other motion, and each report would be transmitted
+/// and wake the explorer for nothing.
 const MOUSE_ON: &str = "\x1b[?1000h\x1b[?1002h\x1b[?1006h";
 const MOUSE_OFF: &str = "\x1b[?1006l\x1b[?1002l\x1b[?1000l";
 
-/// The terminal while the explorer uses it; restored on drop and on a panic.
+/// The terminal while the explorer uses it. It is restored when this value is dropped, and on a
+/// panic.
 pub struct TerminalGuard {
     mouse: bool,
 }
 
 impl TerminalGuard {
-    /// Takes the terminal over, with or without the mouse.
+    /// Takes the terminal over. If `mouse` is true, the explorer also receives the mouse.
     pub fn take(mouse: bool) -> io::Result<Self> {
-        // NO_COLOR is read by the theme; left to crossterm it would drop reverse and bold as well.
+        // The theme already obeys NO_COLOR. If crossterm obeyed it too, reverse and bold text would
+        // be lost as well.
         crossterm::style::force_color_output(true);
         let before = std::panic::take_hook();
         let drawing = std::thread::current().id();
         std::panic::set_hook(Box::new(move |panic| {
-            // A panic of the worker becomes a line in the explorer, which continues.
+            // A panic on another thread becomes a message in the explorer, which continues.
             if std::thread::current().id() == drawing {
                 let _ = give_back(mouse);
                 before(panic);
@@ -55,15 +59,15 @@ impl TerminalGuard {
         )
     }
 
-    /// Takes the terminal over again, after another program may have used it.
+    /// Takes the terminal over again after another program may have used it.
     pub fn take_again(&self) -> io::Result<()> {
-        // Only a restored terminal can be taken.
+        // The terminal must leave raw mode before it can be taken over.
         disable_raw_mode()?;
         self.enter()
     }
 
-    /// Gives the terminal to the shell, as Ctrl-Z does elsewhere, and takes it over again when the
-    /// shell continues the explorer.
+    /// Returns the terminal to the shell and stops the process, as Ctrl-Z does in other programs.
+    /// When the shell continues the process, the terminal is taken over again.
     pub fn suspend(&self) -> io::Result<()> {
         give_back(self.mouse)?;
         stop_until_continued();
@@ -73,17 +77,17 @@ impl TerminalGuard {
 
 impl Drop for TerminalGuard {
     fn drop(&mut self) {
-        // A lost terminal cannot be restored.
+        // If the terminal is gone, it cannot be restored, so the error is ignored.
         let _ = give_back(self.mouse);
-        // While a panic unwinds, the hook cannot be taken and is needed no more.
+        // During a panic, the hook cannot be removed, and need not be.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();
         }
     }
 }
 
-/// Leaves the alternate screen, and only then raw mode: outside of raw mode a Ctrl+C makes the
-/// system discard output that the terminal has not read yet.
+/// Restores the terminal: leaves the alternate screen first, and then raw mode. In the other order,
+/// a Ctrl+C could make the system discard output that the terminal has not read yet.
 fn give_back(mouse: bool) -> io::Result<()> {
     let mouse = if mouse { MOUSE_OFF } else { "" };
     let left = execute!(
@@ -97,8 +101,8 @@ fn give_back(mouse: bool) -> io::Result<()> {
     left.and(disable_raw_mode())
 }
 
-/// Waits until the output has been sent and then for a moment, since a pseudo-terminal does not
-/// report when it is read.
+/// Waits until the output has been sent, and then for another moment, because a pseudo-terminal
+/// does not report when its output has been read.
 #[cfg(unix)]
 fn wait_until_written() {
     const READING: std::time::Duration = std::time::Duration::from_millis(20);
@@ -106,11 +110,11 @@ fn wait_until_written() {
     std::thread::sleep(READING);
 }
 
-/// On other systems output is written at once.
+/// On other systems, output is written immediately.
 #[cfg(not(unix))]
 fn wait_until_written() {}
 
-/// Returns an error for a size of the window that needs too much memory, before any is allocated.
+/// Returns an error if a window of this size needs too much memory, before any memory is allocated.
 pub fn checked(size: Size) -> io::Result<Size> {
     let Size { width, height } = size;
     if u32::from(width) * u32::from(height) > MOST_CELLS {
@@ -121,27 +125,27 @@ pub fn checked(size: Size) -> io::Result<Size> {
     Ok(size)
 }
 
-/// The size of the window, if there is enough memory for it.
+/// Returns the size of the window. Returns an error if the window needs too much memory.
 pub fn window() -> io::Result<Size> {
     let (width, height) = crossterm::terminal::size()?;
     checked(Size { width, height })
 }
 
-/// Stops all processes of this job, as the terminal does for Ctrl-Z. If no shell could continue
-/// them, the system does not stop them.
+/// Stops all processes of this job, as the terminal does for Ctrl-Z. If there is no shell that
+/// could continue them, the system does not stop them.
 #[cfg(unix)]
 fn stop_until_continued() {
     let _ = rustix::process::kill_current_process_group(rustix::process::Signal::TSTP);
 }
 
-/// Other systems have no jobs.
+/// Other systems cannot stop a job.
 #[cfg(not(unix))]
 fn stop_until_continued() {}
 
-/// Calls `gone` when the terminal hangs up.
+/// Calls `gone` when the connection to the terminal is lost.
 ///
-/// The signal of a hang-up may be ignored (`nohup`), and crossterm then reads the end of its input
-/// for ever, at full speed. A thread that waits for nothing but the hang-up costs nothing.
+/// The signal for this event may be ignored (`nohup`). Then crossterm would read the end of its
+/// input again and again without a pause. A thread that only waits for this event costs nothing.
 #[cfg(unix)]
 pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()> {
     use rustix::event::{PollFd, PollFlags, poll};
@@ -162,14 +166,14 @@ pub fn watch_for_hang_up(gone: impl FnOnce() + Send + 'static) -> io::Result<()>
         .map(drop)
 }
 
-/// On other systems the end of the input is an error.
+/// On other systems, reading the input returns an error at its end.
 #[cfg(not(unix))]
 pub fn watch_for_hang_up(_: impl FnOnce() + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// Collects a whole frame and writes it at once, as a synchronized update. A frame that changes
-/// nothing is not written.
+/// Writer that collects a whole frame and writes it at once, as a synchronised update. A frame that
+/// changes nothing is not written.
 pub struct FrameWriter<W: Write> {
     frame: Vec<u8>,
     out: W,
@@ -184,8 +188,8 @@ impl<W: Write> FrameWriter<W> {
     }
 }
 
-/// Returns true if a frame changes the screen: ratatui resets styles and hides the cursor even if
-/// nothing is drawn.
+/// Returns true if a frame changes the screen. It may consist only of sequences that reset styles
+/// and hide the cursor, which ratatui writes even if it draws nothing.
 fn shows_something(frame: &[u8]) -> bool {
     let mut rest = frame;
     while let Some(sequence) = rest.strip_prefix(b"\x1b[") {

@@ -1,17 +1,19 @@
-//! Text within a number of columns: broken between words, in whole parts, or shortened with an `…`.
+//! Text within a number of columns: broken into lines between words, composed of whole parts, or
+//! shortened with `…`.
 //!
-//! ratatui breaks lines too, but where a word has wide characters or begins with a combining mark,
-//! as in titles and typed values, it overruns its area and panics.
+//! ratatui can break lines too. But if a word has wide characters or begins with a combining mark,
+//! as may happen in titles and typed values, ratatui writes beyond its area and panics.
 
 use asperity_data::belong_together;
 use ratatui::style::Style;
 use ratatui::text::{Line, Span, StyledGrapheme};
 
-/// Spans of text that are shown together or not at all.
+/// Pieces of styled text that are shown either together or not at all.
 pub type Part = Vec<Span<'static>>;
 
-/// Breaks a line into lines of at most this number of columns. A word that is wider is broken
-/// anywhere, a number neither at its thousands nor before its unit.
+/// Breaks a line into lines of at most this number of columns. A word that is wider than a line is
+/// broken anywhere. A number is not broken between its groups of digits or before its unit, unless
+/// it is wider than a line.
 pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     let room = usize::from(columns);
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
@@ -20,7 +22,7 @@ pub fn wrapped(line: &Line<'_>, columns: u16) -> Vec<Line<'static>> {
     for together in words.chunk_by(|word, next| belong_together(&text_of(word), &text_of(next))) {
         let symbols = together.concat();
         let last = lines.len() - 1;
-        // A blank at the end of a line needs no room.
+        // A blank at the end of a line needs no column.
         let blank_end = usize::from(symbols.last().is_some_and(is_blank));
         let needed = width(&symbols).saturating_sub(blank_end);
         if !lines[last].is_empty() && width(&lines[last]) + needed > room {
@@ -51,7 +53,7 @@ fn is_blank(grapheme: &StyledGrapheme<'_>) -> bool {
     grapheme.symbol.trim().is_empty()
 }
 
-/// Width in columns.
+/// Returns the width in columns.
 fn width(graphemes: &[StyledGrapheme<'_>]) -> usize {
     graphemes
         .iter()
@@ -59,7 +61,7 @@ fn width(graphemes: &[StyledGrapheme<'_>]) -> usize {
         .sum()
 }
 
-/// The text of a word without blanks.
+/// Returns the text of a word without blanks.
 fn text_of(word: &[StyledGrapheme<'_>]) -> String {
     word.iter()
         .filter(|grapheme| !is_blank(grapheme))
@@ -67,7 +69,7 @@ fn text_of(word: &[StyledGrapheme<'_>]) -> String {
         .collect()
 }
 
-/// A line of graphemes: one span for each style.
+/// Joins graphemes to a line. Successive graphemes of the same style become one span.
 fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
     let mut line = Line::default();
     for span in graphemes.chunk_by(|grapheme, next| grapheme.style == next.style) {
@@ -77,7 +79,7 @@ fn styled(graphemes: &[StyledGrapheme<'_>]) -> Line<'static> {
     line
 }
 
-/// Breaks a line into at most `rows` lines; a rest is replaced by `…`.
+/// Breaks a line into at most `rows` lines. If the text is longer, its end is replaced by `…`.
 pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'static>> {
     let mut lines = wrapped(line, columns);
     if lines.len() > usize::from(rows) {
@@ -89,7 +91,7 @@ pub fn wrapped_within(line: &Line<'_>, columns: u16, rows: u16) -> Vec<Line<'sta
     lines
 }
 
-/// A line at most `columns` wide, shortened with an `…` if necessary.
+/// Returns the line if it is at most `columns` wide; otherwise the line shortened with `…`.
 pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     if line.width() > usize::from(columns) {
         clipped(&line, columns)
@@ -98,7 +100,7 @@ pub fn fitted(line: Line<'static>, columns: u16) -> Line<'static> {
     }
 }
 
-/// A line shortened to at most `columns`, with `…` in place of the rest.
+/// Shortens a line to at most `columns`, including a `…` at its end.
 fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     let graphemes: Vec<_> = line.styled_graphemes(Style::default()).collect();
     let mut kept = 0;
@@ -123,8 +125,8 @@ fn clipped(line: &Line<'static>, columns: u16) -> Line<'static> {
     clipped.style(line.style)
 }
 
-/// Puts parts into as many lines as needed, with `between` between two parts of a line; a part
-/// wider than the columns is left out.
+/// Distributes parts over as many lines as needed. `between` separates two parts of the same line.
+/// A part that is wider than a line is left out.
 pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Line<'static>> {
     let mut lines: Vec<Line<'static>> = Vec::new();
     for part in parts {
@@ -142,7 +144,7 @@ pub fn filled(parts: Vec<Part>, between: &'static str, columns: usize) -> Vec<Li
     lines
 }
 
-/// A text on one line, with one blank between two words.
+/// Returns a text on one line, with one blank between words.
 pub fn on_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,4 +1,4 @@
-//! A line of text being typed.
+//! A line of text that the user is typing.
 
 use super::theme::{Meaning, Theme};
 use asperity_data::is_control;
@@ -6,7 +6,7 @@ use ratatui::style::Modifier;
 use ratatui::text::Span;
 use tui_input::{Input, InputRequest};
 
-/// Limit of the length of a line, characters.
+/// Largest length of a line in characters.
 const LONGEST: usize = 4096;
 
 const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out";
@@ -14,9 +14,9 @@ const TOO_LONG: &str = "a line has at most 4096 characters; the rest is left out
 #[derive(Clone, Debug, Default)]
 pub struct TextLine {
     input: Input,
-    /// True if the text is selected: the next character replaces it.
+    /// True if the text is selected, so that the next typed character replaces it.
     selected: bool,
-    /// Message about what the last insertion left out.
+    /// Message if the last insertion left something out.
     left_out: Option<&'static str>,
 }
 
@@ -49,7 +49,7 @@ impl TextLine {
         self.input.value()
     }
 
-    /// The text before the cursor, under it and after it.
+    /// Returns the text before the cursor, the character under the cursor, and the text after it.
     fn parts(&self) -> (String, String, String) {
         let mut characters = self.text().chars();
         let before = characters.by_ref().take(self.input.cursor()).collect();
@@ -57,13 +57,13 @@ impl TextLine {
         (before, under, characters.collect())
     }
 
-    /// Message about what the last insertion left out; `None` if it left nothing out.
+    /// Returns a message if the last insertion left something out; otherwise `None`.
     pub fn left_out(&self) -> Option<&'static str> {
         self.left_out
     }
 
-    /// Inserts a text before the cursor or in place of the selected text, without control
-    /// characters, as far as it fits.
+    /// Inserts a text before the cursor, or replaces the selected text by it. Control characters
+    /// are left out, and also the end of the text if the line would become too long.
     pub fn insert(&mut self, text: &str) {
         let inserted: String = text.chars().filter(|c| !is_control(*c)).collect();
         if self.selected && !inserted.is_empty() {
@@ -82,8 +82,8 @@ impl TextLine {
         };
     }
 
-    /// Moves the cursor or deletes text; deleting removes a selected text as a whole. Afterwards
-    /// nothing is selected.
+    /// Moves the cursor or deletes text. If the text is selected, deleting removes all of it.
+    /// Afterwards nothing is selected.
     pub fn edit(&mut self, request: InputRequest) {
         use InputRequest::{DeleteLine, DeleteNextChar, DeletePrevChar, DeletePrevWord};
         let deletes = matches!(request, DeletePrevChar | DeleteNextChar | DeletePrevWord);
@@ -97,8 +97,8 @@ impl TextLine {
         self.left_out = None;
     }
 
-    /// The text, in a smaller number of columns without digits in its middle: its end has the
-    /// exponent and the unit.
+    /// Returns the text in at most this number of columns. If it is too long, its middle is left
+    /// out, because the exponent and the unit at its end are more important than the digits there.
     fn shortened(&self, columns: usize) -> String {
         let characters: Vec<char> = self.text().chars().collect();
         let kept = columns.saturating_sub(1);
@@ -113,7 +113,7 @@ impl TextLine {
         format!("{start}…{end}")
     }
 
-    /// The part of the line around the cursor that fits into a number of columns.
+    /// Returns the part of the line around the cursor that fits into this number of columns.
     pub fn spans(&self, columns: usize, theme: Theme) -> Vec<Span<'static>> {
         let reversed = theme.style(Meaning::Text).add_modifier(Modifier::REVERSED);
         if self.selected && !self.text().is_empty() {
@@ -132,7 +132,7 @@ impl TextLine {
     }
 }
 
-/// The longest end of a text that fits into a number of columns.
+/// Returns the longest end of a text that fits into this number of columns.
 fn end_within(text: &str, columns: usize) -> String {
     let mut room = columns;
     let mut end = Vec::new();

@@ -1,4 +1,5 @@
-//! Style of each meaning. Glyphs carry the same meanings, so that colours are optional.
+//! The style of each meaning, such as loading. Characters show the same meanings, so that colours
+//! are not necessary.
 
 use clap::ValueEnum;
 use ratatui::style::{Color, Modifier, Style};
@@ -41,7 +42,7 @@ pub enum Meaning {
     Manual,
     Ghost,
     Cursor,
-    /// Frames, axes, and text of less importance.
+    /// Frames, axes and less important text.
     Quiet,
     Title,
     Selected,
@@ -51,9 +52,9 @@ pub enum Meaning {
 }
 
 impl Appearance {
-    /// Appearance by the environment: colours by `NO_COLOR` and `COLORFGBG`; ASCII on the console
-    /// of Linux (`TERM=linux`) and for a locale without Unicode (`C`, `POSIX`), which show no
-    /// Braille.
+    /// Returns the appearance that suits the environment. `NO_COLOR` and `COLORFGBG` determine the
+    /// colours. Plots are drawn in ASCII on the Linux console (`TERM=linux`) and in a locale
+    /// without Unicode (`C`, `POSIX`), because these cannot show Braille characters.
     pub fn of_environment() -> Self {
         let theme = match variable("COLORFGBG") {
             _ if variable("NO_COLOR").is_some() => Theme::Plain,
@@ -76,15 +77,15 @@ impl Appearance {
     }
 }
 
-/// Value of a variable of the environment that is not empty.
+/// Returns the value of an environment variable; `None` if it is missing or empty.
 fn variable(name: &str) -> Option<OsString> {
     let value = std::env::var_os(name)?;
     if value.is_empty() { None } else { Some(value) }
 }
 
 impl Theme {
-    /// The theme for the background in a value of `COLORFGBG`, whose last number is the background
-    /// colour.
+    /// Returns the theme that suits a value of `COLORFGBG`. The last number in this value is the
+    /// colour of the background.
     fn on_background(colours: &str) -> Self {
         match colours.rsplit(';').next().map(str::parse::<u8>) {
             Some(Ok(7 | 9..=15)) => Theme::Light,
@@ -99,7 +100,7 @@ impl Theme {
             Selected, Surface, Text, Title,
         };
         match (self, meaning) {
-            // Red is contact alone: marks and errors are bold.
+            // Only the contact is red. Marks and errors are bold instead.
             (Theme::Plain, _) | (_, Line | Text | Selected | Title | Key | Cursor | Error) => {
                 Color::Reset
             }
@@ -125,7 +126,8 @@ impl Theme {
                 style.add_modifier(Modifier::BOLD)
             }
             Meaning::Selected => style.add_modifier(Modifier::REVERSED),
-            // Without colours the surface differs from the profile, and the contact from both.
+            // Without colours, the surface is dim and the contact bold, so that profile, surface
+            // and contact can be distinguished.
             Meaning::Quiet | Meaning::Ghost | Meaning::Surface if self == Theme::Plain => {
                 style.add_modifier(Modifier::DIM)
             }
@@ -135,9 +137,9 @@ impl Theme {
     }
 }
 
-/// Values of an option, cycled by a key.
+/// Values of an option through which a key cycles.
 pub trait Cycle: ValueEnum + PartialEq + 'static {
-    /// The next value; the first follows the last.
+    /// Returns the next value. The first value follows the last one.
     fn next(self) -> Self {
         let all = Self::value_variants();
         let place = all.iter().position(|other| *other == self).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! Values being typed: a number without a unit gets the unit that its row shows.
+//! Values that the user is typing. A number without a unit gets the unit that its row shows.
 
 use crate::explorer::app::App;
 use crate::explorer::curve_options::OPTIONS;
@@ -8,10 +8,12 @@ use asperity_data::{format_quantity, in_unit, parse_quantity, unit_of};
 use asperity_scene::fields::target_field;
 use asperity_scene::loading::{StageKind, loading_text, pressing_force, read_stage};
 
-/// Force that determines the prefix of a typed force if the loading has no force, N.
+/// Force in N that determines the prefix of a typed force, if neither the loading nor the curve has
+/// a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// A value in the format for readers; a value that follows from others is marked.
+/// Returns a value in the form that is shown to the user. A value that follows from other values
+/// begins with `=`.
 pub fn shown(app: &App, parameter: &Parameter) -> String {
     if !parameter.shown.is_empty() || parameter.setting == Setting::Heading {
         return parameter.shown.clone();
@@ -21,14 +23,14 @@ pub fn shown(app: &App, parameter: &Parameter) -> String {
         .and_then(|written| written.parse::<f64>().ok());
     match written {
         Some(value) => format!("= {}", format_quantity(value, parameter.field.unit)),
-        // A smooth body has no κ; before the computation κ is unknown.
+        // Without roughness there is no κ. Before the scene is computed, κ is unknown.
         None if app.governing().is_some() => "none".to_owned(),
         None => "= …".to_owned(),
     }
 }
 
-/// Unit of a typed force, with the prefix of the largest force of the loading or, without one, of
-/// the computed curve.
+/// Returns the unit of a typed force. Its prefix suits the largest force of the loading or, if the
+/// loading has no force, the largest force of the computed curve.
 pub fn unit_of_force(app: &App) -> String {
     let of_loading = pressing_force(&app.edit.document.scene().loading);
     let of_curve = app
@@ -45,8 +47,8 @@ pub fn unit_of_force(app: &App) -> String {
     unit_of(&format_quantity(force, "N")).to_owned()
 }
 
-/// Adds the unit of the row to a typed value without one. A number for a stage without one is a
-/// force.
+/// Adds the unit of the row to a typed value that has no unit. In the row of a stage without a
+/// number, a typed number is a force.
 pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     if let Setting::CurveOption(index) = parameter.setting
         && let Some(measured) = &app.edit.measured
@@ -61,8 +63,8 @@ pub fn with_unit(app: &App, parameter: &Parameter, typed: &str) -> String {
     }
 }
 
-/// What a typed text without a unit means: `50 mJ/m²` for `50`. `None` for a text that states its
-/// unit, and for a quantity without one.
+/// Returns what a typed number without a unit means: `50 mJ/m²` for `50`. `None` if the text
+/// contains a unit, or if the quantity has no unit.
 pub fn understood(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let typed = prompt.line.text().trim();
@@ -78,7 +80,7 @@ pub fn understood(app: &App) -> Option<String> {
     Some(quantity.in_words)
 }
 
-/// A typed quantity as it is understood.
+/// A typed quantity, as the explorer understands it.
 struct Quantity {
     unit: &'static str,
     in_words: String,
@@ -92,7 +94,8 @@ fn typed_force(app: &App, typed: &str) -> Option<Quantity> {
     })
 }
 
-/// A typed value of the selected parameter. A loading stage may be typed as another kind.
+/// Reads a typed value of the selected parameter. For a loading stage, the user may type a stage of
+/// any kind.
 fn typed_value(app: &App, typed: &str) -> Option<Quantity> {
     let parameter = app.edit.parameter()?;
     let typed = with_unit(app, parameter, typed);

@@ -1,5 +1,5 @@
-//! Effect of each action on the state. Nothing here touches terminal, files or solver: tasks
-//! outside of the state are returned.
+//! Effect of each action on the state. This file does not use the terminal, files or the solver.
+//! Work outside of the state is returned as tasks.
 
 use super::action::Action;
 use super::action::Task;
@@ -14,8 +14,8 @@ use super::snapshot::Reply;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use std::sync::Arc;
 
-/// Applies an action and returns the tasks that follow, including a request for the state that the
-/// screen waits for.
+/// Applies an action and returns the tasks that follow from it. If the screen now shows another
+/// state, this includes a request to the solver.
 pub fn update(app: &mut App, action: Action) -> Vec<Task> {
     apply(app, action);
     if app.asked.is_some_and(|asked| asked != awaited(app)) {
@@ -49,14 +49,15 @@ fn apply(app: &mut App, action: Action) {
         Action::CurveRead(wanted, read) => measured::show_read(app, &wanted, read),
         Action::Mouse(mouse) => mouse::act(app, mouse),
     }
-    // A search goes through the rows of the present scene.
+    // The list of parameters has changed during a search, so the search is repeated in the new
+    // list.
     let has_other_rows = app.edit.parameters.len() != rows;
     if has_other_rows && let Some(prompt) = &mut app.prompt {
         prompt.search(&app.edit.parameters);
     }
 }
 
-/// Runs the command of a key, or types its character.
+/// Runs the command that belongs to a key. If there is none, types the character of the key.
 fn pressed(app: &mut App, key: &KeyEvent) {
     if let Some(command) = app.config.bindings.command(key, app.keys()) {
         return run(app, command);
@@ -83,7 +84,7 @@ fn run(app: &mut App, command: KeyCommand) {
     }
 }
 
-/// Stores a reply of the solver, unless the scene has changed since.
+/// Stores a reply of the solver. It is ignored if the scene has changed since the request.
 fn replied(app: &mut App, reply: Reply) {
     if reply.generation() != app.edit.generation {
         return;
@@ -107,14 +108,15 @@ fn replied(app: &mut App, reply: Reply) {
     }
 }
 
-/// Makes the request for the state that the screen waits for; it takes the waiting manual moves
-/// with it.
+/// Returns the request for the state that the screen waits for. Waiting manual moves become part of
+/// the request.
 pub fn request(app: &mut App) -> Request {
     let moves = match &mut app.manual {
         Some(manual) => std::mem::take(&mut manual.moves),
         None => Vec::new(),
     };
-    // Without the moves taken: a move before the answer is another request.
+    // The moves in this request no longer count as waiting. A further move before the answer
+    // therefore leads to another request.
     app.asked = Some(awaited(app));
     Request {
         generation: app.edit.generation,
@@ -124,7 +126,8 @@ pub fn request(app: &mut App) -> Request {
     }
 }
 
-/// What the screen waits for: generation of the scene, snapshot, and number of manual moves.
+/// Returns the state that the screen waits for: the generation of the scene, the requested
+/// snapshot, and the number of waiting manual moves.
 fn awaited(app: &App) -> Awaited {
     let moves = app.manual.as_ref().map_or(0, |manual| manual.moves.len());
     (app.edit.generation, snapshot_request(app), moves)

@@ -1,4 +1,4 @@
-//! Files that the explorer writes: scenes, curves, figures of panes, pictures of the screen.
+//! Files that the explorer writes: scenes, curves, figures of panes, and pictures of the screen.
 
 use super::action::{Action, Content, OutputFile, WriteFailure};
 use super::app::{App, Message};
@@ -22,9 +22,10 @@ use std::io;
 use std::io::Write;
 use std::path::{Path, is_separator};
 
-/// Writes a regular file, relative to a folder; a pipe would block. The name of a scene gets the
-/// extension `.ron` if it has none, unless it names something that is no file. Returns the file
-/// with its final name, and the result.
+/// Writes a regular file; the path is relative to `folder`. Pipes are refused, because writing
+/// could wait for ever. A scene file without an extension gets the extension `.ron`, unless the
+/// path already leads to something other than a file. Returns the file with its final name, and the
+/// result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let is_scene = file.content == Content::Scene;
     if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
@@ -37,7 +38,8 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     Action::Written(file, result)
 }
 
-/// Returns true for a path of a file, or of nothing that ends as a folder does.
+/// Returns true if the path leads to a file, or if nothing exists there and it does not end like
+/// the path of a folder.
 fn can_be_file(path: &Path) -> bool {
     let ends_as_folder = path.to_string_lossy().ends_with(is_separator);
     path.is_file() || !path.exists() && !ends_as_folder
@@ -45,7 +47,7 @@ fn can_be_file(path: &Path) -> bool {
 
 fn write_file(app: &App, folder: &Path, file: &OutputFile) -> Result<(), WriteError> {
     let path = folder.join(&file.path);
-    // The folder of the user's own scenes is made for the first of them.
+    // When the first scene is saved in the folder of the user's own scenes, this folder is created.
     if let Some(own) = own_folder()
         && path.parent() == Some(&own)
     {
@@ -67,13 +69,14 @@ fn write_content(out: &mut dyn Write, app: &App, path: &Path, content: Content) 
     }
 }
 
-/// Writes the selected pane, with the command that computes its content.
+/// Writes the content of the selected pane, and the command that computes this content.
 fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io::Result<()> {
     let Some((command, report)) = exported(app, format) else {
         let why = "the selected pane has nothing yet to export";
         return Err(io::Error::other(why));
     };
-    // The command opens the path of manual loading as the loading of the scene.
+    // If manual loading is exported, the command opens a scene whose loading is the path of manual
+    // loading.
     let opened = match with_path(app) {
         Some(Ok(document)) if command == OPEN_COMMAND => Some(document),
         _ => None,
@@ -94,8 +97,8 @@ fn write_pane(out: &mut dyn Write, app: &App, path: &Path, format: Format) -> io
     asperity_report::write(out, &*report, format, &provenance)
 }
 
-/// The selected pane as a report: for a picture its figure, otherwise its result, or without one
-/// the curves of its figure.
+/// Returns the selected pane as a report. For a picture, the report is the figure of the pane.
+/// Otherwise it is the result of the pane or, if there is none, the curves of the figure.
 fn exported(app: &App, format: Format) -> Exported<'_> {
     if !format.is_picture() {
         let result = (panes::row(app.view.pane).report)(app);
@@ -111,7 +114,7 @@ fn exported(app: &App, format: Format) -> Exported<'_> {
     Some((OPEN_COMMAND.into(), Box::new(drawn)))
 }
 
-/// The table of a pane beside its scene, as JSON of a result that has no other.
+/// Table of a pane together with its scene. It is the JSON of a result that has no other JSON.
 struct SceneTable<'a> {
     scene: &'a Scene,
     table: &'a dyn Report,
@@ -125,7 +128,8 @@ impl Report for SceneTable<'_> {
     }
 }
 
-/// The selected pane as a figure; the force curve while the parameters are selected.
+/// Returns the selected pane as a figure. If the list of parameters is selected, it is the force
+/// curve.
 fn figure(app: &App) -> Option<Figure> {
     let pane = if app.view.pane == Pane::Parameters {
         Pane::Force
@@ -135,7 +139,7 @@ fn figure(app: &App) -> Option<Figure> {
     panes::figure(app, pane)
 }
 
-/// The screen as an SVG document, on a background that suits its colours.
+/// Returns the screen as an SVG document, with a background that suits the colours.
 pub fn screenshot(app: &App) -> String {
     let palette = if app.view.appearance.theme == Theme::Light {
         Palette::LIGHT
@@ -148,7 +152,7 @@ pub fn screenshot(app: &App) -> String {
     screen_svg(&picture_of(app), &palette, &title)
 }
 
-/// The screen without prompts, questions and messages other than errors.
+/// Returns the screen without prompts and questions. Of the messages, only errors are shown.
 pub fn picture_of(app: &App) -> Buffer {
     let mut app = app.clone();
     app.prompt = None;

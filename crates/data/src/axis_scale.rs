@@ -1,6 +1,6 @@
 //! Linear and logarithmic scales of axes.
 
-/// Scale of an axis, which maps each number to a coordinate along the axis.
+/// Scale of an axis. It maps each number to a coordinate along the axis.
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AxisScale {
@@ -12,8 +12,8 @@ pub enum AxisScale {
 }
 
 impl AxisScale {
-    /// Returns the coordinate of a number. A number that is not positive has no finite coordinate
-    /// on a logarithmic scale.
+    /// Returns the coordinate of a number. On a logarithmic scale, zero and negative numbers have
+    /// no finite coordinate.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -29,9 +29,9 @@ impl AxisScale {
         }
     }
 
-    /// Returns where `number` lies among ascending `values` on this scale, as a fractional index:
-    /// 1.5 is in the middle between the values with the indices 1 and 2. Beyond the ends the index
-    /// is extrapolated. For fewer than two values it is 0.
+    /// Returns the place of `number` among ascending `values` on this scale, as a fractional index.
+    /// For example, 1.5 means the middle between the values with the indices 1 and 2. Outside the
+    /// values, the index is extrapolated. If there are fewer than two values, the index is 0.
     pub fn place(self, values: &[f64], number: f64) -> f64 {
         let coordinates: Vec<f64> = values.iter().map(|value| self.coordinate(*value)).collect();
         let coordinate = self.coordinate(number);
@@ -47,7 +47,7 @@ impl AxisScale {
         }
     }
 
-    /// Returns the number at a coordinate.
+    /// Returns the number that has this coordinate.
     pub fn number(self, coordinate: f64) -> f64 {
         if self == AxisScale::Logarithmic {
             10_f64.powf(coordinate)

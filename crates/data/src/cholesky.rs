@@ -1,6 +1,7 @@
-//! Small systems of equations with a symmetric matrix.
+//! Systems of a few linear equations with a symmetric matrix.
 
-/// Cholesky factor L of a symmetric positive definite matrix M = L Lᵀ.
+/// Cholesky factor of a symmetric positive definite matrix M: the lower triangular matrix L for
+/// which M = L Lᵀ.
 ///
 /// ```
 /// use asperity_data::Cholesky;
@@ -12,14 +13,14 @@
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cholesky {
     size: usize,
-    /// Lower triangle L in a full matrix, stored row by row.
+    /// Matrix L as a full square matrix, stored row by row. Only its lower triangle is used.
     factor: Vec<f64>,
 }
 
 impl Cholesky {
-    /// Computes the factor of the symmetric `matrix`, which has `size` rows and is stored row by
-    /// row. Only the lower triangle of the matrix is used. Returns `None` unless the matrix is
-    /// positive definite.
+    /// Computes the Cholesky factor of the symmetric matrix M. `matrix` contains M row by row, and
+    /// `size` is the number of rows. Only the lower triangle of M is read. Returns `None` if M is
+    /// not positive definite.
     pub fn new(mut matrix: Vec<f64>, size: usize) -> Option<Self> {
         for row in 0..size {
             for column in 0..=row {
@@ -67,16 +68,17 @@ impl Cholesky {
         right
     }
 
-    /// Returns the square root of element (i, i) of M⁻¹ for i = `index`. If M⁻¹ is the covariance
-    /// matrix of fitted parameters, this is the standard error of parameter i.
+    /// Returns the square root of element (i, i) of M⁻¹, where i is `index`. If M⁻¹ is the
+    /// covariance matrix of fitted parameters, this is the standard error of parameter i.
     pub fn standard_error(&self, index: usize) -> f64 {
         let mut gradient = vec![0.0; self.size];
         gradient[index] = 1.0;
         self.variance(&gradient).sqrt()
     }
 
-    /// Returns vᵀ M⁻¹ v for v = `gradient`. If M⁻¹ is the covariance matrix of fitted parameters,
-    /// this is the variance of a quantity whose derivatives with respect to the parameters are v.
+    /// Returns vᵀ M⁻¹ v, where v is `gradient`. If M⁻¹ is the covariance matrix of fitted
+    /// parameters, and v contains the derivatives of a quantity with respect to these parameters,
+    /// this is the variance of the quantity.
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let solved = self.solve(gradient.to_vec());
         gradient

@@ -3,10 +3,11 @@
 use crate::parallel;
 use std::borrow::Borrow;
 
-/// Settings of a long computation: the number of threads, a function that stops it, and a function
-/// that receives its progress. The default uses all cores, never stops early and reports nothing.
+/// Settings of a long computation: the number of threads, a function that tells it to stop, and a
+/// function that receives its progress. With the default settings, the computation uses all cores,
+/// is never stopped and reports no progress.
 ///
-/// `P` is the type of the progress: the number of finished parts, or the result so far.
+/// `P` is the type of the progress. It is the number of finished parts, or the result so far.
 ///
 /// ```
 /// use asperity_data::Control;
@@ -38,21 +39,22 @@ impl<P> Default for Control<'_, P> {
 }
 
 impl<'a, P> Control<'a, P> {
-    /// Sets the number of threads, at least 1. The result is the same to the bit for any number of
-    /// threads.
+    /// Sets the number of threads, at least 1. The number of threads does not change a single bit
+    /// of the result.
     #[must_use]
     pub fn on_threads(self, threads: usize) -> Self {
         Control { threads, ..self }
     }
 
-    /// Sets the function that stops the computation. The computation ends with an error soon after
-    /// `stop` returns true.
+    /// Sets the function that tells the computation to stop. Soon after `stop` returns true, the
+    /// computation ends with an error.
     #[must_use]
     pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Control { stop, ..self }
     }
 
-    /// Sets the function that receives the progress. The function is called on the calling thread.
+    /// Sets the function that receives the progress. It is called on the thread that started the
+    /// computation.
     #[must_use]
     pub fn reporting_to(self, report: &'a mut (dyn FnMut(&P) + 'a)) -> Self {
         Control {
@@ -61,8 +63,9 @@ impl<'a, P> Control<'a, P> {
         }
     }
 
-    /// Returns a control with the same number of threads and the same stop, for a part of this
-    /// computation. Its progress is of a type of its own, and has no receiver yet.
+    /// Returns settings for a part of this computation, with the same number of threads and the
+    /// same stop function. The progress of the part may have another type, and no function receives
+    /// it yet.
     pub fn of_part<'part, Q>(&self) -> Control<'part, Q>
     where
         'a: 'part,
@@ -79,7 +82,7 @@ impl<'a, P> Control<'a, P> {
         self.threads
     }
 
-    /// Returns the function that is asked whether the computation has to stop.
+    /// Returns the function that tells the computation to stop.
     pub fn stop(&self) -> &'a (dyn Fn() -> bool + Sync) {
         self.stop
     }
@@ -89,8 +92,8 @@ impl<'a, P> Control<'a, P> {
         (self.stop)()
     }
 
-    /// Calls the function set by [`reporting_to`](Control::reporting_to), if there is one, with the
-    /// progress or a reference to it.
+    /// Reports the progress, given as a value or a reference, to the function set by
+    /// [`reporting_to`](Control::reporting_to). Does nothing if no such function is set.
     pub fn report(&mut self, progress: impl Borrow<P>) {
         if let Some(report) = &mut self.report {
             report(progress.borrow());

@@ -1,12 +1,12 @@
-//! SHA-256 of files, which identifies copies of a file. The program `sha256sum` prints the same
-//! digits.
+//! SHA-256 of files, with which copies of a file are recognised. The program `sha256sum` prints the
+//! same digits.
 
 use super::read::{ReadError, open_regular};
 use sha2::{Digest, Sha256};
 use std::io::Read;
 use std::path::Path;
 
-/// Number of bytes that are read at a time.
+/// Number of bytes in each read.
 const BUFFER: usize = 1 << 16;
 
 /// Returns the SHA-256 of all bytes that `hasher` has received, as 64 hexadecimal digits.

@@ -1,4 +1,4 @@
-//! JSON on one line.
+//! JSON written on one line.
 
 use crate::text::is_control;
 use serde::Serialize;
@@ -6,8 +6,8 @@ use serde_json::ser::{Formatter, Serializer};
 use std::io;
 use std::io::Write;
 
-/// Writes a value as JSON on one line. If the value is an object, the pairs of key and text in
-/// `head` are written as the first entries of this object.
+/// Writes a value as JSON on one line. Each entry of `head` is a key and its text. If the value is
+/// an object, these entries are written before the other entries of the object.
 pub fn write_json(
     out: &mut (impl Write + ?Sized),
     value: &impl Serialize,
@@ -30,13 +30,14 @@ pub fn write_json(
     writeln!(out)
 }
 
-/// JSON format that also escapes the control characters that JSON allows, which a terminal might
-/// obey.
+/// JSON format that also escapes control characters that JSON allows unescaped, because a terminal
+/// might obey them.
 #[derive(Default)]
 struct Printable {
-    /// Entries that still have to be written first into the outermost object.
+    /// Entries to be written at the beginning of the outermost object. Empty as soon as they are
+    /// written.
     head: Vec<u8>,
-    /// True if the next key needs a comma, because it follows the first entries.
+    /// True if the next key needs a comma before it because the entries of `head` precede it.
     follows: bool,
 }
 

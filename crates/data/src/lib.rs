@@ -69,8 +69,8 @@ pub use write::{
     WriteError, check_writable, remove_abandoned, sync_folder, write_new, write_new_file,
 };
 
-/// Reads tables of numbers in text files, as instruments and programs write them: lines,
-/// separators, numbers, and names of columns.
+/// Reads tables of numbers in text files that instruments and programs write: lines, separators,
+/// numbers, and names of columns.
 #[cfg(feature = "files")]
 pub mod text_table {
     pub use crate::text_cells::{Decimal, ONE_MARK, Separator, TextCell};
@@ -78,5 +78,5 @@ pub mod text_table {
     pub use crate::text_names::{HeadLines, Role, TextColumn, is_one_of};
 }
 
-/// First characters of a CSV file of results.
+/// First characters of each CSV file with results of Asperity.
 pub const PROVENANCE: &str = "# asperity ";

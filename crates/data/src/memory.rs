@@ -1,29 +1,30 @@
-//! Functions for large arrays: they reuse memory, and return an error if the memory is too small.
+//! Functions for large arrays. They reuse memory, and return an error if there is not enough
+//! memory.
 
-// The first use of new memory takes about as much time as one pass over it, because the system
-// clears each page of memory at its first access. An array whose length depends on the input
-// reserves its memory before use. Without this, a failed allocation would end the process.
+// Reuse saves time: the system clears each page of new memory at its first access, which takes
+// about as long as one pass over the memory. Arrays whose length depends on the input reserve their
+// memory before use, because any other failed allocation would end the process.
 
 use std::hint::black_box;
 use thiserror::Error;
 
-/// A buffer is released if its capacity is more than this many times the required number of values.
+/// A buffer is released if its capacity is more than this multiple of the number of values needed.
 const MOST_SPARE: usize = 4;
 
-/// Number of values below which memory is not worth a release: a buffer for [`MOST_SPARE`] times as
-/// many values is never released.
+/// Number of values that is too small to be worth a release. A buffer for at most [`MOST_SPARE`]
+/// times this number of values is never released.
 const SMALL: usize = 1 << 16;
 
-/// Number of bytes that the check adds to the known arrays, for stacks of threads and small arrays.
-/// The sum exceeds any block that the allocator of glibc keeps for reuse, so the system takes the
-/// memory of the check back at once.
+/// Number of bytes that [`check_room`] adds to the requested bytes, for stacks of threads and small
+/// arrays. The sum exceeds any block that the allocator of glibc keeps for reuse. Therefore the
+/// memory of the check returns to the system at once.
 const BESIDE: u64 = 33 << 20;
 
-/// Number of bytes below which the check passes at once.
+/// Number of bytes below which [`check_room`] never returns an error.
 const FEW: u64 = 1 << 20;
 
-/// Error of a request for more memory than the system can provide. Its message states the requested
-/// memory in MiB.
+/// Error for a request for more memory than the system can provide. The message states the
+/// requested memory in MiB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("not enough memory for {} MiB", .0.div_ceil(1 << 20))]
 pub struct OutOfMemory(u64);
@@ -34,8 +35,8 @@ impl OutOfMemory {
     }
 }
 
-/// Returns an error unless the system can provide `bytes` more bytes of memory now. Less than 1 MiB
-/// is never refused.
+/// Returns an error if the system cannot provide `bytes` more bytes of memory now. A request for
+/// less than 1 MiB never returns an error.
 pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     if bytes < FEW {
         return Ok(());
@@ -45,13 +46,13 @@ pub fn check_room(bytes: u64) -> Result<(), OutOfMemory> {
     asked
         .try_reserve_exact(count)
         .map_err(|_| OutOfMemory(bytes))?;
-    // The compiler may remove an allocation without an observer.
+    // Without this line, the compiler could remove the allocation, because nothing uses it.
     black_box(asked.as_ptr());
     Ok(())
 }
 
 /// Returns an empty vector with room for `count` values. The vector reuses the memory of `values`
-/// if this memory is large enough. Returns an error if the memory of the system is too small.
+/// if that memory is large enough. Returns an error if there is not enough memory.
 pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     values.clear();
@@ -61,9 +62,9 @@ pub fn emptied<T>(mut values: Vec<T>, count: usize) -> Result<Vec<T>, OutOfMemor
     Ok(values)
 }
 
-/// Returns a vector of `count` values: first the values of `values`, then copies of `fill`. The
-/// vector reuses the memory of `values` if possible. Returns an error if the memory of the system
-/// is too small.
+/// Returns a vector of length `count`. It begins with the content of `values`, and the rest is
+/// filled with copies of `fill`. The vector reuses the memory of `values` if possible. Returns an
+/// error if there is not enough memory.
 pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Vec<T>, OutOfMemory> {
     values = unless_far_too_large(values, count);
     let more = count.saturating_sub(values.len());
@@ -74,23 +75,23 @@ pub fn resized<T: Clone>(mut values: Vec<T>, count: usize, fill: T) -> Result<Ve
     Ok(values)
 }
 
-/// Collects the `count` values of an iterator into a vector. Returns an error if the memory is too
-/// small.
+/// Collects the values of an iterator into a vector. `count` is the number of values. Returns an
+/// error if there is not enough memory.
 pub fn gathered<T>(count: usize, values: impl Iterator<Item = T>) -> Result<Vec<T>, OutOfMemory> {
     let mut gathered = emptied(Vec::new(), count)?;
     gathered.extend(values);
     Ok(gathered)
 }
 
-/// Appends `value` to the vector `values`. Returns an error if the memory is too small.
+/// Appends `value` to the vector `values`. Returns an error if there is not enough memory.
 pub fn push<T>(values: &mut Vec<T>, value: T) -> Result<(), OutOfMemory> {
     reserve(values, 1)?;
     values.push(value);
     Ok(())
 }
 
-/// Reserves room for at least `more` further values in the vector `values`. Returns an error if the
-/// memory is too small.
+/// Reserves room in the vector `values` for at least `more` further values. Returns an error if
+/// there is not enough memory.
 pub fn reserve<T>(values: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     values
         .try_reserve(more)

@@ -6,18 +6,18 @@ use std::io::Write;
 /// First bytes of a NumPy file.
 pub const SIGNATURE: &[u8] = b"\x93NUMPY";
 
-/// Version of the format whose header has a length of two bytes.
+/// Version 1.0 of the format, in which two bytes state the length of the header.
 const SHORT_HEADER: [u8; 2] = [1, 0];
 
-/// Number of bytes before the header in this version.
+/// Number of bytes before the header in version 1.0.
 const PREFIX: usize = SIGNATURE.len() + SHORT_HEADER.len() + 2;
 
-/// Prefix and header together are a multiple of this number of bytes.
+/// The bytes before the header and the header together are a multiple of this number of bytes.
 const ALIGNMENT: usize = 64;
 
 /// Writes the signature and the header of a NumPy file. `descr` is the type of a value in Python's
-/// notation, such as `'<f8'`. `shape` has the lengths of the axes as in a Python tuple, without its
-/// brackets, such as `100,` or `3, 100`.
+/// notation, such as `'<f8'`. `shape` contains the lengths of the axes as in a Python tuple, but
+/// without brackets: `100,` or `3, 100`.
 pub fn write_header(out: &mut (impl Write + ?Sized), descr: &str, shape: &str) -> io::Result<()> {
     let mut header = format!("{{'descr': {descr}, 'fortran_order': False, 'shape': ({shape}), }}");
     let length = (PREFIX + header.len() + 1).next_multiple_of(ALIGNMENT) - PREFIX;
@@ -40,7 +40,7 @@ mod tests {
         let mut array = Vec::new();
         write_header(&mut array, "'<f8'", "3,").unwrap();
         assert_eq!(array.len() % ALIGNMENT, 0);
-        // As written by `numpy.save`.
+        // `numpy.save` writes these bytes.
         let expected =
             b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
         assert!(

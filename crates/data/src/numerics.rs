@@ -4,8 +4,8 @@
 use std::cell::Cell;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
-/// Sum of numbers in which rounding errors are compensated (method of Neumaier). For n terms t the
-/// error of the sum is below 2u |Σ t| + O(n u²) Σ |t|, with u = 2⁻⁵³.
+/// Sum in which rounding errors are compensated (method of Neumaier). For n terms t, the deviation
+/// from the exact sum is below 2u |Σ t| + O(n u²) Σ |t|, where u = 2⁻⁵³.
 ///
 /// ```
 /// let mut sum = asperity_data::CompensatedSum::default();
@@ -19,7 +19,7 @@ pub struct CompensatedSum {
 }
 
 impl CompensatedSum {
-    /// Adds a term.
+    /// Adds a term to the sum.
     #[inline]
     pub fn add(&mut self, term: f64) {
         let sum = self.value + term;
@@ -39,7 +39,7 @@ pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Returns the root mean square of the values; `None` without values.
+/// Returns the root mean square of the values; `None` if there are no values.
 pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut count = 0_u64;
     let mut squares = 0.0;
@@ -50,8 +50,8 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     (count > 0).then(|| (squares / count as f64).sqrt())
 }
 
-/// Returns the sample standard deviation (divisor n − 1) of n values. The argument `mean` must be
-/// the mean of these values. Fewer than two values give NaN.
+/// Returns the sample standard deviation of n values, with the divisor n − 1. `mean` must be the
+/// mean of these values. For fewer than two values the result is NaN.
 pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     let squares = values
         .iter()
@@ -60,8 +60,8 @@ pub fn standard_deviation(values: &[f64], mean: f64) -> f64 {
     (squares / (values.len() as f64 - 1.0)).sqrt()
 }
 
-/// Returns the median and reorders the values. The median of an even number of values is the mean
-/// of the middle two. Returns `None` without values.
+/// Returns the median of the values, whose order it changes. For an even number of values, the
+/// median is the mean of the two middle values. Returns `None` if there are no values.
 ///
 /// ```
 /// assert_eq!(asperity_data::median(&mut [3.0, 1.0, 2.0, 10.0]), Some(2.5));
@@ -79,9 +79,9 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
-/// Returns a quantile of ascending values, with linear interpolation between neighbouring values. A
-/// `share` of 0 gives the first value, 0.5 the median, 1 the last value. Returns `None` without
-/// values, and for a share outside of 0 to 1.
+/// Returns a quantile of ascending values. Between neighbouring values the quantile is interpolated
+/// linearly. A `share` of 0 gives the first value, 0.5 the median, and 1 the last value. Returns
+/// `None` if there are no values, or if the share is below 0 or above 1.
 ///
 /// ```
 /// assert_eq!(asperity_data::quantile(&[0.0, 10.0, 20.0], 0.25), Some(5.0));
@@ -95,15 +95,15 @@ pub fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     let place = share * last as f64;
     let lower = place as usize;
     let fraction = place - lower as f64;
-    // A neighbour of no weight may be infinite.
+    // The upper neighbour may be infinite. Multiplied by zero it would give NaN.
     if fraction == 0.0 {
         return Some(ascending[lower]);
     }
     Some(between(ascending[lower], ascending[lower + 1], fraction))
 }
 
-/// Returns the lower quartile, the median and the upper quartile of ascending values, each as their
-/// [quantile](quantile()); `None` without values.
+/// Returns the lower quartile, the median and the upper quartile of ascending values, which are
+/// [quantiles](quantile()); `None` if there are no values.
 ///
 /// ```
 /// assert_eq!(asperity_data::quartiles(&[1.0, 2.0, 3.0, 4.0, 5.0]), Some([2.0, 3.0, 4.0]));
@@ -115,14 +115,15 @@ pub fn quartiles(ascending: &[f64]) -> Option<[f64; 3]> {
     Some([lower, median, upper])
 }
 
-/// Returns the linear interpolation between `from` at a `share` of 0 and `to` at a `share` of 1.
+/// Interpolates linearly between two values. A `share` of 0 gives `from`, and a `share` of 1 gives
+/// `to`.
 #[inline]
 pub fn between(from: f64, to: f64, share: f64) -> f64 {
     from + share * (to - from)
 }
 
-/// Returns the slope of the least-squares line through points (x, y); `None` for fewer than two
-/// different x.
+/// Returns the slope of the least-squares line through points (x, y); `None` if there are fewer
+/// than two different x.
 ///
 /// ```
 /// assert_eq!(asperity_data::slope(&[(0.0, 1.0), (1.0, 3.0), (2.0, 5.0)]), Some(2.0));
@@ -140,8 +141,8 @@ pub fn slope(points: &[(f64, f64)]) -> Option<f64> {
     slope.is_finite().then_some(slope)
 }
 
-/// Returns the nodes in (−1, 1) and the weights of the Gauss-Legendre quadrature with `COUNT`
-/// nodes.
+/// Returns the nodes of the Gauss-Legendre quadrature on the interval (−1, 1), each with its
+/// weight. `COUNT` is the number of nodes.
 pub fn gauss_nodes<const COUNT: usize>() -> [(f64, f64); COUNT] {
     std::array::from_fn(|index| gauss_node(COUNT, index))
 }
@@ -152,14 +153,15 @@ pub fn gauss_nodes_on_quarter_circle<const COUNT: usize>() -> [(f64, f64); COUNT
     gauss_nodes().map(|(x, weight)| (0.5 * FRAC_PI_2 * (1.0 + x), 0.5 * FRAC_PI_2 * weight))
 }
 
-/// Returns zero number `index` of the Legendre polynomial of this degree, with its weight in the
-/// quadrature.
+/// Returns a zero of the Legendre polynomial of this degree, with its weight in the Gauss-Legendre
+/// quadrature. `index` counts the zeros from 0.
 fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
     let count = degree as f64;
     let mut x = (PI * (index as f64 + 0.75) / (count + 0.5)).cos();
     let mut slope = 1.0;
     for _ in 0..20 {
-        // Legendre polynomials of the degrees k − 1 and k at x, by their recurrence.
+        // `before` and `value` become the Legendre polynomials of the degrees k − 1 and k at x, by
+        // their recurrence.
         let mut before = 1.0;
         let mut value = x;
         for k in 2..=degree {
@@ -175,12 +177,14 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
 }
 
 thread_local! {
-    /// Degrees of freedom and value of the last quantile. Most samples in a row have the same size.
+    /// Degrees of freedom and value of the last quantile that was computed. They are kept because
+    /// most successive samples have the same size.
     static LAST_QUANTILE: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 
-/// Returns the value that |t| exceeds with a probability of 5 %, where t has Student's distribution
-/// with `freedom` degrees of freedom, at least 1.
+/// Returns the quantile of Student's distribution for intervals of 95 %. If t has this distribution
+/// with `freedom` degrees of freedom (at least 1), |t| exceeds the quantile with a probability of 5
+/// %.
 pub fn student_quantile(freedom: u32) -> f64 {
     let (last_freedom, last_quantile) = LAST_QUANTILE.get();
     if last_freedom == freedom {
@@ -191,7 +195,7 @@ pub fn student_quantile(freedom: u32) -> f64 {
     quantile
 }
 
-/// Finds the quantile by bisection.
+/// Computes the quantile of [`student_quantile`] by bisection.
 fn student_t(freedom: u32) -> f64 {
     let mut low = 0.0;
     let mut high = 16.0;
@@ -206,13 +210,14 @@ fn student_t(freedom: u32) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// Returns the probability that |t| of Student's distribution is at most `t` (Abramowitz and
-/// Stegun, 26.7.3 and 26.7.4).
+/// Returns the probability that |t| is at most `t`, if t has Student's distribution with `freedom`
+/// degrees of freedom (Abramowitz and Stegun, 26.7.3 and 26.7.4).
 fn share_within(t: f64, freedom: u32) -> f64 {
     let angle = (t / f64::from(freedom).sqrt()).atan();
     let (sine, cosine) = angle.sin_cos();
     let is_odd = freedom % 2 == 1;
-    // Sum over cosines to the powers 1, 3, … up to freedom − 2, or 0, 2, …
+    // Sum over powers of the cosine, up to the power `freedom` − 2: the powers 1, 3, … if `freedom`
+    // is odd, otherwise 0, 2, …
     let mut power = u32::from(is_odd);
     let mut term = if is_odd { cosine } else { 1.0 };
     let mut sum = 0.0;
@@ -234,8 +239,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// A compensated sum keeps small numbers that are added to a large one, which is then
-        /// subtracted.
+        /// A compensated sum keeps small terms even if a large term is added and later subtracted.
         #[test]
         fn a_sum_keeps_its_rounding_errors(power in 40..60_i32, small in 1e-3..1.0_f64, count in 1_u32..99) {
             let large = 2.0_f64.powi(power);
@@ -247,9 +251,9 @@ mod tests {
     }
 
     proptest! {
-        /// A quantile is the value at which the polygon through the points (k/(n − 1), value k) has
-        /// the abscissa `share`. The median is the quantile 0.5, and a sample without values has
-        /// neither.
+        /// The quantile at `share` lies on the polygon through the points (k/(n − 1), value k) at
+        /// the abscissa `share`. Here n is the number of values and k counts them from 0. The
+        /// median is the quantile at 0.5. If there are no values, both are `None`.
         #[test]
         fn quantiles_lie_on_the_polygon_of_the_values(
             mut values in prop::collection::vec(-1e3..1e3_f64, 0..40),
@@ -262,7 +266,8 @@ mod tests {
             let middle = median(&mut values.clone());
             prop_assert_eq!(middle.is_none(), values.is_empty());
             if let (Some(found), Some(middle)) = (found, middle) {
-                // Sum of the rises of all intervals, each up to the share that it covers.
+                // The expected quantile is the first value plus the rise of each interval, each
+                // multiplied by the part of the interval that lies below the share.
                 let intervals = values.len() as f64 - 1.0;
                 let mut expected = values[0];
                 for (number, pair) in values.windows(2).enumerate() {

@@ -1,11 +1,12 @@
-//! JSON objects made from a list of keys and values. The keys keep the order of the list.
+//! JSON objects that are made from a list of keys and values, in the order of the list.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// A JSON object made by the macro [`object!`](crate::object!).
+/// JSON object that the macro [`object!`](crate::object!) makes.
 pub struct Object<E>(pub E);
 
-/// Entries of an object: none, or the first entry and a pair of the others.
+/// List of entries of an object. It is either empty, or a pair of the first entry and the list of
+/// the other entries.
 pub(crate) trait Entries {
     fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
 }
@@ -16,10 +17,10 @@ impl Entries for () {
     }
 }
 
-/// An entry of an [`Object`]: a key and its value.
+/// Entry of an [`Object`]: a key and its value.
 pub struct ObjectEntry<T>(pub &'static str, pub T);
 
-/// An entry of an [`Object`] that is omitted if its value is `None`.
+/// Entry of an [`Object`] that is left out if its value is `None`.
 pub struct Optional<T>(pub &'static str, pub Option<T>);
 
 impl<T: Serialize, R: Entries> Entries for (ObjectEntry<T>, R) {
@@ -49,7 +50,7 @@ impl<E: Entries> Serialize for Object<E> {
 }
 
 /// Makes an [`Object`], which is written as JSON, from keys and values: `object! { "key": value }`.
-/// An entry `"key"?: option` is omitted if the option is `None`.
+/// An entry `"key"?: option` is left out if the option is `None`.
 #[macro_export]
 macro_rules! object {
     (@entries) => { () };

@@ -8,12 +8,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, Scope, ScopedJoinHandle, scope};
 
 thread_local! {
-    /// True on a thread that is one of several, which already keep all cores busy.
+    /// True on a thread that works together with others. New threads would be of no use there,
+    /// because these threads already keep all cores busy.
     static ONE_OF_MANY: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `work` on this thread. The functions of this module then start no further threads inside
-/// `work`.
+/// Runs `work` on this thread. If `work` calls functions of this module, they start no further
+/// threads.
 pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     let before = ONE_OF_MANY.replace(true);
     let result = work();
@@ -21,11 +22,11 @@ pub fn on_this_thread<A>(work: impl FnOnce() -> A) -> A {
     result
 }
 
-/// Runs `work` on `count` threads of a scope, or on fewer if the system refuses some. The threads
-/// start no threads of their own.
+/// Runs `work` on each of `count` new threads of a scope. If the system refuses some threads,
+/// `work` runs on fewer. The functions of this module start no further threads inside `work`.
 ///
 /// # Errors
-/// Returns the error of the system if it starts none of at least one thread.
+/// Returns the error of the system if `count` is at least 1 and no thread could be started.
 pub(crate) fn begin_threads<'scope>(
     scope: &'scope Scope<'scope, '_>,
     count: usize,
@@ -47,12 +48,12 @@ pub(crate) fn begin_threads<'scope>(
 }
 
 /// Computes a result for each number from 0 to `count` − 1 on `jobs` threads, and returns the
-/// results in order. Each thread first calls `worker`, and then computes its results with the
-/// function that `worker` returns.
+/// results in the order of the numbers. Each thread first calls `worker`, which returns a function.
+/// With this function, the thread computes its results.
 ///
 /// # Errors
-/// Returns the error of the function that computes the results; of several errors, the one for the
-/// smallest number.
+/// Returns an error if the computation of a result returns an error. If there are several errors,
+/// it returns the error for the smallest number.
 ///
 /// ```
 /// use asperity_data::on_threads;
@@ -77,7 +78,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
             }
             let result = worker(number);
             if result.is_err() {
-                // Numbers that follow are not needed; those before are under way or done.
+                // Results for higher numbers are not needed any more. Lower numbers are already
+                // computed, or are being computed.
                 next.store(count, Ordering::SeqCst);
             }
             found
@@ -88,7 +90,7 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     };
     let threads = jobs.min(usize::try_from(count).unwrap_or(usize::MAX));
     scope(|scope| {
-        // Without further threads this one does all the work.
+        // If no further thread can be started, this thread does all the work.
         let _ = begin_threads(scope, threads.saturating_sub(1), work);
         on_this_thread(work);
     });
@@ -97,7 +99,7 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
     found.into_iter().map(|(_, result)| result).collect()
 }
 
-/// Returns the number of threads for a computation: one for each core, or 1 inside
+/// Returns the number of threads for a computation. It is the number of cores, but 1 inside
 /// [`on_this_thread`] and on threads that this module has started.
 pub fn threads() -> usize {
     if ONE_OF_MANY.get() {
@@ -107,8 +109,8 @@ pub fn threads() -> usize {
 }
 
 /// Runs the functions `first` and `second`, and returns their results. If `is_worth` is true and a
-/// second thread is possible, `first` runs on the second thread at the same time as `second`.
-/// Otherwise one function runs after the other.
+/// second thread can be started, the functions run at the same time, with `first` on the second
+/// thread. Otherwise one function runs after the other.
 pub fn in_parallel<A: Send, B>(
     is_worth: bool,
     first: impl FnOnce() -> A + Send,
@@ -124,7 +126,8 @@ pub fn in_parallel<A: Send, B>(
             .spawn_scoped(scope, || take().map(|task| task()))
             .ok();
         let second_result = second();
-        // Runs here if no other thread has begun.
+        // If the second thread has not begun `first` yet, or could not be started, `first` runs
+        // here.
         if let Some(task) = take() {
             return (task(), second_result);
         }
@@ -164,7 +167,8 @@ mod tests {
                 current().id()
             };
             let second = || {
-                // Otherwise this thread may run both before the other has started.
+                // Wait until the other function has begun, because otherwise this thread could run
+                // both functions before the second thread starts.
                 let clock = Instant::now();
                 while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
                     std::thread::yield_now();

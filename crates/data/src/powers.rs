@@ -2,12 +2,13 @@
 
 use crate::numerics::CompensatedSum;
 
-/// Number of terms that a sum of powers adds directly. The Euler-Maclaurin formula gives the sum of
-/// all other terms.
+/// Number of terms of a sum of powers that are added one by one. The Euler-Maclaurin formula gives
+/// the sum of the other terms.
 const DIRECT_TERMS: u64 = 64;
 
-/// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula. After 64 direct terms the first
-/// omitted one is below 1e-18 of the sum.
+/// Coefficients B₂/2!, B₄/4!, … of the Euler-Maclaurin formula, where B₂, B₄, … are Bernoulli
+/// numbers. If 64 terms are added one by one, the first correction that is left out is below 1e-18
+/// of the sum.
 const EULER_MACLAURIN: [f64; 5] = [
     1.0 / 12.0,
     -1.0 / 720.0,
@@ -16,8 +17,8 @@ const EULER_MACLAURIN: [f64; 5] = [
     1.0 / 47_900_160.0,
 ];
 
-/// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`; 0 if `last` is
-/// below `first`. The relative error of the sum is a few units in the last place.
+/// Returns Σ k^exponent for the integers k from `first` (at least 1) to `last`. The sum is 0 if
+/// `last` is below `first`. Its relative error is a few units in the last place.
 ///
 /// ```
 /// let exact: f64 = (1..=100_000).rev().map(|k| f64::from(k).powi(-2)).sum();
@@ -32,7 +33,9 @@ pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     if end == last {
         return sum.total();
     }
-    // Σ_{k=m}^{n} f(k) = ∫ f dk + (f(m) + f(n))/2 + Σ B_2j/(2j)! (f^(2j−1)(n) − f^(2j−1)(m)).
+    // Euler-Maclaurin formula for the terms from m to n: Σ_{k=m}^{n} f(k) = ∫ f dk + (f(m) +
+    // f(n))/2 + Σ B_2j/(2j)! (f^(2j−1)(n) − f^(2j−1)(m)). Here m is `low`, n is `high`, and the
+    // last sum is over j = 1, 2, …
     let low = (end + 1) as f64;
     let high = last as f64;
     let mut derivative = Derivative::of_order_zero(exponent, low, high);
@@ -49,7 +52,8 @@ pub fn sum_of_powers(exponent: f64, first: u64, last: u64) -> f64 {
     sum.total()
 }
 
-/// A derivative of f(k) = k^exponent at the first and the last k that are not summed directly.
+/// Derivative of f(k) = k^exponent at `low` and `high`, the first and the last k of the
+/// Euler-Maclaurin formula.
 struct Derivative {
     low: f64,
     high: f64,
@@ -77,10 +81,10 @@ impl Derivative {
     }
 }
 
-/// Returns ∫ q^power dq from `low` to `high`. The result is also accurate for a power near −1.
+/// Returns ∫ q^power dq from `low` to `high`. The result is accurate even if the power is near −1.
 pub fn integral_of_power(power: f64, low: f64, high: f64) -> f64 {
     let s = power + 1.0;
-    // For neighbouring ends their quotient would lose significant digits.
+    // This form of ln(high/low) keeps all significant digits if `low` and `high` are nearly equal.
     let ratio = ((high - low) / low).ln_1p();
     if (s * ratio).abs() > 1.0 {
         return (high.powf(s) - low.powf(s)) / s;

@@ -2,15 +2,15 @@
 
 use crate::text::{SI_PREFIXES, shown, si_prefix};
 
-/// Number of significant digits of a quantity in text for readers.
+/// Number of significant digits with which quantities are shown to users.
 const DIGITS: usize = 4;
 
-/// An SI unit, with the words of a message about a wrong unit.
+/// SI unit, and the texts with which an error message about a wrong unit names it.
 struct Dimension {
     unit: &'static str,
-    /// Name of the unit in messages, such as "unit of length".
+    /// Name of the unit in error messages, such as "unit of length".
     name: &'static str,
-    /// Units that a message proposes.
+    /// Units that the error message proposes.
     proposed: &'static str,
 }
 
@@ -70,12 +70,12 @@ impl QuantityError {
     }
 }
 
-/// Parses a typed number and converts it to the SI unit `unit`: `50m` for J/m² is 0.05, `10um` for
-/// m is 1.0e-5.
+/// Parses a typed number and converts it to the SI unit `unit`. For example, `50m` for J/m² gives
+/// 0.05, and `10um` for m gives 1.0e-5.
 ///
-/// The text may omit the unit. An `m` alone after the number is the prefix milli, but for the unit
-/// `m` it is the metre: `50m` is then fifty metres. An angle may be in degrees, `30°` or `30 deg`.
-/// If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
+/// The text may omit the unit. A single `m` after the number is the prefix milli. But if `unit` is
+/// `m`, it is the metre, so that `50m` means fifty metres. An angle may be in degrees, `30°` or `30
+/// deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -101,8 +101,8 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, QuantityError> {
         .ok_or_else(|| QuantityError::too_large(typed))
 }
 
-/// Appends a unit to a typed number that has none: `50` with the unit `mJ/m²` becomes `50 mJ/m²`.
-/// Other texts stay unchanged.
+/// Appends `unit` to a typed number that has no unit. For example, `50` with the unit `mJ/m²`
+/// becomes `50 mJ/m²`. Other texts remain unchanged.
 pub fn in_unit(typed: &str, unit: &str) -> String {
     let number = typed.trim();
     let has_no_unit =
@@ -114,8 +114,8 @@ pub fn in_unit(typed: &str, unit: &str) -> String {
     }
 }
 
-/// Returns the unit of a formatted quantity, with its prefix: `mJ/m²` for `50 mJ/m²`. For a number
-/// without a unit it returns an empty text.
+/// Returns the unit of a formatted quantity, including its prefix: `mJ/m²` for `50 mJ/m²`. Returns
+/// an empty text if there is no unit.
 pub fn unit_of(shown: &str) -> &str {
     shown
         .trim_start_matches(['=', ' '])
@@ -123,18 +123,18 @@ pub fn unit_of(shown: &str) -> &str {
         .map_or("", |(_, unit)| unit)
 }
 
-/// Parts of a typed number such as `2.5e3 MPa`.
+/// Parts of a typed number with a unit, such as `2.5e3 MPa`.
 struct TypedNumber<'a> {
-    /// Sign, digits and point, such as `2.5`.
+    /// Sign, digits and decimal point, such as `2.5`.
     digits: &'a str,
-    /// Exponent of ten, such as 3.
+    /// Exponent of ten, such as 3 for `e3`.
     exponent: i32,
     /// The rest of the text, such as ` MPa`.
     suffix: &'a str,
 }
 
 impl<'a> TypedNumber<'a> {
-    /// Splits a text that begins with a number. Returns `None` for any other text.
+    /// Splits a text that begins with a number into these parts. Returns `None` for any other text.
     fn read(text: &'a str) -> Option<Self> {
         let signless = text.trim_start_matches(['+', '-', '−']);
         let sign = &text[..text.len() - signless.len()];
@@ -157,9 +157,10 @@ impl<'a> TypedNumber<'a> {
         })
     }
 
-    /// Returns the value in the unit to which `conversion` leads; `None` if it is too large.
+    /// Returns the value after the conversion; `None` if the value is too large.
     fn converted(&self, conversion: Conversion) -> Option<f64> {
-        // The prefix goes into the decimal exponent: 100 nm is then 1.0e-7 exactly as if typed so.
+        // The prefix changes the decimal exponent before the text is parsed. Therefore 100 nm gives
+        // exactly the same value as 1.0e-7 m.
         let exponent = self.exponent.checked_add(conversion.power_of_ten)?;
         let scaled: f64 = format!("{}e{exponent}", self.digits).parse().ok()?;
         let value = scaled * conversion.factor;
@@ -168,7 +169,8 @@ impl<'a> TypedNumber<'a> {
 }
 
 /// Splits a text such as `e3 MPa` into its exponent and the rest. Returns `None` if the text does
-/// not begin with an exponent: an `e` has digits after it, while an `E` alone is the prefix exa.
+/// not begin with an exponent: the `e` of an exponent has digits after it, whereas an `E` without
+/// digits is the prefix exa.
 fn split_exponent(text: &str) -> Option<(i32, &str)> {
     let signed = text.strip_prefix(['e', 'E'])?;
     let unsigned = signed.strip_prefix(['+', '-']).unwrap_or(signed);
@@ -179,7 +181,7 @@ fn split_exponent(text: &str) -> Option<(i32, &str)> {
         return None;
     }
     let (exponent, rest) = signed.split_at(signed.len() - unsigned.len() + digits);
-    // An exponent with too many digits for an integer makes the number zero or too large.
+    // If the exponent has too many digits for an integer, the number is zero or too large.
     let beyond = if signed.starts_with('-') {
         i32::MIN / 2
     } else {
@@ -188,7 +190,7 @@ fn split_exponent(text: &str) -> Option<(i32, &str)> {
     Some((exponent.parse().unwrap_or(beyond), rest))
 }
 
-/// Conversion of a number to an SI unit: a power of ten, and a further factor.
+/// Conversion of a number to an SI unit: multiplication by a power of ten and by another factor.
 #[derive(Clone, Copy)]
 struct Conversion {
     power_of_ten: i32,
@@ -196,7 +198,7 @@ struct Conversion {
 }
 
 impl Conversion {
-    /// Returns the conversion of a number with a suffix such as `MPa` to the SI unit `unit`.
+    /// Returns the conversion to the SI unit `unit` for a number with a suffix such as `MPa`.
     /// Returns `None` if the suffix belongs to another unit.
     fn to_unit(unit: &str, suffix: &str) -> Option<Self> {
         let suffix = canonical(suffix);
@@ -248,24 +250,25 @@ impl Conversion {
     }
 }
 
-/// Returns true for the unit `1` of numbers, which may also be empty.
+/// Returns true for the unit of plain numbers, which is `1` or empty.
 fn is_unit_of_numbers(unit: &str) -> bool {
     unit == "1" || unit.is_empty()
 }
 
-/// Returns a unit in one spelling: `J/m²`, `J/m^2` and `J / m2` become the same.
+/// Returns a unit in a common spelling. For example, `J/m²`, `J/m^2` and `J / m2` all become
+/// `J/m2`.
 fn canonical(unit: &str) -> String {
     unit.replace('²', "2").replace(['^', ' '], "")
 }
 
-/// Returns true if a unit may have an SI prefix. In a power of a metre the power would apply to the
-/// prefix too.
+/// Returns true if a unit may have an SI prefix. Powers of a metre such as m³ may not, because the
+/// power would apply to the prefix too.
 fn has_prefixes(unit: &str) -> bool {
     !unit.contains(['−', '(', '³'])
 }
 
-/// Formats a value with its unit for readers, to four significant digits: `2.67 MPa`, `100 nm`,
-/// `50 mJ/m²`, `0.7`.
+/// Formats a value with its unit, to four significant digits: `2.67 MPa`, `100 nm`, `50 mJ/m²`,
+/// `0.7`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_quantity(2.356e-5, "N"), "23.56 µN");
@@ -274,26 +277,27 @@ pub fn format_quantity(value: f64, unit: &str) -> String {
     format_rounded(value, DIGITS, unit)
 }
 
-/// Magnitude below which a quantity with a unit is written as zero. It is far below the smallest
-/// prefix, so only rounding errors are as small.
+/// Absolute value, in the SI unit, below which a quantity with a unit is written as zero. It is far
+/// below the smallest prefix, so that only rounding errors are smaller.
 const ROUNDING: f64 = 1e-36;
 
 /// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
-    // The number next to zero is a state just after a jump at zero.
+    // Plain numbers are written as zero only below the smallest normal number, because the state
+    // just after a jump at zero may have the number next to zero.
     let least = if is_unit_of_numbers(unit) {
         f64::MIN_POSITIVE
     } else {
         ROUNDING
     };
     let value = if value.abs() < least { 0.0 } else { value };
-    // Rounded first, so that 999.99 becomes 1000 before the choice of its prefix.
+    // The value is rounded before its prefix is chosen, so that 999.99 nm becomes 1 µm.
     let decimals = digits.clamp(1, DIGITS) - 1;
     with_unit(value, &format!("{value:.decimals$e}"), unit)
 }
 
-/// Formats a value with its unit, rounded to the second significant digit of its `uncertainty`,
-/// which is not written: `50.05 mJ/m²` for ± 0.13 mJ/m².
+/// Formats a value with its unit. The value is rounded to the second significant digit of its
+/// `uncertainty`, which is not written: `50.05 mJ/m²` for an uncertainty of 0.13 mJ/m².
 ///
 /// ```
 /// assert_eq!(asperity_data::format_within(0.050_123, 0.001, "J/m²"), "50.1 mJ/m²");
@@ -311,7 +315,7 @@ pub fn format_within(value: f64, uncertainty: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:.*e}", digits - 1), unit)
 }
 
-/// Formats a range with its unit, to `digits` significant digits: `0.33 to 35 µN`.
+/// Formats a range of values with their unit, to `digits` significant digits: `0.33 to 35 µN`.
 ///
 /// ```
 /// assert_eq!(asperity_data::format_range((1.23e-6, 4.56e-6), 2, "N"), "1.2 to 4.6 µN");
@@ -324,7 +328,8 @@ pub fn format_range(range: (f64, f64), digits: usize, unit: &str) -> String {
     ])
 }
 
-/// Joins the two formatted ends of a range to one text, in which a common unit is written once.
+/// Joins the two formatted ends of a range to one text. If both ends have the same unit, the unit
+/// is written once.
 pub fn one_unit(ends: [String; 2]) -> String {
     let [low, high] = ends;
     if low == high {
@@ -339,12 +344,14 @@ pub fn one_unit(ends: [String; 2]) -> String {
     format!("{low} to {high}")
 }
 
-/// Formats a value with its unit and all its digits. [`parse_quantity`] reads the same value back.
+/// Formats a value with its unit and with all its digits, so that [`parse_quantity`] returns
+/// exactly the same value.
 pub fn exact_quantity(value: f64, unit: &str) -> String {
     with_unit(value, &format!("{value:e}"), unit)
 }
 
-/// Formats a value with the usual prefix of its unit. `scientific` has its digits and exponent.
+/// Formats a value with the usual prefix of its unit. `scientific` is the value in scientific
+/// notation, with the digits to be shown.
 fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     let is_number = is_unit_of_numbers(unit);
     let unit_after = if is_number {
@@ -368,8 +375,8 @@ fn with_unit(value: f64, scientific: &str, unit: &str) -> String {
     format!("{}{unit_after}", decimal(mantissa, exponent))
 }
 
-/// Formats a mantissa times a power of ten, with an exponent if the number is much smaller or
-/// larger than one.
+/// Formats a mantissa times a power of ten. The text has an exponent only if the number is much
+/// smaller or larger than one.
 fn decimal(mantissa: &str, exponent: i32) -> String {
     match exponent {
         -3..6 => shifted(mantissa, exponent),
@@ -377,11 +384,13 @@ fn decimal(mantissa: &str, exponent: i32) -> String {
     }
 }
 
-/// Formats a mantissa with one digit before the point times a power of ten, without trailing zeros.
+/// Formats a mantissa times a power of ten without an exponent and without trailing zeros. The
+/// mantissa has one digit before the decimal point.
 fn shifted(mantissa: &str, power: i32) -> String {
     let sign = if mantissa.starts_with('-') { "-" } else { "" };
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-    // A point before the first digit needs zeros in front, one after the last digit zeros after it.
+    // If the decimal point comes before the first digit, zeros are put in front. If it comes after
+    // the last digit, zeros are appended.
     let zeros_before = usize::try_from(-power).unwrap_or(0);
     let zeros_after = usize::try_from(power + 1 - digits.len() as i32).unwrap_or(0);
     let digits = "0".repeat(zeros_before) + &digits + &"0".repeat(zeros_after);
@@ -390,7 +399,8 @@ fn shifted(mantissa: &str, power: i32) -> String {
     trimmed(&format!("{sign}{whole}.{fraction}"))
 }
 
-/// Removes the zeros at the end of the decimals, and a point without decimals.
+/// Removes trailing zeros after a decimal point, and the decimal point if no digits remain after
+/// it.
 fn trimmed(number: &str) -> String {
     if number.contains('.') {
         number
@@ -561,7 +571,7 @@ mod tests {
         }
     }
 
-    /// The prefixes of the SI that a field may need, by their powers of ten.
+    /// Each SI prefix is the power of a thousand that its place in the list says.
     #[test]
     fn prefixes_are_powers_of_a_thousand() {
         for (place, prefix) in "y z a f p n µ m _ k M G T P E".split(' ').enumerate() {

@@ -1,8 +1,8 @@
-//! Reading of files that users name. Only regular files up to a largest size are read.
+//! Reading of files that users name. Only regular files up to a given size are read.
 //!
-//! To open a pipe would wait for its writer, to open a terminal for its user, and a device may
-//! never end. The size that the system states for a file may be zero or too small, so the bytes
-//! that are read are counted.
+//! Other files are refused, because opening a pipe would wait for its writer, opening a terminal
+//! would wait for its user, and a device may never end. The bytes that are read are counted,
+//! because the size that the system states for a file may be zero or too small.
 
 use std::fs::{File, OpenOptions};
 use std::io;
@@ -19,10 +19,10 @@ pub enum ReadError {
     /// The path is a pipe, a socket, a terminal or another device.
     #[error("this is not a regular file")]
     NotRegular,
-    /// The file is a NumPy array where a scene is expected.
+    /// The file is a NumPy array, where a scene is expected.
     #[error("an array of NumPy holds no scene; allowed: a scene, or a table of results in CSV")]
     Array,
-    /// The file is longer than allowed.
+    /// The file is longer than the caller allows.
     #[error("longer than {limit} bytes; allowed: at most {limit} bytes")]
     TooLong {
         /// Largest allowed length in bytes.
@@ -31,15 +31,15 @@ pub enum ReadError {
     /// The bytes are not text in UTF-8.
     #[error("this is not UTF-8 text: byte {byte} is not")]
     NotText {
-        /// Index of the first invalid byte.
+        /// Index of the first byte that is not valid in UTF-8.
         byte: usize,
     },
-    /// The system refused to read, or there is not enough memory for the content.
+    /// The system refused to read the file, or there is not enough memory for the content.
     #[error("cannot be read: {}", reason(.0))]
     Failed(#[from] io::Error),
 }
 
-/// Message of the system, in plain words where the file is missing.
+/// Message of the system, but in plain words if the file does not exist.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -47,16 +47,17 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// Opens a regular file for reading. Returns an error at once for a pipe, a terminal or another
-/// device.
+/// Opens a regular file for reading. For a pipe, a terminal or another device, it returns an error
+/// at once.
 pub fn open_regular(path: &Path) -> Result<File, ReadError> {
-    // Opening a device can have effects on it, and opening a pipe wakes its writer: only a regular
-    // file is opened, as far as its kind is known in advance.
+    // Opening a device can have effects on it, and opening a pipe wakes its writer. Therefore the
+    // kind of the file is checked before it is opened.
     check_regular(&path.metadata()?)?;
     let mut options = OpenOptions::new();
     options.read(true);
-    // Opening returns at once, as does reading of files such as `/proc/kmsg`, which the system
-    // reports as regular although they are not. A terminal does not become that of the process.
+    // `NONBLOCK`: opening and reading return at once, even for files such as `/proc/kmsg`, which
+    // the system wrongly reports as regular. `NOCTTY`: a terminal does not become the controlling
+    // terminal of the process.
     #[cfg(unix)]
     {
         use rustix::fs::OFlags;
@@ -64,15 +65,17 @@ pub fn open_regular(path: &Path) -> Result<File, ReadError> {
         options.custom_flags((OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed());
     }
     let file = options.open(path)?;
-    // Another file may have taken the name meanwhile.
+    // Another file may have got this name between the check and the opening, so the kind is checked
+    // again.
     check_regular(&file.metadata()?)?;
     Ok(file)
 }
 
-/// Reads a regular file. A file of more than `limit` bytes is an error.
+/// Reads a regular file. Returns an error if the file has more than `limit` bytes.
 pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     let file = open_regular(path)?;
-    // A longer file is refused before it is read; one may also grow while it is read.
+    // A file that is too long is refused before it is read. `read_limited` also refuses a file that
+    // grows too long while it is read.
     if file.metadata()?.len() > limit as u64 {
         Err(ReadError::TooLong { limit })
     } else {
@@ -80,16 +83,16 @@ pub fn read_regular(path: &Path, limit: usize) -> Result<Vec<u8>, ReadError> {
     }
 }
 
-/// Reads a regular file as text in UTF-8. A file of more than `limit` bytes is an error.
+/// Reads a regular file as text in UTF-8. Returns an error if the file has more than `limit` bytes.
 pub fn read_regular_text(path: &Path, limit: usize) -> Result<String, ReadError> {
     into_text(read_regular(path, limit)?)
 }
 
-/// Reads a stream, such as standard input, to its end. A stream of more than `limit` bytes is an
-/// error.
+/// Reads a stream, such as standard input, to its end. Returns an error if the stream has more than
+/// `limit` bytes.
 pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    // One more byte distinguishes a file of the limit from a longer one.
+    // Reading one byte beyond the limit shows whether the stream is longer than the limit.
     source.take(limit as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > limit {
         Err(ReadError::TooLong { limit })
@@ -98,7 +101,8 @@ pub fn read_limited(source: impl Read, limit: usize) -> Result<Vec<u8>, ReadErro
     }
 }
 
-/// Converts bytes in UTF-8 to text without a copy.
+/// Converts bytes in UTF-8 to text, without copying them. Returns an error if the bytes are not
+/// valid UTF-8.
 pub fn into_text(bytes: Vec<u8>) -> Result<String, ReadError> {
     String::from_utf8(bytes).map_err(|error| ReadError::NotText {
         byte: error.utf8_error().valid_up_to(),

@@ -1,7 +1,7 @@
 //! Tables of results, written as CSV, as a NumPy array or as JSON objects.
 //!
-//! A CSV file begins with comments that state how the table was made. A NumPy array has one field
-//! for each column.
+//! A CSV file begins with comments that say how the table was made. A NumPy array has one field for
+//! each column.
 
 use super::npy;
 use serde::ser::{Serialize, Serializer};
@@ -15,15 +15,15 @@ use std::rc::Rc;
 /// Type of the values in a column of a [`Table`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A real number.
+    /// Real numbers.
     Real,
-    /// An integer of at least 0.
+    /// Integers of at least 0.
     Whole,
-    /// Text of at most this many characters.
+    /// Texts of at most this many characters.
     Text(usize),
 }
 
-/// Function that returns the value of a column for a row.
+/// Function that returns the entry of a column in a given row.
 type ValueOf<'a, T> = Box<dyn Fn(&T) -> Value + 'a>;
 
 /// Function that returns an iterator over all rows.
@@ -32,13 +32,13 @@ type Rows<'a, T> = Rc<dyn Fn() -> Box<dyn Iterator<Item = T> + 'a> + 'a>;
 /// A table of results with named columns, to be written as CSV, as a NumPy array or as JSON.
 pub struct Table<'a> {
     columns: Vec<(Cow<'static, str>, Kind)>,
-    /// Counts the rows without computing their values, which may take time.
+    /// Counts the rows without computing their values, because computing them may take time.
     count: Box<dyn Fn() -> usize + 'a>,
     rows: Rows<'a, Vec<Value>>,
 }
 
-/// A table to which columns can still be added, begun by [`Table::of`]. [`TableOf::done`] returns
-/// the finished [`Table`].
+/// Table to which columns can still be added. [`Table::of`] begins it, and [`TableOf::done`]
+/// returns the finished [`Table`].
 pub struct TableOf<'a, T> {
     rows: Rows<'a, T>,
     columns: Vec<(Cow<'static, str>, Kind)>,
@@ -46,7 +46,7 @@ pub struct TableOf<'a, T> {
 }
 
 impl<'a> Table<'a> {
-    /// Begins a table that has no columns yet. Each call of `rows` returns an iterator over all
+    /// Begins a table that has no columns yet. Each call of `rows` must return an iterator over all
     /// rows.
     pub fn of<T, I: Iterator<Item = T> + 'a>(rows: impl Fn() -> I + 'a) -> TableOf<'a, T> {
         TableOf {
@@ -58,8 +58,8 @@ impl<'a> Table<'a> {
 }
 
 impl<'a, T: 'a> TableOf<'a, T> {
-    /// Adds a column whose entry in each row is computed by `value`. A missing entry is empty in
-    /// CSV, `null` in JSON and NaN in an array.
+    /// Adds a column. For each row, `value` returns the entry of the column. A missing entry is
+    /// empty in CSV, `null` in JSON and NaN in a NumPy array.
     pub fn with<V: Into<Value>>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -71,17 +71,18 @@ impl<'a, T: 'a> TableOf<'a, T> {
         self
     }
 
-    /// Adds a column of real numbers, whose entry in each row is computed by `value`.
+    /// Adds a column of real numbers. For each row, `value` returns the entry of the column.
     pub fn real<V: Into<Value>>(self, name: &'static str, value: impl Fn(&T) -> V + 'a) -> Self {
         self.with(name, Kind::Real, value)
     }
 
-    /// Adds a column of integers of at least 0, whose entry in each row is computed by `value`.
+    /// Adds a column of integers of at least 0. For each row, `value` returns the entry of the
+    /// column.
     pub fn whole(self, name: &'static str, value: impl Fn(&T) -> u64 + 'a) -> Self {
         self.with(name, Kind::Whole, value)
     }
 
-    /// Ends the construction and returns the table.
+    /// Returns the finished table.
     pub fn done(self) -> Table<'a> {
         let rows = self.rows;
         let values = Rc::new(self.values);
@@ -103,13 +104,13 @@ impl Table<'_> {
         &self.columns
     }
 
-    /// Returns an iterator that computes the rows one by one. A row has one value for each column.
+    /// Returns an iterator that computes one row at a time. A row has one value for each column.
     pub fn rows(&self) -> impl Iterator<Item = Vec<Value>> {
         (self.rows)()
     }
 
-    /// Writes the table as CSV. The lines of `provenance` come first, as comments that state how
-    /// the table was made.
+    /// Writes the table as CSV. The lines of `provenance`, which say how the table was made, come
+    /// first as comments.
     pub fn write_csv(&self, out: &mut dyn Write, provenance: &str) -> io::Result<()> {
         for line in provenance.lines() {
             writeln!(out, "# {line}")?;
@@ -148,7 +149,7 @@ impl Table<'_> {
 }
 
 impl Kind {
-    /// Returns the type of the values in the notation of NumPy.
+    /// Returns the type of the values in NumPy's notation.
     fn numpy_type(self) -> String {
         match self {
             Kind::Real => "<f8".to_owned(),
@@ -158,8 +159,8 @@ impl Kind {
     }
 }
 
-/// Writes a value as the bytes of a NumPy array. A value of another kind than its column is an
-/// error.
+/// Writes a value as it is stored in a NumPy array. Returns an error if the value does not have the
+/// type `kind` of its column.
 fn write_binary(out: &mut dyn Write, value: &Value, kind: Kind) -> io::Result<()> {
     match (kind, value) {
         (Kind::Real, Value::Null) => out.write_all(&f64::NAN.to_le_bytes()),
@@ -196,7 +197,8 @@ fn push_cell(line: &mut String, value: &Value) {
     };
 }
 
-/// Returns a CSV cell, in quotes by RFC 4180 if it contains a separator, a quote or a line break.
+/// Returns a text as a CSV cell. If it contains a separator, a quotation mark or a line break, it
+/// is put in quotation marks as in RFC 4180.
 fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\"")).into()
@@ -215,7 +217,7 @@ impl Serialize for Table<'_> {
     }
 }
 
-/// A row that is written as a JSON object.
+/// Row of a table, to be written as a JSON object.
 struct RowObject<'a> {
     columns: &'a [(Cow<'static, str>, Kind)],
     values: Vec<Value>,

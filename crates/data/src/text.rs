@@ -1,14 +1,15 @@
-//! Text for readers: SI prefixes, grouped digits, and the escape of text from files and arguments.
+//! Text for users: SI prefixes, grouped digits, line breaks, and the replacement of control
+//! characters.
 //!
-//! A control character can clear a screen, write to the clipboard or invalidate the XML of a
-//! picture. A bidirectional control changes the apparent order of text. Both are replaced by their
-//! codes; all other characters are kept.
+//! Control characters in files and arguments can clear a screen, write to the clipboard or make the
+//! XML of a picture invalid. Bidirectional control characters change the apparent order of text.
+//! Both kinds are replaced by their codes. All other characters are kept.
 
 use std::borrow::Cow;
 use std::path::Path;
 
-/// SI prefixes that are read, with their powers of ten. Of several prefixes for a power, the first
-/// one is written.
+/// SI prefixes that can be read, with their powers of ten. If several prefixes have the same power,
+/// the first of them is written.
 pub(crate) const SI_PREFIXES: &[(&str, i32)] = &[
     ("y", -24),
     ("z", -21),
@@ -49,7 +50,7 @@ pub fn round_to(value: f64, digits: usize) -> f64 {
         .unwrap_or(value)
 }
 
-/// Returns the smallest number of four significant digits that is not below `value`.
+/// Returns `value` rounded up to four significant digits.
 pub fn rounded_up(value: f64) -> f64 {
     let nearest = round_to(value, 4);
     let last_digit = 10.0_f64.powi((value.abs().log10().floor() as i32).saturating_sub(3));
@@ -60,8 +61,8 @@ pub fn rounded_up(value: f64) -> f64 {
     }
 }
 
-/// Returns true for a character that could change how other text is displayed, such as a control or
-/// bidirectional control.
+/// Returns true for a character that could change how other text is displayed, such as a control
+/// character, a bidirectional control character or an invisible character.
 pub fn is_control(c: char) -> bool {
     let bidirectional = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let invisible = matches!(
@@ -84,8 +85,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
     escaped(text, |c| is_control(c) && c != '\n')
 }
 
-/// Returns a path as text on one line, in which control characters are replaced as by
-/// [`printable`].
+/// Returns a path as text on one line. Control characters are replaced as by [`printable`].
 pub fn path_name(path: &Path) -> String {
     printable(&path.to_string_lossy()).into_owned()
 }
@@ -105,7 +105,7 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// Formats an integer with a blank between groups of three digits.
+/// Formats an integer with blanks between groups of three digits.
 ///
 /// ```
 /// assert_eq!(asperity_data::grouped(131_072), "131 072");
@@ -135,8 +135,8 @@ pub fn memory_size(bytes: u64) -> String {
     format!("{size:.decimals$} {}", units[unit])
 }
 
-/// Formats a relative error in per cent: 0.02 becomes `2 %`. An error below 0.001 % becomes
-/// `< 0.001 %`, and an error above 100 % becomes `> 100 %`.
+/// Formats a relative error or deviation in per cent: 0.02 becomes `2 %`. A value below 0.001 %
+/// becomes `< 0.001 %`, and a value above 100 % becomes `> 100 %`.
 pub fn per_cent(error: f64) -> String {
     let per_cent = 100.0 * error;
     if per_cent > 100.0 {
@@ -154,22 +154,23 @@ pub fn per_cent(error: f64) -> String {
     }
 }
 
-/// Units, without prefixes, that stay on one line with the number before them.
+/// Units, without prefixes, before which a line is not broken if a number precedes them.
 const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 
-/// Returns true for one of [`UNITS`], with or without a prefix, also if punctuation follows.
+/// Returns true for one of the [`UNITS`], with or without a prefix. Punctuation after the unit is
+/// ignored.
 fn is_unit(word: &str) -> bool {
     let word = word.trim_end_matches([',', ';', ':', '.', ')']);
     let without_prefix = word.strip_prefix([
         'q', 'r', 'y', 'z', 'a', 'f', 'p', 'n', 'µ', 'm', 'k', 'M', 'G', 'T', 'P', 'E',
     ]);
-    // The i belongs to a binary prefix, such as Ki.
+    // The letter i belongs to a binary prefix, such as Ki.
     let without_prefix = without_prefix.map(|unit| unit.trim_start_matches('i'));
     UNITS.contains(&word) || without_prefix.is_some_and(|unit| UNITS.contains(&unit))
 }
 
-/// Returns true if a line must not break between a word and the next one, as inside `16 384` or
-/// before a unit.
+/// Returns true if no line break is allowed between a word and the next word: inside a number such
+/// as `16 384`, and before a unit.
 pub fn belong_together(word: &str, next: &str) -> bool {
     let digits = next.trim_end_matches([',', ';', ':', '.', ')']);
     let is_group = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
@@ -205,7 +206,7 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             room -= 1;
         }
         for (index, character) in word.chars().enumerate() {
-            // A line has at least one character.
+            // A line contains at least one character, even if `width` is 0.
             if index > 0 && room == 0 {
                 lines.push(std::mem::take(&mut line));
                 room = width;
@@ -218,11 +219,11 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Number of characters after which a message cuts a value or a name.
+/// Number of characters after which [`shown`] cuts a value or a name.
 const MOST_SHOWN: usize = 80;
 
-/// Returns text from a file or a user as messages repeat it: on one line, cut after 80 characters,
-/// with control characters replaced as by [`printable`].
+/// Returns text from a file or a user in the form in which messages repeat it. The text is on one
+/// line and cut after 80 characters, and control characters are replaced as by [`printable`].
 pub fn shown(text: &str) -> String {
     let start: String = text.chars().take(MOST_SHOWN).collect();
     let end = if start.len() < text.len() { "…" } else { "" };
@@ -265,7 +266,8 @@ mod tests {
 
     #[test]
     fn ordinary_text_of_any_script_stays() {
-        // A joiner is part of the spelling of Persian, Hindi and families of emoji.
+        // The joiner characters are not replaced, because they belong to the spelling of Persian
+        // and Hindi and to compound emoji.
         for text in [
             "κ* = 0.6 µm",
             "نمونه\u{200c}ها",

@@ -1,18 +1,20 @@
-//! Cells of a line of text: how columns are separated, and how numbers are written.
+//! Cells of a line of text: the separators of columns, and the notation of numbers.
 
 use crate::text_lines::TextFault;
 
-/// Separator of the columns of a text table: a semicolon, a tab, a comma, or white space.
+/// Character that separates the columns of a text table: a semicolon, a tab, a comma, or white
+/// space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Separator(char);
 
 impl Separator {
-    /// White space: the columns are separated by any number of blanks and tabs.
+    /// White space: any number of blanks and tabs separates two columns.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator of a line of numbers: a semicolon if there is one, else a tab, else a
-    /// comma, else white space. If each word between blanks is a number with a comma inside, as in
-    /// `0,5 1,25`, white space is the separator.
+    /// Finds the separator in a line of numbers. It is the first of these that the line contains
+    /// outside quotation marks: a semicolon, a tab, a comma. Otherwise it is white space. White
+    /// space is also the separator if every word between blanks is a number and a comma occurs only
+    /// inside numbers, as in `0,5 1,25`.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -27,8 +29,8 @@ impl Separator {
         Separator::SPACE
     }
 
-    /// Splits a line, which must have no blanks at its ends, into columns. Separators within
-    /// quotation marks do not split the line.
+    /// Splits a line into its columns. The line must not begin or end with blanks. Separators
+    /// inside quotation marks do not split the line.
     pub fn split(self, line: &str) -> impl Iterator<Item = &str> {
         let is_spaced = self == Separator::SPACE;
         let mut is_outside = outside_quotes();
@@ -46,8 +48,8 @@ impl Separator {
     }
 }
 
-/// Returns a function that is called for the characters of a line in turn. It returns true outside
-/// quotation marks.
+/// Returns a function to be called with each character of a line in turn. The function returns true
+/// if the character is outside quotation marks.
 fn outside_quotes() -> impl FnMut(char) -> bool {
     let mut is_inside = false;
     move |c| {
@@ -56,8 +58,8 @@ fn outside_quotes() -> impl FnMut(char) -> bool {
     }
 }
 
-/// Returns true for two or more words that are numbers with the same decimal mark, and with commas
-/// only inside words.
+/// Returns true if the line consists of two or more numbers, separated by blanks, that have the
+/// same decimal mark and contain commas only between digits.
 fn has_decimal_commas(line: &str) -> bool {
     let mut decimal = Decimal::default();
     for word in line.split_ascii_whitespace() {
@@ -70,7 +72,7 @@ fn has_decimal_commas(line: &str) -> bool {
     line.split_ascii_whitespace().count() > 1
 }
 
-/// Returns true for a word without a comma, or with digits on both sides of its first comma.
+/// Returns true if a word contains no comma, or if its first comma is between two digits.
 fn has_digits_around_comma(word: &str) -> bool {
     let Some((before, after)) = word.split_once(',') else {
         return true;
@@ -84,49 +86,51 @@ fn has_digits_around_comma(word: &str) -> bool {
 pub enum TextCell {
     /// A number.
     Number(f64),
-    /// An empty cell, or a mark of a missing point such as `NaN`.
+    /// An empty cell, or a text such as `NaN` that marks a missing point.
     Missing,
-    /// A number whose decimal mark differs from the numbers before it, such as `0,5` after `0.5`.
+    /// A number whose decimal mark differs from the decimal mark of earlier numbers, such as `0,5`
+    /// after `0.5`.
     OtherMark,
     /// Text that cannot be read as a number.
     NoNumber,
 }
 
-/// Marks of missing points, besides an empty cell and `NaN`.
+/// Texts that mark a missing point, in addition to an empty cell and `NaN`.
 const MISSING: [&str; 9] = [
     "bad", "missing", "void", "n/a", "#n/a", "--", "---", "***", "*",
 ];
 
-/// Text that states which decimal marks and separators of thousands the numbers in a text table may
-/// have. Messages about a cell with [`TextCell::OtherMark`] contain it.
+/// Text that says which decimal marks and thousands separators are allowed in a text table. It is
+/// part of the error message for [`TextCell::OtherMark`].
 pub const ONE_MARK: &str =
     "one decimal mark throughout, and no separators of thousands but spaces or apostrophes";
 
-/// Characters that separate thousands. A comma or a point may also be a decimal mark.
+/// Characters that can separate thousands. A comma or a point can also be a decimal mark.
 const GROUPING: [char; 8] = [
     ',', '.', ' ', '\u{a0}', '\u{2009}', '\u{202f}', '\'', '\u{2019}',
 ];
 
-/// Reader of the numbers in a text table. It takes the decimal mark and the separator of thousands
-/// from the first numbers that have them.
+/// Reader of the numbers in a text table. The first number with a decimal mark determines the
+/// decimal mark of the table, and the first number with a thousands separator determines this
+/// separator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decimal {
-    /// Decimal mark.
+    /// Decimal mark; `None` as long as no number has one.
     mark: Option<char>,
-    /// Comma or point that separates thousands. A number with both marks, as `1,234.5`, or with two
-    /// groups, as `1,234,567`, determines it.
+    /// Comma or point, if it separates thousands. A number with two different marks, such as
+    /// `1,234.5`, or with two groups, such as `1,234,567`, shows this.
     group: Option<char>,
-    /// True after a number whose comma cannot separate thousands, as `0,5`.
+    /// True if a number has been read whose comma cannot separate thousands, such as `0,5`.
     is_certain: bool,
-    /// True after a number without a decimal mark.
+    /// True if a number without a decimal mark has been read.
     has_whole: bool,
 }
 
 impl Decimal {
-    /// Reads the content of a cell. The first number with a decimal mark determines the mark of all
-    /// numbers after it.
+    /// Reads the content of a cell. The first number with a decimal mark determines the decimal
+    /// mark of all later numbers.
     pub fn read(&mut self, cell: &str, separator: Separator) -> TextCell {
-        // The minus sign of spreadsheets and papers.
+        // Spreadsheets and papers use this character as minus sign.
         if cell.contains('\u{2212}') {
             return self.read(&cell.replace('\u{2212}', "-"), separator);
         }
@@ -156,7 +160,7 @@ impl Decimal {
         self.take(value, Some(','))
     }
 
-    /// Reads a number whose thousands are separated.
+    /// Reads a number that contains thousands separators.
     fn read_grouped(&mut self, number: &Grouped, separator: Separator) -> TextCell {
         let mark = Some(number.group).filter(|mark| [',', '.'].contains(mark));
         if mark.is_some() && mark == self.mark {
@@ -166,7 +170,7 @@ impl Decimal {
         self.read(&number.ungrouped, separator)
     }
 
-    /// Returns a value with this decimal mark, unless the numbers before have another one.
+    /// Returns the value, or [`TextCell::OtherMark`] if earlier numbers have another decimal mark.
     fn take(&mut self, value: f64, mark: Option<char>) -> TextCell {
         if value.is_nan() {
             return TextCell::Missing;
@@ -182,8 +186,8 @@ impl Decimal {
         TextCell::Number(value)
     }
 
-    /// Returns an error if the numbers read so far leave open whether their commas are decimal
-    /// marks or separate thousands, as in `1,234`.
+    /// Returns an error if the commas in the numbers read so far can be decimal marks as well as
+    /// thousands separators, as in `1,234`.
     pub fn check(&self) -> Result<(), TextFault> {
         let is_doubtful = self.mark == Some(',') && self.has_whole && !self.is_certain;
         if is_doubtful {
@@ -194,22 +198,23 @@ impl Decimal {
     }
 }
 
-/// Returns true for a number such as `1,234`, whose comma may separate thousands.
+/// Returns true for a number such as `1,234`, in which the comma can separate thousands.
 fn may_be_grouped(cell: &str) -> bool {
     Grouped::read(cell, Some(',')).is_some_and(|number| number.group == ',')
 }
 
-/// A number whose thousands are separated.
+/// A number that contained thousands separators.
 struct Grouped {
-    /// The number without the marks that separate its thousands.
+    /// The number without its thousands separators.
     ungrouped: String,
-    /// The mark that separates the thousands.
+    /// The thousands separator.
     group: char,
 }
 
 impl Grouped {
-    /// Reads a number whose thousands are separated; `None` for other text. A single comma or point
-    /// separates thousands if it is the mark `known`, or if a decimal mark follows.
+    /// Reads a number that contains thousands separators; `None` for any other text. A comma or a
+    /// point that occurs only once is a thousands separator if it is equal to `known`, or if a
+    /// decimal mark follows it.
     fn read(cell: &str, known: Option<char>) -> Option<Self> {
         let unsigned = cell.trim_start_matches(['+', '-']);
         let sign = &cell[..cell.len() - unsigned.len()];
@@ -299,7 +304,7 @@ mod tests {
         }
     }
 
-    /// A mark that may be a decimal mark separates thousands where it cannot be one.
+    /// A comma or a point is a thousands separator if it cannot be a decimal mark.
     #[test]
     fn thousands_are_separated_where_no_mark_is_doubtful() {
         use TextCell::{NoNumber, Number, OtherMark};
@@ -329,11 +334,12 @@ mod tests {
                 "\"1,234.5\",\"2,345\"",
                 vec![Number(1234.5), Number(2345.0)],
             ),
-            // A decimal mark that was found before or is found behind it.
+            // The comma contradicts a decimal mark that was found in an earlier number or is found
+            // in a later one.
             ("0.5;1,234", vec![Number(0.5), OtherMark]),
             ("1,234;1,234.5", vec![Number(1.234), OtherMark]),
             ("1,234.5;0,5", vec![Number(1234.5), OtherMark]),
-            // Groups of other lengths.
+            // Groups with fewer or more than three digits.
             (
                 "1 23;1,2345.6;0,123.4;1234,567.8;1,234,56",
                 vec![NoNumber; 5],
@@ -343,13 +349,13 @@ mod tests {
         }
     }
 
-    /// `1,234` among numbers without a comma is 1.234 or 1234.
+    /// If the other numbers have no comma, `1,234` can mean 1.234 or 1234.
     #[test]
     fn doubtful_commas_are_refused() {
         for (line, is_doubtful) in [
             ("999;1,234", true),
             ("999;-1,234;5;2,345", true),
-            // Numbers of three decimals throughout, and commas that can only be decimal marks.
+            // Either all numbers have three decimals, or some commas can only be decimal marks.
             ("1,234;2,345", false),
             ("999;1,234;0,123", false),
             ("999;1,234;2,5", false),

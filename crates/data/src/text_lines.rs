@@ -6,14 +6,15 @@ use encoding_rs::{Encoding, UTF_8, WINDOWS_1252};
 use std::borrow::Cow;
 use thiserror::Error;
 
-/// Characters, one of which begins each comment in a text table.
+/// Characters that begin a comment in a text table.
 pub const COMMENT: [char; 3] = ['#', '%', '!'];
 
-/// Reason why a text cannot be read as a table. Lines count from 1, the bytes of a line from 0.
+/// Reason why a text cannot be read as a table. Lines are counted from 1, and the bytes of a line
+/// from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum TextFault {
-    /// A byte is zero, which no text contains.
+    /// The text contains a zero byte, so it is not text.
     #[error("line {line}: byte {byte} of the line is zero, so this is no text")]
     NotText {
         /// Number of the line, from 1.
@@ -27,8 +28,7 @@ pub enum TextFault {
         /// Number of the line, from 1.
         line: usize,
     },
-    /// It cannot be decided whether the commas in the numbers are decimal marks or separate
-    /// thousands.
+    /// The commas in the numbers can be decimal marks as well as thousands separators.
     #[error("each comma in a number may be a decimal mark or separate thousands, as in 1,234")]
     DoubtfulCommas,
     /// There is not enough memory to convert the text to UTF-8.
@@ -37,12 +37,13 @@ pub enum TextFault {
 }
 
 impl TextFault {
-    /// Largest length in bytes of a line that is read.
+    /// Largest length of a line in bytes.
     pub const LONGEST_LINE: usize = 1 << 24;
 }
 
-/// Calls `take` for each line of a text, with the number of the line from 1, and the line without
-/// white space around it. The comments above a CSV table of results are skipped.
+/// Calls `take` for each line of a text. The arguments are the number of the line, counted from 1,
+/// and the line without white space at its ends. The comments at the beginning of a CSV file of
+/// results are skipped.
 ///
 /// # Errors
 /// Returns the error of `take`, or a [`TextFault`] if the bytes cannot be read as text.
@@ -55,7 +56,7 @@ pub fn each_line<E: From<TextFault>>(
     let mut in_provenance = false;
     for (index, line) in text.split(|byte| *byte == end_of_line).enumerate() {
         let line = line_text(line, index + 1)?;
-        // An empty line does not end the comments above a table.
+        // Empty lines between the comments at the beginning of the file do not end these comments.
         if !line.is_empty() {
             let continues = in_provenance || line.starts_with(PROVENANCE);
             in_provenance = continues && line.starts_with(COMMENT);
@@ -67,8 +68,8 @@ pub fn each_line<E: From<TextFault>>(
     Ok(())
 }
 
-/// Returns the bytes of a text without its byte order mark. UTF-16 becomes UTF-8, with U+FFFD for
-/// invalid characters.
+/// Returns the bytes of a text without the byte order mark. UTF-16 is converted to UTF-8, and
+/// invalid characters become U+FFFD.
 fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     let (encoding, mark) = Encoding::for_bom(bytes).unwrap_or((UTF_8, 0));
     let text = &bytes[mark..];
@@ -80,8 +81,8 @@ fn decoded(bytes: &[u8]) -> Result<Cow<'_, [u8]>, OutOfMemory> {
     Ok(Cow::Owned(decoded.into_owned().into_bytes()))
 }
 
-/// Returns a line as UTF-8, without white space around it. Invalid UTF-8 is read as Windows-1252,
-/// in which older programs write µ and °.
+/// Returns a line as UTF-8, without white space at its ends. If the line is not valid UTF-8, it is
+/// read as Windows-1252, in which older programs write µ and °.
 fn line_text(text: &[u8], line: usize) -> Result<Cow<'_, str>, TextFault> {
     if text.len() > TextFault::LONGEST_LINE {
         return Err(TextFault::LongLine { line });

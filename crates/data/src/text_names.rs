@@ -4,28 +4,30 @@ use crate::text_cells::{Decimal, Separator, TextCell};
 use crate::text_lines::COMMENT;
 use std::collections::VecDeque;
 
-/// Largest number of characters of an unknown unit in round brackets.
+/// A text in round brackets with fewer characters than this counts as a unit, even if it is not a
+/// known unit.
 const LONGEST_UNIT: usize = 5;
 
-/// Meaning of a column in a text file, which the name of the column states.
+/// Meaning of a column in a text file, according to the name of the column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// The name of the column states no meaning that is known.
+    /// The name of the column has no known meaning.
     #[default]
     Unknown,
-    /// The column has positions along the first axis.
+    /// Positions along the first axis.
     X,
-    /// The column has positions along the second axis.
+    /// Positions along the second axis.
     Y,
-    /// The column has heights.
+    /// Heights.
     Height,
-    /// The column has the index of each point, which counts the points in the order of the file.
+    /// Indices of the points, in the order of the file.
     Number,
-    /// The column has 0 for a point that was not measured.
+    /// Validity: 0 for a point that was not measured.
     Valid,
 }
 
-/// Words in the names of columns, in the order of preference.
+/// Words that show the meaning of a column if they occur in its name. Earlier words in the list are
+/// preferred.
 const ROLES: [(Role, &str); 6] = [
     (Role::X, "x"),
     (Role::Y, "y"),
@@ -51,11 +53,11 @@ pub struct TextColumn {
     pub name: String,
     /// Meaning of the column.
     pub role: Role,
-    /// Unit of the column as the file writes it; `None` if the file states none.
+    /// Unit of the column as it is written in the file; `None` if the file does not state a unit.
     pub unit: Option<String>,
 }
 
-/// Number of last lines in which names of columns are searched.
+/// Number of lines before the table of numbers that are searched for names of columns.
 const LAST_LINES: usize = 64;
 
 /// The last lines (at most 64) of a text file before its table of numbers. One of these lines may
@@ -64,7 +66,7 @@ const LAST_LINES: usize = 64;
 pub struct HeadLines(VecDeque<String>);
 
 impl HeadLines {
-    /// Adds a line. The characters [`COMMENT`] at the beginning of the line are left out.
+    /// Adds a line. The [`COMMENT`] characters at the beginning of the line are removed.
     pub fn take(&mut self, line: &str) {
         if self.0.len() == LAST_LINES {
             self.0.pop_front();
@@ -73,10 +75,12 @@ impl HeadLines {
             .push_back(line.trim_start_matches(COMMENT).trim().to_owned());
     }
 
-    /// Returns the name, the meaning and the unit of each of `count` columns, from the last line
-    /// that has a name for each column and from a line of units below it. A line may have up to
-    /// `cells` cells, of which empty ones are ignored. If no line has names, all names are empty.
-    /// `is_unit` returns true for known units.
+    /// Returns the name, the meaning and the unit of each of `count` columns.
+    /// * The names come from the last line that has a name for each column. If there is no such
+    ///   line, all names are empty.
+    /// * The units come from these names, or from a line of units below them. `is_unit` returns
+    ///   true for known units.
+    /// * A line may have up to `cells` cells. The cells beyond `count` are ignored.
     pub fn columns(
         &self,
         count: usize,
@@ -105,7 +109,8 @@ impl HeadLines {
                     continue;
                 }
             }
-            // Indices of points often have no name, or a sign that begins a comment.
+            // Often the column of the indices has no name, or its name is a sign that begins a
+            // comment.
             if let [first, _, ..] = &mut columns[..]
                 && first.name.is_empty()
                 && has_known_names
@@ -120,7 +125,7 @@ impl HeadLines {
         columns
     }
 
-    /// Returns true if one of the lines equals this text.
+    /// Returns true if one of the lines is equal to `text`.
     pub fn has_line(&self, text: &str) -> bool {
         self.0.iter().any(|line| line == text)
     }
@@ -131,7 +136,8 @@ fn is_number(cell: &str) -> bool {
     matches!(content, TextCell::Number(_))
 }
 
-/// Adds a row of units. A known unit in the row replaces the unit beside a name.
+/// Adds units from a line of units. If a unit in this line is known, it replaces the unit in the
+/// name of the column.
 fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -> bool) {
     for (column, unit) in columns.iter_mut().zip(units) {
         if is_unit(&unit) || column.unit.is_none() && !unit.is_empty() {
@@ -140,17 +146,20 @@ fn add_units(columns: &mut [TextColumn], units: Vec<String>, is_unit: fn(&str) -
     }
 }
 
-/// Returns true if `word` is one of `words`, which are separated by blanks.
+/// Returns true if `word` is one of the words in `words`, which are separated by blanks.
 pub fn is_one_of(word: &str, words: &str) -> bool {
     words.split(' ').any(|listed| listed == word)
 }
 
-/// Returns the cells of a line of names, if there are `count` of them. With the separator of the
-/// numbers there may be up to `most`. Otherwise the line is split at its own separator, or after
-/// closing brackets.
+/// Returns the cells of a line that may contain the names of `count` columns; `None` if the line
+/// cannot be split into so many cells. The line is split in one of these ways, the first that fits:
+/// 1. at the separator of the numbers, where `count` to `most` cells are allowed and the excess is
+///    dropped,
+/// 2. at the separator of the line itself,
+/// 3. after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = without_key(line)?.trim();
-    // Between a name and its unit there may be a blank.
+    // A blank may stand between a name and its unit.
     let joined = line
         .replace(" [", "[")
         .replace(" (", "(")
@@ -167,8 +176,9 @@ fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Opti
     split_after_brackets(&joined).filter(|cells| cells.len() == count)
 }
 
-/// Returns what follows the key of a line such as `Columns: x, z`, or the whole line if it has no
-/// key. Returns `None` if the key announces something else than names.
+/// Returns the part of a line after its key, for example after `Columns:` in `Columns: x, z`. A
+/// line without a key is returned whole. Returns `None` if the key announces something other than
+/// names or units.
 fn without_key(line: &str) -> Option<&str> {
     let Some((key, cells)) = line.split_once([':', '=']) else {
         return Some(line);
@@ -176,8 +186,8 @@ fn without_key(line: &str) -> Option<&str> {
     is_one_of(&key.trim().to_lowercase(), "columns names fields units").then_some(cells)
 }
 
-/// Splits a line at a separator and leaves out the empty cells at its end. At white space the line
-/// `joined` is split, in which names are joined to their units.
+/// Splits a line at a separator, without empty cells at its end. If the separator is white space,
+/// `joined` is split instead: the same line without blanks between names and units.
 fn split_at(separator: Separator, line: &str, joined: &str) -> Vec<String> {
     let line = if separator == Separator::SPACE {
         joined
@@ -191,7 +201,7 @@ fn split_at(separator: Separator, line: &str, joined: &str) -> Vec<String> {
     cells
 }
 
-/// Splits a line after closing brackets. Returns `None` unless each cell ends with a bracket.
+/// Splits a line after each closing bracket. Returns `None` if a cell does not end with a bracket.
 fn split_after_brackets(line: &str) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     for piece in line.split_inclusive([']', ')']) {
@@ -211,16 +221,16 @@ fn bare(cell: &str) -> &str {
     cell.trim_matches(['[', ']', '(', ')', '"', ' '])
 }
 
-/// One way to divide the heading of a column into a name and a unit.
+/// A possible division of the heading of a column into a name and a unit.
 struct Division<'a> {
     name: &'a str,
     unit: &'a str,
-    /// True if the notation alone shows that this is a unit, so that it need not be known.
+    /// True if the notation alone shows that this is a unit, even if the unit is not known.
     is_stated: bool,
 }
 
-/// Lists the ways to divide the heading of a column into a name and a unit. The unit is in
-/// brackets, after a slash, or the last word, as in `Lateral um`.
+/// Lists the possible divisions of the heading of a column into a name and a unit. The unit may be
+/// in brackets, after a slash, or the last word, as in `Lateral um`.
 fn divisions(heading: &str) -> Vec<Division<'_>> {
     let mut divisions = Vec::new();
     for (place, bracket) in heading.match_indices(['[', '(']) {
@@ -241,7 +251,7 @@ fn divisions(heading: &str) -> Vec<Division<'_>> {
     }
     if let Some((name, unit)) = heading.rsplit_once([' ', '_']) {
         let word_before = name.rsplit(' ').next().unwrap_or_default();
-        // `Length 5 um` is a size.
+        // After a number, as in `Length 5 um`, the unit belongs to a size and not to the column.
         if !word_before.contains(|c: char| c.is_ascii_digit()) {
             divisions.push(Division {
                 name,
@@ -253,9 +263,9 @@ fn divisions(heading: &str) -> Vec<Division<'_>> {
     divisions
 }
 
-/// Returns name, meaning and unit from the heading of a column. An unknown unit is recognised in
-/// square brackets, after a slash, or as a short word in round brackets. Thus `height (measured)`
-/// is a name.
+/// Returns the name, the meaning and the unit in the heading of a column. A text that is not a
+/// known unit counts as a unit if it is in square brackets, after a slash, or a short word in round
+/// brackets. Therefore `height (measured)` as a whole is a name.
 fn column(heading: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     let divisions = divisions(heading);
     let division = divisions
@@ -270,7 +280,8 @@ fn column(heading: &str, is_unit: fn(&str) -> bool) -> TextColumn {
     }
 }
 
-/// Returns the meaning of a column by the words of its heading before the first bracket or slash.
+/// Returns the meaning of a column. It depends on the words of the heading before the first bracket
+/// or slash.
 fn role(heading: &str) -> Role {
     let name = heading.split(['[', '(', '/']).next().unwrap_or_default();
     let name = name.to_lowercase();

@@ -1,4 +1,5 @@
-//! Atomic writing of files. An existing file is replaced only on request.
+//! Writing of files as a whole: a file has either its old or its new content. An existing file is
+//! replaced only on request.
 
 use crate::text::path_name;
 use std::fs::{File, OpenOptions, Permissions};
@@ -9,7 +10,7 @@ use std::{fs, io};
 use tempfile::TempPath;
 use thiserror::Error;
 
-/// Size in bytes of the buffer for output.
+/// Size of the output buffer in bytes.
 const BUFFER: usize = 1 << 18;
 
 /// Beginning of the name of a temporary file.
@@ -17,13 +18,13 @@ const PREFIX: &str = ".asperity-";
 /// End of the name of a temporary file.
 const SUFFIX: &str = ".tmp";
 
-/// Age from which a temporary file that nobody holds locked is abandoned.
+/// Age at which a temporary file counts as abandoned, if no process holds a lock on it.
 const ABANDONED: Duration = Duration::from_secs(60);
 
 /// Reason why a file was not written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The file exists, and the caller did not ask to replace it.
+    /// The file already exists, and the caller did not ask to replace it.
     #[error("{}: there is a file of that name already", path_name(.0))]
     Exists(PathBuf),
     /// No file can be written at the path, for example because its folder does not exist.
@@ -34,12 +35,12 @@ pub enum WriteError {
         /// Reason why the file cannot be written.
         fault: String,
     },
-    /// The system refused to write.
+    /// The system refused to write the file.
     #[error("{}: cannot be written: {reason}", path_name(path))]
     Failed {
         /// Path of the file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error that the system returned.
         reason: io::Error,
     },
 }
@@ -60,8 +61,8 @@ impl WriteError {
     }
 }
 
-/// Returns an error unless [`write_new`] could write the file now, and leaves no file behind. A
-/// program calls this function before a long computation.
+/// Returns an error if [`write_new`] could not write the file now. Leaves no file behind. A program
+/// calls this function before a long computation whose result it will write.
 pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     if let Some(target) = Target::find(path, overwrite)? {
         temporary(&target.path)?;
@@ -69,8 +70,8 @@ pub fn check_writable(path: &Path, overwrite: bool) -> Result<(), WriteError> {
     Ok(())
 }
 
-/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe
-/// the function waits until another program reads it.
+/// Writes a regular file as [`write_new_file`] does, or writes into a pipe or a device. For a pipe,
+/// the function waits until another program reads from it.
 pub fn write_new(
     path: &Path,
     overwrite: bool,
@@ -86,8 +87,9 @@ pub fn write_new(
     fill(&mut stream, write).map_err(WriteError::failed(path))
 }
 
-/// Writes a regular file through a temporary file in the same folder. Other programs see the old
-/// file or the whole new one. An existing file is replaced only if `overwrite` is true.
+/// Writes a regular file. The content is first written to a temporary file in the same folder, so
+/// that other programs see either the old file or the complete new file. An existing file is
+/// replaced only if `overwrite` is true.
 pub fn write_new_file(
     path: &Path,
     overwrite: bool,
@@ -109,12 +111,13 @@ pub fn write_new_file(
             io::ErrorKind::AlreadyExists => WriteError::Exists(path.into()),
             _ => failed(reason),
         })?;
-    // The name has to be durable as well.
+    // The folder is synchronised too, so that the name of the file also survives a power cut.
     sync_folder(folder_of(&target.path)).map_err(failed)
 }
 
-/// Removes the temporary files that killed processes have left in a folder: those older than a
-/// minute that no process holds locked. Files that cannot be removed stay.
+/// Removes temporary files that killed processes have left in a folder. These are the temporary
+/// files that are older than a minute and on which no process holds a lock. Files that cannot be
+/// removed stay.
 pub fn remove_abandoned(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();
@@ -127,8 +130,8 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Returns true if no process writes into a temporary file. The process that makes such a file
-/// locks it just after its creation.
+/// Returns true if no process writes to a temporary file any more. A process locks its temporary
+/// file right after creating it.
 fn is_abandoned(path: &Path) -> bool {
     let Ok(file) = crate::read::open_regular(path) else {
         return false;
@@ -138,21 +141,23 @@ fn is_abandoned(path: &Path) -> bool {
     is_old && file.try_lock().is_ok()
 }
 
-/// A file that is being written. It is removed unless it gets a name.
+/// File that is being written. It is removed if it never gets its final name.
 struct Temporary {
     file: File,
-    /// Temporary path of the file; `None` on Linux, where the system removes the file however the
-    /// process ends.
+    /// Temporary path of the file; `None` on Linux, where the file has no name while it is written,
+    /// so that the system removes it even if the process is killed.
     name: Option<TempPath>,
 }
 
 impl Temporary {
-    /// Gives the file its final name. An existing file is replaced only if `overwrite` is true.
+    /// Gives the file its final name. If a file of this name exists, it is replaced if `overwrite`
+    /// is true; otherwise the function returns an error.
     fn persist(self, path: &Path, overwrite: bool) -> io::Result<()> {
         let name = match self.name {
             Some(name) => name,
             None => {
-                // A new file gets its name at once: at no time has it a temporary name.
+                // If no file of this name exists, the file gets its final name directly, and never
+                // has a temporary name.
                 match link(&self.file, path) {
                     Err(error) if error.kind() == io::ErrorKind::AlreadyExists && overwrite => {}
                     linked => return linked,
@@ -168,13 +173,13 @@ impl Temporary {
         } else {
             name.persist_noclobber(path)
         };
-        // The file is open, and locked, until here.
+        // Until here, the file has been open and locked.
         persisted.map_err(|error| error.error)
     }
 }
 
-/// An error of the package `tempfile` without the name of the temporary file, which it appends to
-/// its text.
+/// Returns an error of the package `tempfile` without the name of the temporary file, which the
+/// package appends to the message.
 fn without_path(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {
@@ -187,7 +192,7 @@ fn without_path(error: io::Error) -> io::Error {
 fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     let folder = folder_of(path);
     if let Some(file) = unnamed(folder) {
-        // Locked as long as it may have a temporary name, see `is_abandoned`.
+        // The file is locked, because it may later get a temporary name. See `is_abandoned`.
         let _ = file.try_lock();
         return Ok(Temporary { file, name: None });
     }
@@ -213,15 +218,14 @@ fn temporary(path: &Path) -> Result<Temporary, WriteError> {
     })
 }
 
-/// Begins the names of temporary files.
+/// Returns a builder for the names of temporary files.
 fn names() -> tempfile::Builder<'static, 'static> {
     let mut names = tempfile::Builder::new();
     names.prefix(PREFIX).suffix(SUFFIX);
     names
 }
 
-/// Makes a file without a name in a folder; `None` where the system or the file system has no such
-/// files.
+/// Creates a file without a name in a folder; `None` if the file system has no such files.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Option<File> {
     use rustix::fs::{CWD, Mode, OFlags, openat};
@@ -235,11 +239,11 @@ fn unnamed(_: &Path) -> Option<File> {
     None
 }
 
-/// Folder in which the open files of this process have names.
+/// Folder in which each open file of this process has a name.
 #[cfg(target_os = "linux")]
 const DESCRIPTORS: &str = "/proc/self/fd";
 
-/// Gives a name to a file that [`unnamed`] has made.
+/// Gives a name to a file that [`unnamed`] has created.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -253,7 +257,7 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Waits until the names of the files in the folder `path` have been written to the disk.
+/// Waits until the system has written the names of the files in the folder `path` to the disk.
 pub fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     let path = if path.as_os_str().is_empty() {
@@ -263,7 +267,7 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
     };
     match File::open(path).and_then(|folder| folder.sync_all()) {
         // Some systems cannot open a folder, some folders may not be read, and some file systems
-        // cannot synchronise one: there, names are as safe as the system makes them.
+        // cannot synchronise a folder. In these cases nothing more can be done for the names.
         Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => {
             Ok(())
         }
@@ -271,14 +275,14 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the folder of a file.
+/// Returns the folder that contains a file.
 fn folder_of(path: &Path) -> &Path {
     path.parent()
         .filter(|folder| *folder != Path::new(""))
         .unwrap_or(Path::new("."))
 }
 
-/// Writes the content of a file through a buffer.
+/// Writes the content of a file through a buffer. `write` produces the content.
 fn fill(
     file: &mut (impl Write + Send),
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -288,16 +292,17 @@ fn fill(
     buffered.flush()
 }
 
-/// Place of a regular file that may be written.
+/// Regular file that may be written.
 struct Target {
-    /// Path of the file, without links.
+    /// Path of the file, with symbolic links resolved.
     path: PathBuf,
-    /// Permissions of the file, if it exists.
+    /// Permissions of the file, if it already exists.
     permissions: Option<Permissions>,
 }
 
 impl Target {
-    /// Finds the file to which `path` leads through links. Returns `None` for a pipe or a device.
+    /// Finds the file to which `path` leads, through symbolic links. Returns `None` for a pipe or a
+    /// device.
     fn find(path: &Path, overwrite: bool) -> Result<Option<Self>, WriteError> {
         let ends_as_folder = path.to_string_lossy().ends_with(std::path::is_separator);
         let found = fs::metadata(path);
@@ -321,24 +326,25 @@ impl Target {
             let fault = "this file may not be written";
             return Err(WriteError::unsuitable(path, fault));
         }
-        // A link is kept, and its target is written.
+        // A symbolic link stays a link, and the file to which it leads is written.
         Ok(Target {
             path: fs::canonicalize(path).map_err(WriteError::failed(path))?,
             permissions: Some(found.permissions()),
         })
     }
 
-    /// Finds the target of a path at which the system has found no file for this `reason`.
+    /// Finds the file to be written if the system found no file at `path`. `reason` is the error of
+    /// the system.
     fn missing(
         path: &Path,
         reason: io::Error,
         overwrite: bool,
     ) -> Result<Option<Self>, WriteError> {
-        // A link to a file that does not exist counts as a file.
+        // A symbolic link counts as an existing file, even if it leads to no file.
         if !overwrite && fs::symlink_metadata(path).is_ok() {
             return Err(WriteError::Exists(path.into()));
         }
-        // A circle of links, for example, is another error.
+        // Other errors are returned, for example a circle of symbolic links.
         if reason.kind() != io::ErrorKind::NotFound {
             return Err(WriteError::failed(path)(reason));
         }
@@ -389,7 +395,7 @@ mod tests {
         let in_folder = || names_in(folder.path());
         let broken = |out: &mut (dyn Write + Send)| {
             out.write_all(&[b'x'; 2 * BUFFER])?;
-            // Nothing would stay if the process ended here.
+            // If the process ended here, no temporary file would remain.
             assert!(
                 !cfg!(target_os = "linux")
                     || !in_folder().iter().any(|name| name.ends_with(".tmp"))
@@ -422,7 +428,8 @@ mod tests {
         assert_eq!(names_in(folder.path()), ["curve.csv"]);
     }
 
-    /// A new file never has a temporary name, with which a kill could leave it.
+    /// A new file never has a temporary name. Therefore a process that is killed cannot leave a
+    /// temporary file behind.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_new_file_is_named_at_once() {
@@ -493,7 +500,7 @@ mod tests {
         remove_abandoned(&folder.path().join("missing"));
     }
 
-    /// The temporary file of an unfinished write is kept, however long the write takes.
+    /// The temporary file of an unfinished write is kept, no matter how long the write takes.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_being_named_is_not_abandoned() {
@@ -516,7 +523,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::set_permissions(folder.path(), Permissions::from_mode(0o500)).unwrap();
         let refused = check_writable(&folder.path().join("curve.csv"), false);
-        // The administrator may write everywhere.
+        // If the user of the test is the administrator, every folder can be written.
         if let Err(refused) = refused {
             let message = refused.to_string();
             assert!(

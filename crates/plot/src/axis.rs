@@ -6,7 +6,8 @@ use super::ticks::{Tick, are_plain, ticks};
 use asperity_data::AxisScale;
 use std::ops::Range;
 
-/// Largest numbers on a linear axis with which all numbers at the ticks have few digits.
+/// Range in which the largest number of a linear axis must lie, so that the numbers at the ticks
+/// have few digits.
 const SHORT: Range<f64> = 1e-3..1e6;
 
 /// Axis of a chart: a quantity with name, symbol and unit, and the scale and range of the numbers
@@ -14,8 +15,8 @@ const SHORT: Range<f64> = 1e-3..1e6;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChartAxis {
     pub scale: AxisScale,
-    /// Range of coordinates that the axis shows. A coordinate is the number itself on a linear
-    /// axis, and the decadic logarithm of the number on a logarithmic axis.
+    /// Range of coordinates that the axis shows. On a linear axis, the coordinate of a number is
+    /// the number itself. On a logarithmic axis, it is the decadic logarithm of the number.
     pub span: Span,
     /// Name of the quantity in words; may be empty.
     pub name: String,
@@ -23,8 +24,8 @@ pub struct ChartAxis {
     pub symbol: String,
     /// SI unit of the quantity without a prefix; `1` or empty for plain numbers.
     pub unit: String,
-    /// Names along the axis in place of numbers, at the coordinates 0, 1, 2 and so on. Empty for an
-    /// axis with numbers.
+    /// Names at the coordinates 0, 1, 2 and so on, which the axis shows instead of numbers. Empty
+    /// for an axis with numbers.
     pub names: Vec<Label>,
     /// True if the quantity is a count, so that the axis has ticks only at whole numbers.
     pub counts: bool,
@@ -43,8 +44,8 @@ impl ChartAxis {
         }
     }
 
-    /// Creates a linear axis with these names at the coordinates 0, 1, 2 and so on, in place of
-    /// numbers.
+    /// Creates a linear axis that shows these names, at the coordinates 0, 1, 2 and so on, instead
+    /// of numbers.
     pub fn of_names(names: Vec<Label>) -> ChartAxis {
         let span = Span {
             low: -0.5,
@@ -57,19 +58,19 @@ impl ChartAxis {
     }
 
     /// Returns the position of a number along the axis, from 0 at the lower end to 1 at the upper
-    /// end. For 0 or a negative number on a logarithmic axis the position is not finite.
+    /// end. On a logarithmic axis, the position of 0 or of a negative number is not finite.
     pub fn share(&self, number: f64) -> f64 {
         (self.scale.coordinate(number) - self.span.low) / self.span.width()
     }
 
-    /// Returns the divisor of the numbers at the ticks, and the unit of the divided numbers, such
-    /// as 1e-6 and `µN`.
+    /// Returns the divisor by which the axis divides its numbers before it shows them, and the unit
+    /// of the divided numbers: for example, 1e-6 and `µN`.
     pub fn prefix(&self) -> (f64, String) {
         let lowest = self.scale.number(self.span.low).abs();
         let highest = self.scale.number(self.span.high).abs();
         let largest = lowest.max(highest);
         if self.scale == AxisScale::Logarithmic {
-            // The prefix of a smaller number may give plain numbers in place of powers of ten.
+            // A smaller prefix may allow plain numbers instead of powers of ten.
             for thousands in 0..6 {
                 let (divisor, unit) = prefixed(&self.unit, largest / 1000_f64.powi(thousands));
                 if are_plain(self.span, divisor) {
@@ -88,7 +89,8 @@ impl ChartAxis {
         (10_f64.powi(power), unit.trim_end().to_owned())
     }
 
-    /// Returns the axis with its numbers divided by a unit with this symbol.
+    /// Returns the axis for numbers that are divided by `unit`. `symbol` is the symbol of this
+    /// unit.
     pub(super) fn over(&self, unit: f64, symbol: &str) -> ChartAxis {
         let divided = |coordinate: f64| self.scale.coordinate(self.scale.number(coordinate) / unit);
         ChartAxis {
@@ -102,8 +104,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the label of the axis: name and symbol, then the unit in brackets, which has the
-    /// prefix of [`Self::prefix`].
+    /// Returns the label of the axis: name, symbol and, in brackets, the unit with the prefix that
+    /// [`Self::prefix`] returns.
     ///
     /// ```
     /// use asperity_data::AxisScale;
@@ -125,8 +127,8 @@ impl ChartAxis {
         self.with_unit(Label::quantity(&self.name, &self.symbol))
     }
 
-    /// Returns the label of the axis. The name is omitted if the axis has a symbol and the label
-    /// would be wider than `most`, in units of the font size.
+    /// Returns the label of the axis. If the full label would be wider than `most` times the font
+    /// size, the label contains only the symbol (or the name, if there is no symbol) and the unit.
     pub(super) fn label_within(&self, most: f64) -> Label {
         let label = self.label_with_unit();
         if label.width() <= most {
@@ -136,8 +138,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns a short label of the axis: the symbol, or the name if there is no symbol, then the
-    /// unit in brackets.
+    /// Returns a short label of the axis: the symbol and, in brackets, the unit. If the axis has no
+    /// symbol, the name takes its place.
     pub fn symbol_with_unit(&self) -> Label {
         self.with_unit(self.symbol_or_name())
     }
@@ -155,8 +157,8 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the ticks of the axis: about `most` ticks with a number, and minor ticks without a
-    /// number between them. An axis with names has a tick at each name.
+    /// Returns the ticks of the axis. About `most` ticks have a number, and between them are minor
+    /// ticks without a number. An axis with names has one tick at each name.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         if !self.names.is_empty() {
             let named = self.names.iter().enumerate().map(|(index, name)| Tick {
@@ -165,7 +167,8 @@ impl ChartAxis {
             });
             return named.collect();
         }
-        // One or two more ticks, if with fewer ticks a single one would have a number.
+        // A single number does not show the scale, so up to two more ticks are tried until two
+        // ticks have a number.
         for count in most..=most + 2 {
             let ticks = self.ticks_with_numbers(count);
             let labelled = ticks.iter().filter(|tick| tick.label.is_some());
@@ -183,7 +186,8 @@ impl ChartAxis {
     }
 }
 
-/// Position in a chart as a horizontal and a vertical share, each from 0 to 1.
+/// Position in a chart: the horizontal and the vertical position, each from 0 (left or lower end of
+/// the axis) to 1 (right or upper end).
 pub(super) type Share = (f64, f64);
 
 #[derive(Clone, Copy)]
@@ -193,8 +197,8 @@ pub(super) struct Axes<'a> {
 }
 
 impl Axes<'_> {
-    /// Returns the position of a point, or the nearest position on the border for a point outside
-    /// the chart; `None` if the point has no coordinates.
+    /// Returns the position of a point in the chart. A point outside the chart gets the nearest
+    /// position on the border. `None` if x or y has no coordinate, such as 0 on a logarithmic axis.
     pub(super) fn place(self, point: (f64, f64)) -> Option<Share> {
         let (_, y) = point;
         if !self.y.share(y).is_finite() {
@@ -203,7 +207,8 @@ impl Axes<'_> {
         self.place_at_end(point)
     }
 
-    /// Returns the position of a point. A y without a coordinate is placed at the end of the axis.
+    /// Returns the position of a point in the chart. A y without a coordinate, such as 0 on a
+    /// logarithmic axis, gets the end of the vertical axis. `None` if x has no coordinate.
     pub(super) fn place_at_end(self, point: (f64, f64)) -> Option<Share> {
         let (x, y) = point;
         let across = self.x.share(x);
@@ -215,7 +220,8 @@ impl Axes<'_> {
         Some((across.clamp(0.0, 1.0), up))
     }
 
-    /// Returns the positions of points, divided into runs where a point has no coordinates.
+    /// Returns the positions of points as runs. A run is a list of successive points. A point
+    /// without a position, such as 0 on a logarithmic axis, ends a run.
     pub(super) fn runs(self, points: impl Iterator<Item = (f64, f64)>) -> Vec<Vec<Share>> {
         let mut runs = Vec::new();
         let mut run = Vec::new();
@@ -232,8 +238,9 @@ impl Axes<'_> {
         runs
     }
 
-    /// Returns the positions along an envelope through both ends of each column, beginning with the
-    /// end nearer to the previous point. A column outside the chart begins a new run.
+    /// Returns the positions along a line that passes through the lowest and the highest point of
+    /// each column. In each column the line begins with the point that is nearer to the end of the
+    /// previous column. A column outside the chart begins a new run.
     pub(super) fn envelope(self, x: (f64, f64), columns: &[Option<(f64, f64)>]) -> Vec<Vec<Share>> {
         let (from, to) = x;
         let mut points = Vec::with_capacity(2 * columns.len());
@@ -252,8 +259,9 @@ impl Axes<'_> {
         self.runs(points.into_iter())
     }
 
-    /// Returns the ends of a vertical or horizontal line across the chart at this number; `None` if
-    /// the line lies outside.
+    /// Returns the two ends of a line across the chart: a vertical line at x = `number` if
+    /// `is_vertical` is true, otherwise a horizontal line at y = `number`. `None` if the line lies
+    /// outside the chart.
     pub(super) fn guide(self, number: f64, is_vertical: bool) -> Option<[Share; 2]> {
         let axis = if is_vertical { self.x } else { self.y };
         let share = axis.share(number);

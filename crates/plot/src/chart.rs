@@ -6,7 +6,7 @@ use super::label::Label;
 use super::scale::Span;
 use asperity_data::AxisScale;
 
-/// Picture with one title, one or more charts in rows, and one legend for all charts.
+/// Picture with one title, one or more charts arranged in rows, and one legend for all charts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// Title of the figure; may be empty.
@@ -16,15 +16,15 @@ pub struct Figure {
     /// Charts of the figure, which are placed in rows from left to right.
     pub charts: Vec<Chart>,
     /// Width and height of the frame of each chart in px (1/96 inch). If [`Self::width`] is given,
-    /// only their ratio counts.
+    /// only the ratio of width to height is used.
     pub size: (f64, f64),
-    /// Lines that say how to compute the figure again: version, command and scene. Only an SVG
-    /// document contains them, as metadata.
+    /// Lines that say how to compute the figure again: version, command and scene. They are written
+    /// only into SVG documents, as metadata.
     pub origin: String,
-    /// Lines of text in a box below the legend, such as the numbers of the scene.
+    /// Lines of text in a box below the legend, such as the parameters of the scene.
     pub parameters: Vec<Label>,
     /// Width of the picture in px (1/96 inch), to which the frames are fitted. If it is `None`, the
-    /// frames have [`Self::size`].
+    /// frames have the size [`Self::size`].
     pub width: Option<f64>,
     /// Height of the picture in px (1/96 inch). If it is `None`, the picture is as high as the
     /// frames need.
@@ -70,8 +70,8 @@ impl Figure {
         }
     }
 
-    /// Creates a figure without a title from the charts of several figures. The headings of the
-    /// charts contain the titles and notes of the given figures.
+    /// Collects the charts of several figures in one figure without a title. The titles and notes
+    /// of the given figures become headings of the charts.
     pub fn of_panels(figures: Vec<Figure>) -> Figure {
         let size = figures.first().map_or(Figure::SMALL, |figure| figure.size);
         let mut charts = Vec::new();
@@ -95,8 +95,8 @@ impl Figure {
         }
     }
 
-    /// Keeps the charts with these letters, in the order of `letters`, such as `ac` for the first
-    /// and the third chart.
+    /// Returns the figure with only the charts that have these letters, in the order of `letters`.
+    /// For example, `ac` keeps the first and the third chart.
     ///
     /// # Errors
     /// Returns an error if a letter belongs to no chart, or if no letter is given. The error lists
@@ -120,7 +120,8 @@ impl Figure {
         ('a'..='z').take(self.charts.len()).collect()
     }
 
-    /// Returns the heading of a chart with its letter; `None` in a figure of one chart.
+    /// Returns the heading of a chart, which begins with the letter of the chart; `None` if the
+    /// figure has only one chart.
     pub(super) fn heading(&self, index: usize) -> Option<Label> {
         if self.charts.len() < 2 {
             return None;
@@ -130,7 +131,7 @@ impl Figure {
         Some(Label::plain(&format!("({letter}) ")).join(&chart.heading))
     }
 
-    /// Returns the entries of the legend of all charts. Layers of the same name share one entry.
+    /// Returns the entries of the legend of all charts. Layers of the same name share an entry.
     pub fn legend(&self) -> Vec<Entry> {
         Entry::of_charts(&self.charts)
     }
@@ -158,7 +159,7 @@ impl Chart {
         }
     }
 
-    /// Removes the name of each axis that has a symbol, so that the symbol alone labels the axis.
+    /// Removes the name of each axis that has a symbol, so that only the symbol labels the axis.
     pub fn with_symbols(mut self) -> Chart {
         for axis in [&mut self.x, &mut self.y] {
             if !axis.symbol.is_empty() {
@@ -168,9 +169,9 @@ impl Chart {
         self
     }
 
-    /// Divides the numbers on an axis and the numbers of the layers by a unit, for example F by
-    /// F_a,max. Each unit has a value and a symbol; `None` leaves an axis as it is. Heat maps are
-    /// not changed.
+    /// Divides the numbers on one or both axes, and the data of the layers, by a unit. For example,
+    /// this shows F/F_a,max instead of F. Each unit has a value and a symbol; `None` leaves the
+    /// axis as it is. The values of heat maps are not changed.
     pub fn over(mut self, x: Option<(f64, &str)>, y: Option<(f64, &str)>) -> Chart {
         let mut x_unit = 1.0;
         if let Some((unit, symbol)) = x {
@@ -188,7 +189,7 @@ impl Chart {
         self
     }
 
-    /// Returns the first heat map of the chart; `None` for a chart without one.
+    /// Returns the first heat map of the chart; `None` if the chart has no heat map.
     pub fn map(&self) -> Option<&HeatMap> {
         self.layers.iter().find_map(|layer| match &layer.shape {
             Shape::Map(map) => Some(map.as_ref()),
@@ -206,7 +207,7 @@ impl Chart {
     }
 }
 
-/// One set of data in a chart, such as a curve, with its name in the legend.
+/// Set of data in a chart, such as a curve, with its name in the legend.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Name in the legend. A layer with an empty name has no entry.
@@ -227,7 +228,7 @@ impl Shape {
         }
     }
 
-    /// Creates a curve that is drawn as a marker at each of these points (x, y), without a line.
+    /// Creates markers at these points (x, y), without a line.
     pub fn signs(points: Vec<(f64, f64)>, sign: Sign) -> Shape {
         Shape::Curve {
             points,
@@ -236,8 +237,8 @@ impl Shape {
         }
     }
 
-    /// Returns the points (x, y) of a curve, or the lowest and the highest point of each column of
-    /// a [`Shape::Envelope`]. For other shapes the list is empty.
+    /// Returns the points (x, y) of a curve. For a [`Shape::Envelope`], it returns the lowest and
+    /// the highest point of each column. For other shapes it returns an empty list.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Shape::Curve { points, .. } => points.clone(),
@@ -262,8 +263,7 @@ impl Shape {
         }
     }
 
-    /// Divides all numbers on the horizontal and on the vertical axis by a unit each. Heat maps are
-    /// not changed.
+    /// Divides each x by `x_unit` and each y by `y_unit`. Heat maps are not changed.
     fn divide(&mut self, x_unit: f64, y_unit: f64) {
         match self {
             Shape::Curve { points, .. } | Shape::Inside(points) => {
@@ -317,7 +317,7 @@ impl Layer {
 }
 
 /// Data of a layer, and the shape in which they are drawn. Each x is a number on the horizontal
-/// axis, each y on the vertical axis. A point that has no place on an axis, such as 0 on a
+/// axis, and each y a number on the vertical axis. A point without a coordinate, such as 0 on a
 /// logarithmic axis, interrupts a curve or a band.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
@@ -329,19 +329,19 @@ pub enum Shape {
         /// Marker at each point; `None` for no markers.
         sign: Option<Sign>,
     },
-    /// Area between two curves, as points (x, lower y, upper y).
+    /// Area between two curves. Each point is (x, lower y, upper y).
     Band(Vec<(f64, f64, f64)>),
-    /// Line with more points than a picture resolves. Only the lowest and the highest y in each of
-    /// many columns of equal width are kept.
+    /// Line with more points than a picture can show. The x axis is divided into many columns of
+    /// equal width, and only the lowest and the highest y in each column are kept.
     Envelope {
-        /// The x of the left edge of the first column, and of the right edge of the last column.
+        /// x at the left edge of the first column, and x at the right edge of the last column.
         x: (f64, f64),
         /// Lowest and highest y of each column; `None` where the line is interrupted.
         columns: Vec<Option<(f64, f64)>>,
     },
-    /// Area inside a closed line through these points.
+    /// Area inside the closed line through these points.
     Inside(Vec<(f64, f64)>),
-    /// Filled rectangles, each as (smallest x, largest x) and (smallest y, largest y).
+    /// Filled rectangles. Each is ((smallest x, largest x), (smallest y, largest y)).
     Boxes(Vec<((f64, f64), (f64, f64))>),
     /// Vertical line at this x from the lower to the upper end of the chart.
     Upright(f64),
@@ -357,10 +357,10 @@ pub enum Shape {
 pub enum Stroke {
     Solid,
     Dashed,
-    /// Dashes as short as the gaps.
+    /// Short dashes, as long as the gaps between them.
     Dotted,
     DashDotted,
-    /// Dots far apart.
+    /// Dots with large gaps.
     Sparse,
 }
 
@@ -377,25 +377,25 @@ pub enum Sign {
     Right,
     Cross,
     HollowDiamond,
-    /// Smallest marker of an output format, for curves of thousands of points.
+    /// Small dot, for curves with thousands of points.
     Point,
 }
 
 impl Sign {
-    /// Returns the marker for one of several curves of a chart, which have the numbers 0, 1, 2 and
-    /// so on.
+    /// Returns the marker of a curve in a chart with several curves. `number` counts these curves
+    /// from 0.
     pub fn of_series(number: usize) -> Sign {
         [Sign::Dot, Sign::Square, Sign::Up, Sign::Diamond, Sign::Ring][number % 5]
     }
 }
 
-/// Heat map: values on a grid over two axes, which are shown by colours, and the scale of these
-/// colours.
+/// Heat map: a grid of cells over two axes. The colour of each cell shows a value on a colour
+/// scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
-    /// For each column of cells, its number on the horizontal axis. The numbers ascend.
+    /// For each column of cells, the number on the horizontal axis. The numbers ascend.
     pub columns: Vec<f64>,
-    /// For each row of cells, its number on the vertical axis. The numbers ascend.
+    /// For each row of cells, the number on the vertical axis. The numbers ascend.
     pub rows: Vec<f64>,
     /// Values of the cells, row by row from the lower left; `None` for a cell without a value.
     pub values: Vec<Option<f64>>,
@@ -428,10 +428,10 @@ pub struct Class {
 /// Line in a heat map along which a quantity has a given value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contour {
-    /// Value of this quantity in each cell of the map, in the order of [`HeatMap::values`]; `None`
-    /// for a cell without a value.
+    /// Value in each cell of the map of the quantity that is constant along the line, in the order
+    /// of [`HeatMap::values`]; `None` for a cell without a value.
     pub field: Vec<Option<f64>>,
-    /// Value of this quantity along the line, in the same unit as [`Self::field`].
+    /// Value of the quantity along the line, in the same unit as [`Self::field`].
     pub level: f64,
     /// Name of the line in the legend.
     pub name: Label,
@@ -443,14 +443,15 @@ impl HeatMap {
         self.shades.at(self.key.share(value))
     }
 
-    /// Returns the number of the colour band of a value, from 0 for the lowest values to
-    /// [`Shades::BANDS`] − 1 for the highest.
+    /// Returns the index of the colour band that contains a value, from 0 for the lowest values to
+    /// [`Shades::BANDS`] − 1 for the highest values.
     pub fn shade(&self, value: f64) -> usize {
         ((self.key.share(value) * Shades::BANDS as f64) as usize).min(Shades::BANDS - 1)
     }
 
-    /// Returns the coordinates (see [`ChartAxis::span`]) of the borders of map cells along an axis,
-    /// with one cell around each of these values. There is one border more than there are values.
+    /// Returns the borders between the map cells along an axis, as coordinates (see
+    /// [`ChartAxis::span`]). There is one cell around each of `values`, so there is one more border
+    /// than values.
     pub fn borders(scale: AxisScale, values: &[f64]) -> Vec<f64> {
         let coordinates: Vec<f64> = values
             .iter()
@@ -471,7 +472,7 @@ impl HeatMap {
         [vec![before], between, vec![after]].concat()
     }
 
-    /// Returns the range of coordinates of an axis that has a map cell around each of these values.
+    /// Returns the range of coordinates of an axis that shows a map cell around each of `values`.
     pub fn span(scale: AxisScale, values: &[f64]) -> Span {
         let borders = HeatMap::borders(scale, values);
         Span {
@@ -481,7 +482,7 @@ impl HeatMap {
     }
 }
 
-/// Entry of a legend: a name, with the line, area or marker of each layer of this name.
+/// Entry of a legend: a name, and a sample of each line, area or marker of this name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     pub name: Label,
@@ -489,7 +490,7 @@ pub struct Entry {
     pub samples: Vec<(Ink, Sample)>,
 }
 
-/// What a legend shows before a name.
+/// Picture that a legend shows before a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sample {
     /// Line, marker, or a line with a marker on it.
@@ -498,7 +499,7 @@ pub enum Sample {
     Area,
     /// A filled area.
     Solid,
-    /// A line across the chart, vertical or horizontal.
+    /// Straight line across the whole chart, vertical or horizontal.
     Guide,
     /// The line of a [`Contour`].
     Contour,
@@ -507,7 +508,7 @@ pub enum Sample {
 }
 
 impl Entry {
-    /// Returns the legend entries for the layers of charts. Layers of the same name share one
+    /// Returns the legend entries for the layers of these charts. Layers of the same name share an
     /// entry.
     pub fn of_charts(charts: &[Chart]) -> Vec<Entry> {
         let mut entries = Vec::new();
@@ -525,7 +526,7 @@ impl Entry {
             };
             add_entry(&mut entries, name, *ink, sample);
         }
-        // Lines first: an area belongs to a line.
+        // Entries with areas come last, because an area belongs to a line.
         entries.sort_by_key(|entry| {
             entry
                 .samples
@@ -551,7 +552,8 @@ fn add_entries_of_map(entries: &mut Vec<Entry>, map: &HeatMap) {
     }
 }
 
-/// Adds a sample to the entry of this name. A layer without a name has no entry.
+/// Adds a sample to the entry of this name, or makes a new entry. If the name is empty, nothing is
+/// added.
 fn add_entry(entries: &mut Vec<Entry>, name: &Label, ink: Ink, sample: Sample) {
     if name.is_empty() {
         return;

@@ -15,21 +15,21 @@ const fn rgb<const N: usize>(colours: [u32; N]) -> [Rgb; N] {
     found
 }
 
-/// Colours of a figure, or of a screenshot as in [`screen_svg`](crate::screen_svg).
+/// Colours of a figure, or of a screenshot that [`screen_svg`](crate::screen_svg) draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
     /// Colour of text and frames.
     pub foreground: Rgb,
     /// Colour of the paper or the screen.
     pub background: Rgb,
-    /// The sixteen colours of a terminal in the order of ANSI: black, red, green, yellow, blue,
-    /// magenta, cyan, grey, then the bright variant of each.
+    /// The sixteen ANSI colours of a terminal: black, red, green, yellow, blue, magenta, cyan,
+    /// grey, then the bright variant of each.
     pub ansi: [Rgb; 16],
 }
 
 impl Palette {
-    /// Light colours on a dark background, which are also distinct to readers with red-green colour
-    /// blindness.
+    /// Light colours on a dark background. People with red-green colour blindness can distinguish
+    /// them.
     pub const DARK: Palette = Palette {
         foreground: [0xe1, 0xe6, 0xeb],
         background: [0x10, 0x15, 0x1b],
@@ -39,8 +39,8 @@ impl Palette {
         ]),
     };
 
-    /// Dark colours on a white background, which are also distinct to readers with red-green colour
-    /// blindness.
+    /// Dark colours on a white background. People with red-green colour blindness can distinguish
+    /// them.
     pub const LIGHT: Palette = Palette {
         foreground: [0x1b, 0x20, 0x26],
         background: [0xff, 0xff, 0xff],
@@ -51,8 +51,8 @@ impl Palette {
     };
 }
 
-/// Meaning of a line, area or text in a chart, such as loading. The colour of an ink depends on the
-/// output format.
+/// Meaning of a line, an area or a text in a chart. For example, `Loading` marks the curve of a
+/// loading. The output format determines the colour of each ink.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Ink {
     /// Text, frames and outlines.
@@ -71,14 +71,14 @@ pub enum Ink {
     Unloading,
     /// Force curve along which the user moves the body by hand, in the explorer.
     Manual,
-    /// Earlier curve that stays in the background while a new one is shown.
+    /// Earlier curve that stays visible in the background for comparison with the present curve.
     Kept,
-    /// One of several curves that are kept for comparison. The value is the number of this curve,
+    /// One of several curves that are kept for comparison. The value is the index of this curve,
     /// from 0.
     Compared(usize),
     /// State of the contact that the user selected with the cursor.
     Cursor,
-    /// One of several curves in a figure. The value is the number of this curve, from 0.
+    /// One of several curves in a figure. The value is the index of this curve, from 0.
     Series(usize),
 }
 
@@ -97,46 +97,47 @@ impl Ink {
             Ink::Unloading => ansi[5],
             Ink::Manual => ansi[6],
             Ink::Compared(number) => [ansi[4], ansi[6], ansi[3], ansi[8]][number % 4],
-            // Blue, red, black, green, magenta: neighbours differ in lightness.
+            // Blue, red, black, green, magenta. Neighbouring colours differ in lightness, so that
+            // they also differ in grey.
             Ink::Series(number) => [ansi[4], ansi[1], foreground, ansi[2], ansi[5]][number % 5],
         }
     }
 }
 
-/// Scale of colours for the values in a heat map, from low to high.
+/// Colour scale for the values of a heat map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Shades {
-    /// Colours from dark to light.
+    /// Colours from dark (lowest value) to light (highest value).
     Sequential,
-    /// Colours from blue over white to red, for a range with zero in the middle.
+    /// Colours from blue through white to red, for a range of values with zero in the middle.
     Diverging,
 }
 
-/// Viridis (van der Walt and Smith, 2015), sampled at equal distances. It is readable with
-/// red-green colour blindness, and its lightness is monotonic.
+/// Nine equidistant colours of the scale Viridis (van der Walt and Smith, 2015). Its lightness
+/// increases throughout, and people with red-green colour blindness can read it.
 const VIRIDIS: [Rgb; 9] = rgb([
     0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725,
 ]);
 
-/// Reversed RdBu of ColorBrewer (Brewer and Harrower, 2003), readable with red-green colour
-/// blindness.
+/// The scale RdBu of ColorBrewer in reverse order (Brewer and Harrower, 2003). People with
+/// red-green colour blindness can read it.
 const BLUE_TO_RED: [Rgb; 9] = rgb([
     0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7, 0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b,
 ]);
 
 impl Shades {
-    /// Number of bands of equal colour into which an SVG figure divides the colour scale.
+    /// Number of bands into which an SVG figure divides the colour scale. Each band has one colour.
     pub const BANDS: usize = 64;
 
-    /// Returns the colour of a band: one of [`Self::BANDS`] parts of the colour scale, counted from
-    /// 0 at the lowest values.
+    /// Returns the colour of a band. The bands are the [`Self::BANDS`] parts of the colour scale,
+    /// with indices from 0 at the lowest values.
     pub fn of_band(self, band: usize) -> Rgb {
         self.at((band as f64 + 0.5) / Shades::BANDS as f64)
     }
 
-    /// Returns nine colours at equal distances along the scale, from the lowest value to the
-    /// highest.
+    /// Returns nine colours at equal distances along the scale, from the lowest to the highest
+    /// value.
     pub fn colours(self) -> [Rgb; 9] {
         match self {
             Shades::Sequential => VIRIDIS,
@@ -145,7 +146,7 @@ impl Shades {
     }
 
     /// Returns the colour at a position on the scale, from 0 for the lowest value to 1 for the
-    /// highest. NaN has the colour of 0.
+    /// highest value. For NaN it returns the colour at 0.
     pub fn at(self, share: f64) -> Rgb {
         let colours = self.colours();
         let share = if share.is_nan() {
@@ -169,7 +170,7 @@ fn lightness([red, green, blue]: Rgb) -> f64 {
     (0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue)) / 255.0
 }
 
-/// Returns black or white, whichever is readable on this colour.
+/// Returns the colour of text on this background: black or white, whichever is easier to read.
 pub(super) fn ink_on(colour: Rgb) -> Rgb {
     if lightness(colour) > 0.5 {
         [0; 3]

@@ -1,4 +1,4 @@
-//! Lines on which a field on a grid has a given value, by marching squares.
+//! Lines along which a field on a grid has a given value, computed by marching squares.
 
 /// Point in coordinates of the grid.
 type Point = (f64, f64);
@@ -8,7 +8,7 @@ type Point = (f64, f64);
 struct Corner {
     x: f64,
     y: f64,
-    /// Value of the field less the level.
+    /// Value of the field minus the value along the line.
     excess: f64,
 }
 
@@ -18,10 +18,10 @@ impl Corner {
     }
 }
 
-/// Returns straight pieces of the line on which a field has the value `level`. The field is
-/// interpolated linearly along the edges of the grid, and pieces meet at their ends. A square with
-/// a missing corner has no piece. In a square that the line crosses twice, the mean of the corners
-/// decides how the crossings are connected.
+/// Returns the line along which a field has the value `level`, as straight pieces that meet at
+/// their ends. `field` has a value for each grid point, row by row, and is interpolated linearly
+/// along the edges of the grid. A grid square with a missing corner has no piece. If the line
+/// crosses a square twice, the mean of the corners decides how the crossings are connected.
 pub(super) fn contour(
     across: &[f64],
     up: &[f64],
@@ -39,7 +39,8 @@ pub(super) fn contour(
                     excess: value? - level,
                 })
             };
-            // Around the square, so that neighbours share an edge.
+            // The corners follow each other around the square, so that successive corners share an
+            // edge.
             let corners = [
                 corner(column - 1, row - 1),
                 corner(column, row - 1),
@@ -54,7 +55,7 @@ pub(super) fn contour(
     pieces
 }
 
-/// Adds the pieces of the line inside a square.
+/// Adds the pieces of the line inside a grid square to `pieces`.
 fn add_pieces(pieces: &mut Vec<[Point; 2]>, square: [Corner; 4]) {
     let [a, b, c, d] = square;
     let cuts: Vec<Point> = [cut(a, b), cut(b, c), cut(c, d), cut(d, a)]
@@ -65,7 +66,8 @@ fn add_pieces(pieces: &mut Vec<[Point; 2]>, square: [Corner; 4]) {
         [from, to] => pieces.push([from, to]),
         [south, east, north, west] => {
             let sum = square.iter().map(|corner| corner.excess).sum::<f64>();
-            // The corners on the side of the mean are connected.
+            // The line cuts off the two corners that do not lie on the same side of the level as
+            // the mean.
             if (sum < 0.0) == a.is_low() {
                 pieces.extend([[south, east], [north, west]]);
             } else {
@@ -76,12 +78,14 @@ fn add_pieces(pieces: &mut Vec<[Point; 2]>, square: [Corner; 4]) {
     }
 }
 
-/// Returns the point at which the line cuts the edge between two corners; `None` if it does not.
+/// Returns the point at which the line crosses the edge between two corners; `None` if it does not
+/// cross this edge.
 fn cut(from: Corner, to: Corner) -> Option<Point> {
     if from.is_low() == to.is_low() {
         return None;
     }
-    // Always from the lower corner, so that two squares compute the same point to the last bit.
+    // The interpolation starts at the lower corner, so that the two squares that share the edge
+    // compute the same point to the last bit.
     let (low, high) = if from.excess < to.excess {
         (from, to)
     } else {
@@ -114,7 +118,7 @@ mod tests {
         for (x, y) in pieces.concat() {
             assert!((x + y - 2.5).abs() < 1e-12, "{x} {y}");
         }
-        // From border to border.
+        // The line runs from border to border.
         let mut ends = loose(&pieces);
         ends.sort_by(|one, other| one.0.total_cmp(&other.0));
         assert_eq!(ends, [(0.0, 2.5), (2.5, 0.0)]);
@@ -135,7 +139,8 @@ mod tests {
                 .iter()
                 .all(|(x, y)| (x.hypot(*y) - 7.0_f64.sqrt()).abs() < 0.15)
         );
-        // A corner of squares crossed by the line.
+        // The missing point is a corner of squares that the line crosses, so the line is open
+        // there.
         hill[4 * 9 + 6] = None;
         assert_eq!(loose(&contour(&places, &places, &hill, 2.0)).len(), 2);
     }
@@ -147,7 +152,8 @@ mod tests {
             let lines = contour(&[0.0, 1.0], &[0.0, 1.0], &saddle(other), 0.0);
             assert_eq!(lines.len(), 2);
             let line = lines.iter().find(|line| line.contains(&expected)).unwrap();
-            // High corners are connected where the middle is high: each line cuts off a low one.
+            // If the middle is high, the high corners are connected, and each line cuts off a low
+            // corner.
             let cuts_low = line.iter().any(|point| point.0 == 1.0);
             assert_eq!(cuts_low, other > 1.0, "{lines:?}");
         }

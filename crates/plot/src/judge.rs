@@ -1,10 +1,11 @@
-//! Checks of drawn pictures for tests: their elements, and properties of every figure.
+//! Checks of drawn pictures in tests: lists of their elements, and properties that every figure
+//! must have.
 
 use super::label::Label;
 use roxmltree::Document;
 
-/// Returns the tags of an SVG document, each as its name with its attributes, and the whole text of
-/// the document. Panics if the document is not well-formed.
+/// Returns the tags of an SVG document and all its text. Each tag is a text with the name and the
+/// attributes of the element. Panics if the document is not well-formed.
 pub fn parsed(svg: &str) -> (Vec<String>, String) {
     let document = Document::parse(svg).unwrap();
     let mut elements = Vec::new();
@@ -21,16 +22,16 @@ pub fn parsed(svg: &str) -> (Vec<String>, String) {
     (elements, text)
 }
 
-/// Returns the elements of an SVG document whose tag has this name, such as `rect`, each with its
-/// attributes.
+/// Returns the elements of an SVG document that have this name, such as `rect`. Each is a text with
+/// the name and the attributes of the element.
 pub fn elements(svg: &str, tag: &str) -> Vec<String> {
     let (mut elements, _) = parsed(svg);
     elements.retain(|element| element.split(' ').next() == Some(tag));
     elements
 }
 
-/// Asserts that all numbers of an SVG document are finite, and that its texts lie within the
-/// picture and do not overlap.
+/// Asserts that all numbers in an SVG document are finite, that its texts lie within the picture,
+/// and that no two texts overlap.
 pub fn check_picture(svg: &str) {
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
     let paper = &elements(svg, "rect")[0];
@@ -50,7 +51,7 @@ pub fn check_picture(svg: &str) {
     }
 }
 
-/// Returns the words of a text element without its tags.
+/// Returns the text inside a text element, without tags.
 fn plain_words(elements: &str) -> String {
     let words: String = elements
         .split('<')
@@ -63,7 +64,7 @@ fn plain_words(elements: &str) -> String {
         .replace("&amp;", "&")
 }
 
-/// Approximate extent of a text in px.
+/// Approximate extent of a text, in px from the upper left corner of the picture.
 #[derive(Debug, PartialEq)]
 struct TextBox {
     left: f64,
@@ -109,8 +110,8 @@ impl TextBox {
     }
 }
 
-/// Returns the value of the attribute `name` of an SVG element as a number. `element` is one of the
-/// texts that [`elements`] returns. Returns NaN if the attribute is missing or is not a number.
+/// Returns the value of the attribute `name` of an SVG element. `element` is one of the texts that
+/// [`elements`] returns. Returns NaN if the attribute is missing or is not a number.
 pub fn attribute(element: &str, name: &str) -> f64 {
     let Some((_, rest)) = element.split_once(&format!(" {name}=\"")) else {
         return f64::NAN;

@@ -3,9 +3,9 @@
 use asperity_data::{format_rounded, grouped, printable, si_prefix};
 use std::fmt;
 
-/// Power of ten of the smallest SI prefix on an axis, femto.
+/// Power of ten of the smallest SI prefix on an axis: femto.
 const LEAST_POWER: i32 = -15;
-/// Power of ten of the largest SI prefix on an axis, giga.
+/// Power of ten of the largest SI prefix on an axis: giga.
 const LARGEST_POWER: i32 = 9;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,11 +16,11 @@ pub(crate) enum Face {
     Exponent,
 }
 
-/// Blank at which no line breaks, written as an ordinary blank.
+/// Blank at which no line is broken. It is drawn as an ordinary blank.
 const FIXED: char = '\u{a0}';
 
-/// Text in a figure, which can have italic symbols, indices and exponents. Its `to_string` returns
-/// plain text such as `F_a`.
+/// Text in a figure, which can contain italic symbols, indices and exponents. `to_string` returns
+/// it as plain text, such as `F_a`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Label {
     runs: Vec<(Face, String)>,
@@ -34,8 +34,8 @@ impl Label {
         label
     }
 
-    /// Creates a label of a symbol, such as `F_a,max`: letters in italics, and the text after `_`
-    /// as an index.
+    /// Creates a label from a symbol, such as `F_a,max`. Letters become italic, and the text after
+    /// `_` becomes an index.
     pub fn symbol(text: &str) -> Label {
         let mut label = Label::default();
         let text = printable(text);
@@ -56,7 +56,7 @@ impl Label {
         label
     }
 
-    /// Creates a label of the name and the symbol of a quantity, each of which may be empty.
+    /// Creates a label from the name and the symbol of a quantity. Each of them may be empty.
     ///
     /// ```
     /// assert_eq!(asperity_plot::Label::quantity("preload", "F_n").to_string(), "preload F_n");
@@ -70,8 +70,8 @@ impl Label {
         Label::plain(name).then(space).join(&Label::symbol(symbol))
     }
 
-    /// Creates a label of the symbol of a quantity, or of its name in upright text if `symbol` is
-    /// empty.
+    /// Creates a label from the symbol of a quantity, or from its name in upright text if `symbol`
+    /// is empty.
     pub fn symbol_or_name(symbol: &str, name: &str) -> Label {
         if symbol.is_empty() {
             Label::plain(name)
@@ -80,8 +80,8 @@ impl Label {
         }
     }
 
-    /// Creates a label of a statement such as `H = 0.3`, with an italic symbol and an upright
-    /// value.
+    /// Creates a label from a statement such as `H = 0.3`. The symbol is italic and the value is
+    /// upright.
     pub fn statement(text: &str) -> Label {
         match text.split_once(" = ") {
             Some((symbol, value)) => statement("", symbol, value),
@@ -116,7 +116,8 @@ impl Label {
         &self.runs
     }
 
-    /// Returns the width of the label divided by the font size, for a wide sans-serif font.
+    /// Returns the approximate width of the label, divided by the font size, in a wide sans-serif
+    /// font.
     pub fn width(&self) -> f64 {
         self.runs
             .iter()
@@ -124,8 +125,8 @@ impl Label {
             .sum()
     }
 
-    /// Divides the label into lines, at blanks where possible. No line has a [`Self::width`] above
-    /// `most`.
+    /// Divides the label into lines whose [`Self::width`] is at most `most`. Lines are broken at
+    /// blanks where possible.
     pub fn wrapped(&self, most: f64) -> Vec<Label> {
         let mut lines = Vec::new();
         let mut line = Line::default();
@@ -155,7 +156,8 @@ impl Label {
     }
 }
 
-/// Letters of a line while a label is divided, and their width in units of the font size.
+/// Letters of a line while a label is divided into lines, and their total width divided by the font
+/// size.
 #[derive(Default)]
 struct Line {
     letters: Vec<(Face, char)>,
@@ -168,8 +170,9 @@ impl Line {
         self.width += width_of(face, character);
     }
 
-    /// Removes the letters after the last blank, or the last letter of a line without a blank, and
-    /// returns them as a new line. A fixed blank is used only if there is no other one.
+    /// Removes the letters after the last blank and returns them as a new line. If the line has no
+    /// ordinary blank, the last [`FIXED`] blank is used. If it has no fixed blank either, only the
+    /// last letter is removed.
     fn split_off_rest(&mut self) -> Line {
         let last = |blank: char| {
             let is_blank = |(_, character): &(Face, char)| *character == blank;
@@ -187,7 +190,7 @@ impl Line {
         Line { letters, width }
     }
 
-    /// Returns the label of the line without the blanks at its end.
+    /// Returns the line as a label, without the blanks at its end.
     fn into_label(mut self) -> Label {
         while let Some((_, ' ' | FIXED)) = self.letters.last() {
             self.letters.pop();
@@ -223,10 +226,11 @@ impl fmt::Display for Label {
     }
 }
 
-/// Size of indices and exponents, in units of the font size.
+/// Size of the letters of indices and exponents, divided by the font size.
 pub(crate) const SMALL: f64 = 0.72;
 
-/// Returns the width of a character divided by the font size, for a wide sans-serif font.
+/// Returns the approximate width of a character, divided by the font size, in a wide sans-serif
+/// font.
 fn width_of(face: Face, character: char) -> f64 {
     let width = match character {
         'i' | 'j' | 'l' | '.' | ',' | ' ' | FIXED | '/' | '|' => 0.33,
@@ -251,8 +255,8 @@ fn raised(character: char) -> char {
     }
 }
 
-/// Chooses an SI prefix with which numbers up to `largest` are short. Returns the divisor of the
-/// numbers and the unit with the prefix, such as 1e-3 and `mN` for 0.02 N.
+/// Chooses the SI prefix with which numbers up to `largest` have few digits. Returns the divisor of
+/// the numbers, and the unit with the prefix. For example, 0.02 N gives 1e-3 and `mN`.
 pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if matches!(unit, "" | "1") {
         return (1.0, String::new());
@@ -262,14 +266,14 @@ pub fn prefixed(unit: &str, largest: f64) -> (f64, String) {
     if !has_prefixes || !is_positive {
         return (1.0, unit.into());
     }
-    // 999.9999999 nm is 1 µm.
+    // The small factor lets 999.9999999 nm count as 1 µm.
     let power = (largest * (1.0 + 1e-9)).log10().floor() as i32;
     let power = (3 * power.div_euclid(3)).clamp(LEAST_POWER, LARGEST_POWER);
     let prefix = si_prefix(power).unwrap_or_default();
     (10_f64.powi(power), format!("{prefix}{unit}"))
 }
 
-/// Writes a number with as many decimals as `step` needs.
+/// Writes a number with as many decimals as a multiple of `step` needs.
 pub fn number(value: f64, step: f64) -> String {
     let decimals = (-step.abs().log10() - 1e-9).ceil().clamp(0.0, 12.0) as usize;
     let text = format!("{:.decimals$}", value.abs());
@@ -280,8 +284,8 @@ pub fn number(value: f64, step: f64) -> String {
     format!("{sign}{whole}{fraction}")
 }
 
-/// Creates a label of a quantity and its value, given in the SI unit `unit`: `F_n = 12.5 µN` with a
-/// symbol, or `preload 12.5 µN` if `symbol` is empty.
+/// Creates a label from a quantity and its value in the SI unit `unit`: `F_n = 12.5 µN`, or
+/// `preload 12.5 µN` if `symbol` is empty.
 pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     let is_count = matches!(unit, "" | "1") && value.fract() == 0.0 && (0.0..1e8).contains(&value);
     let text = if is_count {
@@ -292,8 +296,8 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     statement(name, symbol, &text)
 }
 
-/// Creates a label of a quantity and its value, which is given as text: `H = 0.3` with a symbol, or
-/// `Hurst exponent 0.3` if `symbol` is empty.
+/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or `Hurst
+/// exponent 0.3` if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     if symbol.is_empty() {

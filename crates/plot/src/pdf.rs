@@ -1,6 +1,6 @@
-//! SVG documents as a PDF of one page in its real size. The outlines are the outlines of
-//! [`super::png::tree`]. Text remains text in embedded fonts, which readers search and editors
-//! change.
+//! SVG documents as a PDF file of one page with the size of the document. The outlines are the same
+//! as in [`super::png::tree`]. Text remains text in embedded fonts, so that viewers can search it
+//! and editors can change it.
 
 use super::chart::Figure;
 use super::pdf_font::PdfFont;
@@ -20,13 +20,13 @@ use std::collections::BTreeSet;
 use std::io;
 use std::io::Write;
 
-/// Points (1/72 inch) of a page for each px (1/96 inch) of a document.
+/// Number of points (1/72 inch) of a page for each px (1/96 inch) of an SVG document.
 const POINTS: f32 = 0.75;
-/// Width in px by which adjacent cells overlap. Viewers show the paper between edges that only
-/// touch.
+/// Width in px by which adjacent cells overlap. Without this overlap, viewers show a thin line of
+/// paper between the cells.
 const OVERLAP: f32 = 0.2;
-/// Distance from a line of text, in units of the font size, up to which a glyph belongs to the
-/// line.
+/// Largest distance of a glyph from a line of text at which the glyph still belongs to the line,
+/// divided by the font size.
 const SAME: f32 = 1e-3;
 
 impl Figure {
@@ -90,7 +90,8 @@ fn pdf(tree: &Tree, title: &str) -> io::Result<Vec<u8>> {
     Ok(pdf.finish())
 }
 
-/// Drawing operators of a page, with the opacities in per cent and the fonts to which they refer.
+/// Drawing operators of a page, with the opacities (in per cent) and the fonts that these operators
+/// name.
 struct Page<'a> {
     content: Content,
     opacities: BTreeSet<u8>,
@@ -98,7 +99,8 @@ struct Page<'a> {
     fonts: Vec<PdfFont>,
 }
 
-/// Matrix of the first glyph of a run, whose base line and font size the run has.
+/// Beginning of a run. A run is a sequence of glyphs on one base line, with one font and one font
+/// size.
 #[derive(Clone, Copy)]
 struct RunStart {
     matrix: Transform,
@@ -106,8 +108,9 @@ struct RunStart {
 }
 
 impl RunStart {
-    /// Returns the distance of a glyph with this matrix along the line, in units of the font size;
-    /// `None` for a glyph beside the line, or of another size or direction.
+    /// Returns the distance of a glyph from the beginning of the run along the base line, divided
+    /// by the font size. `matrix` places the glyph on the page. `None` if the glyph is not on this
+    /// line, or has another size or direction.
     fn distance_to(self, matrix: Transform) -> Option<f32> {
         let begin = self.matrix;
         let dx = (matrix.tx - begin.tx) / self.size;
@@ -134,7 +137,7 @@ impl Page<'_> {
 
     fn text(&mut self, text: &Text, to_page: Transform) {
         for span in text.layouted() {
-            // Figures have text of plain colours alone.
+            // The text of figures has only plain colours.
             if let Some(Paint::Color(colour)) = span.fill.as_ref().map(|fill| fill.paint()) {
                 let [red, green, blue] = rgb(*colour);
                 self.content
@@ -147,7 +150,7 @@ impl Page<'_> {
         }
     }
 
-    /// Shows the glyphs of a span, in runs on one line of one font.
+    /// Shows the glyphs of a text as runs.
     fn letters(&mut self, span: &Span, to_page: Transform) {
         let mut rest = span.positioned_glyphs.as_slice();
         while let Some(first) = rest.first() {
@@ -177,7 +180,7 @@ impl Page<'_> {
             let mut items = shown.items();
             let mut reached = 0.0;
             for (glyph, distance) in run.iter().zip(distances) {
-                // In thousandths, to the left.
+                // PDF moves a glyph to the left by this number of thousandths of the font size.
                 let adjusted = 1000.0 * (reached - distance);
                 if adjusted.abs() > 0.5 {
                     items.adjust(adjusted);
@@ -189,7 +192,8 @@ impl Page<'_> {
         }
     }
 
-    /// Returns the index of a font on this page.
+    /// Returns the index of a font on this page, and adds the font if necessary; `None` if the font
+    /// cannot be read.
     fn font(&mut self, id: ID) -> Option<usize> {
         let known = self.fonts.iter().position(|font| font.is(id));
         known.or_else(|| {
@@ -200,7 +204,7 @@ impl Page<'_> {
 
     fn path(&mut self, path: &Path, to_page: Transform) {
         self.content.save_state().transform(matrix(to_page));
-        // Figures have plain colours alone.
+        // The areas of figures have only plain colours.
         if let Some((fill, Paint::Color(colour))) = path.fill().map(|fill| (fill, fill.paint())) {
             let [red, green, blue] = rgb(*colour);
             let opacity = fill.opacity().get();
@@ -247,7 +251,7 @@ impl Page<'_> {
                 PathSegment::MoveTo(to) => self.content.move_to(to.x, to.y),
                 PathSegment::LineTo(to) => self.content.line_to(to.x, to.y),
                 PathSegment::QuadTo(by, to) => {
-                    // The cubic curve of the same shape.
+                    // PDF has no quadratic curves, so this is the cubic curve of the same shape.
                     let near =
                         |end: Point| (end.x + (by.x - end.x) / 1.5, end.y + (by.y - end.y) / 1.5);
                     let (x1, y1) = near(last);
@@ -271,14 +275,14 @@ impl Page<'_> {
     }
 }
 
-/// Returns the matrix from the em square of a glyph to the page.
+/// Returns the matrix that places the em square of a glyph on the page.
 fn glyph_matrix(glyph: &PositionedGlyph, to_page: Transform, em: f32) -> Transform {
     to_page
         .pre_concat(glyph.outline_transform())
         .pre_concat(Transform::from_scale(em, em))
 }
 
-/// Returns the name of an opacity.
+/// Returns the name of the graphics state with this opacity in per cent.
 fn state(percent: u8) -> String {
     format!("o{percent}")
 }
@@ -317,7 +321,7 @@ mod tests {
             .unwrap()
     }
 
-    /// The drawing operators of a file, which are its first stream.
+    /// Returns the drawing operators in a PDF file, which are its first stream.
     fn inflated(file: &[u8]) -> String {
         let (from, to) = (find(file, b"\nstream\n") + 8, find(file, b"\nendstream"));
         let mut content = String::new();
@@ -327,7 +331,7 @@ mod tests {
         content
     }
 
-    /// The size of a page, pt, and its drawing operators.
+    /// Returns the page size in points, and the drawing operators of the page.
     fn drawn(elements: &str) -> (String, String) {
         let file = pdf(&tree(&document(elements)).unwrap(), "Rough µ").unwrap();
         let size = String::from_utf8_lossy(&file[find(&file, b"/MediaBox")..]);
@@ -363,7 +367,8 @@ mod tests {
         );
     }
 
-    /// The text of a file by its own table of the letters of its glyphs, a line for each run.
+    /// Returns the text of a PDF file, with one line for each run. The letters come from the table
+    /// of glyphs in the file.
     fn read(file: &[u8]) -> String {
         let text = String::from_utf8_lossy(file);
         let number = |hex: &str| u32::from_str_radix(hex, 16).unwrap();
@@ -388,8 +393,8 @@ mod tests {
         runs.map(line).collect::<Vec<_>>().join("\n")
     }
 
-    /// Glyphs of the strings of a run, of two bytes each; bytes are letters, escaped letters or
-    /// pairs of hexadecimal digits.
+    /// Returns the glyph numbers in the strings of a run, two bytes for each glyph. Bytes are
+    /// written as letters, as escaped letters or as pairs of hexadecimal digits.
     fn glyphs(run: &str) -> Vec<u32> {
         let (mut bytes, mut rest) = (Vec::new(), run.chars().peekable());
         while let Some(opening) = rest.next() {
@@ -440,7 +445,8 @@ mod tests {
         let file = pdf(&tree(&document(&elements)).unwrap(), "").unwrap();
         assert_eq!(read(&file), "κ = √µN\nforce \nF\n (µN)");
         let content = inflated(&file);
-        // Letters are no outlines; a label written upwards turns by 90 degrees.
+        // Letters are not drawn as outlines, and a label that is written upwards is turned by 90
+        // degrees.
         assert!(
             !content.contains(" c\n") && content.contains(" -15.118111 -15.118111 "),
             "{content}"

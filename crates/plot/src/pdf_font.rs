@@ -1,4 +1,5 @@
-//! A font embedded in a PDF file, with the letters of its glyphs so that readers can search.
+//! A font embedded in a PDF file. The file also contains the letters of each glyph, so that viewers
+//! can search the text.
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -11,26 +12,26 @@ use std::io;
 use std::io::Write;
 use ttf_parser::{Face, GlyphId};
 
-/// Number of objects of a font in a file.
+/// Number of PDF objects that describe a font.
 const OBJECTS: i32 = 5;
-/// Glyph numbers of a PDF file, which are the numbers of the font.
+/// Character collection Identity: the glyph numbers in the PDF file are the glyph numbers of the
+/// font.
 const IDENTITY: SystemInfo<'_> = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
-/// Width of vertical stems, in thousandths of the font size. A reader uses it to choose another
-/// font if this one fails.
+/// Width of vertical stems, in thousandths of the font size. A viewer uses it to choose a
+/// substitute for the font.
 const STEM: f32 = 80.0;
 
-/// A font on a page.
 pub(super) struct PdfFont {
     id: ID,
     name: String,
     is_italic: bool,
     data: Vec<u8>,
     units_per_em: f32,
-    /// Shown glyphs by their numbers.
+    /// The glyphs that the page shows, by their numbers in the font.
     glyphs: BTreeMap<u16, ShownGlyph>,
 }
 
@@ -41,7 +42,7 @@ struct ShownGlyph {
 }
 
 impl PdfFont {
-    /// Reads a font from the fonts of a document; `None` if it cannot be read.
+    /// Reads a font from the fonts of a document; `None` if the font cannot be read.
     pub(super) fn new(fonts: &Database, id: ID) -> Option<PdfFont> {
         let face = fonts.face(id)?;
         let name = face.post_script_name.clone();
@@ -71,14 +72,14 @@ impl PdfFont {
         format!("f{index}")
     }
 
-    /// Returns the reference of the font with this index, if the first free reference of the file
-    /// is `first`.
+    /// Returns the first of the object numbers of the font with this index. `first` is the first
+    /// object number of all fonts.
     pub(super) fn reference(&self, first: i32, index: usize) -> Ref {
         Ref::new(first + OBJECTS * index as i32)
     }
 
-    /// Shows a glyph, which has these letters, and returns its width in thousandths of the font
-    /// size.
+    /// Shows a glyph on the page and returns its width, in thousandths of the font size. `letters`
+    /// is the text that this glyph stands for.
     pub(super) fn show(
         &mut self,
         items: &mut PositionedItems<'_>,
@@ -102,7 +103,8 @@ impl PdfFont {
         1000.0 * f32::from(advance.unwrap_or(0)) / self.units_per_em
     }
 
-    /// Writes the objects of the font.
+    /// Writes the PDF objects of the font. `first` is the first object number of all fonts, and
+    /// `index` the index of this font on the page.
     pub(super) fn write(&self, pdf: &mut Pdf, first: i32, index: usize) -> io::Result<()> {
         let reference = self.reference(first, index);
         let [cid, descriptor, letters, file] =

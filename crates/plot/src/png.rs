@@ -1,5 +1,5 @@
-//! SVG documents as PNG, drawn with embedded fonts. Equal documents give equal pixels on every
-//! machine.
+//! SVG documents as PNG files, drawn with embedded fonts. Equal documents give equal pixels on
+//! every computer.
 
 use super::chart::Figure;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
@@ -9,23 +9,24 @@ use resvg::usvg::{Options, Tree};
 use std::io;
 use std::sync::Arc;
 
-/// Upright and oblique letters, with the same Latin, Greek, Cyrillic and mathematical characters;
-/// see LICENSE beside the files.
+/// Upright and oblique font. Both have the same Latin, Greek, Cyrillic and mathematical characters;
+/// see LICENSE in the same folder.
 const FONTS: [&[u8]; 2] = [
     include_bytes!("font/sans.ttf"),
     include_bytes!("font/sans-oblique.ttf"),
 ];
-/// Pixels for each px of a document.
+/// Number of pixels for each px (1/96 inch) of a document.
 const SCALE: f32 = 2.0;
-/// Pixels for each px of a figure with a given width, which are 600 per inch.
+/// Number of pixels for each px (1/96 inch) of a figure with a given width, which gives 600 pixels
+/// per inch.
 const PRINT_SCALE: f32 = 6.25;
 const MOST_PIXELS: f64 = (1_u32 << 26) as f64;
-/// Number of px of 1/96 inch in a metre.
+/// Number of px (1/96 inch) in a metre.
 const PX: f32 = 96.0 / 0.0254;
 
 impl Figure {
-    /// Draws the figure and returns the content of a PNG file, with 600 dpi if [`Self::width`] is
-    /// given, otherwise with 192 dpi.
+    /// Draws the figure and returns the content of a PNG file. The resolution is 600 dpi if
+    /// [`Self::width`] is given, otherwise 192 dpi.
     ///
     /// # Errors
     /// Returns an error if the picture would have more than 67 million pixels (2^26).
@@ -39,7 +40,7 @@ impl Figure {
     }
 }
 
-/// Converts an SVG document to outlines, in px of 1/96 inch.
+/// Converts an SVG document to a tree of outlines, with lengths in px (1/96 inch).
 pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     let mut fonts = Database::new();
     for font in FONTS {
@@ -52,7 +53,7 @@ pub(super) fn tree(svg: &str) -> io::Result<Tree> {
     Tree::from_str(svg, &options).map_err(io::Error::other)
 }
 
-/// Draws an SVG document on white and returns the content of a PNG file.
+/// Draws an SVG document on a white background and returns the content of a PNG file.
 fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let tree = tree(svg)?;
     let width = (scale * tree.size().width()).ceil();
@@ -63,7 +64,7 @@ fn png(svg: &str, scale: f32) -> io::Result<Vec<u8>> {
     let Some(mut pixmap) = Pixmap::new(width as u32, height as u32) else {
         return Err(too_many_pixels(width, height));
     };
-    // The last pixels may be covered in part.
+    // The white background also fills the last pixels where the document covers them only in part.
     pixmap.fill(Color::WHITE);
     resvg::render(
         &tree,

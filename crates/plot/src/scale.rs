@@ -10,12 +10,13 @@ pub struct Span {
     pub high: f64,
 }
 
-/// Relative width below which a range counts as a single coordinate.
+/// Width of a range, divided by its largest coordinate, below which the range counts as a single
+/// coordinate.
 const NO_SPREAD: f64 = 1e-9;
 
 impl Span {
     /// Returns the range from the smallest to the largest finite coordinate, widened at each end by
-    /// `room` times its width. Without coordinates the range is 0 to 1.
+    /// `room` times its width. If there are no finite coordinates, the range is 0 to 1.
     ///
     /// ```
     /// let span = asperity_plot::Span::around([1.0, 3.0].into_iter(), 0.1);
@@ -49,9 +50,11 @@ impl Span {
         }
     }
 
-    /// Returns the range of coordinates for an axis that shows these values. On a linear scale it
-    /// begins at zero if the smallest value is positive and at most 0.3 times the largest value. On
-    /// a logarithmic scale it ends at the largest value and has at most `decades` decades.
+    /// Returns the range of coordinates of an axis that shows these values.
+    /// * On a linear scale, the range begins at zero if the smallest value is at least 0 and at
+    ///   most 0.3 times the largest value.
+    /// * On a logarithmic scale, the range ends at the largest value and has at most `decades`
+    ///   decades.
     pub fn of_values(scale: AxisScale, values: impl Iterator<Item = f64>, decades: f64) -> Span {
         let span = Span::around(values.map(|value| scale.coordinate(value)), 0.0);
         match scale {
@@ -66,8 +69,8 @@ impl Span {
         }
     }
 
-    /// Returns the smallest range of whole decades, at least one, that contains these coordinates
-    /// of a logarithmic scale.
+    /// Returns the smallest range of whole decades (at least one decade) that contains these
+    /// coordinates of a logarithmic scale.
     pub fn decades(coordinates: impl Iterator<Item = f64>) -> Span {
         let span = Span::around(coordinates, 0.0);
         let low = span.low.floor();

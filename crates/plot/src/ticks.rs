@@ -5,7 +5,8 @@ use super::scale::Span;
 use asperity_data::AxisScale;
 use std::ops::RangeInclusive;
 
-/// Coordinates of a logarithmic axis with plain numbers, from about 0.001 to 10 000.
+/// Range of coordinates in which a logarithmic axis shows plain numbers instead of powers of ten.
+/// It corresponds to numbers from about 0.0003 to 30 000.
 const PLAIN: RangeInclusive<f64> = -3.5..=4.5;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +17,9 @@ pub struct Tick {
     pub label: Option<Label>,
 }
 
-/// Returns ticks over a range of coordinates, about `most` of them labelled. The numbers are
-/// divided by `divisor`, the factor of the prefix of the unit. Ticks of a linear axis are at least
-/// `least` apart.
+/// Returns the ticks in a range of coordinates. About `most` ticks have a label. The numbers of the
+/// labels are divided by `divisor`, the factor of the prefix of the unit. On a linear axis, the
+/// distance between ticks is at least `least`.
 pub(super) fn ticks(
     scale: AxisScale,
     span: Span,
@@ -49,21 +50,23 @@ pub(super) fn ticks(
     }
 }
 
-/// Returns true if a logarithmic axis has plain numbers over a range of coordinates, divided by
-/// `divisor`. Otherwise it has powers of ten.
+/// Returns true if a logarithmic axis with this range of coordinates shows plain numbers after
+/// division by `divisor`. Otherwise it shows powers of ten.
 pub(super) fn are_plain(span: Span, divisor: f64) -> bool {
     let shift = divisor.log10();
     span.low - shift >= *PLAIN.start() && span.high - shift <= *PLAIN.end()
 }
 
-/// Distance of labelled ticks, and number of parts into which minor ticks divide it.
+/// Distance between labelled ticks, and the number of parts into which minor ticks divide this
+/// distance.
 #[derive(Clone, Copy)]
 struct Step {
     width: f64,
     parts: usize,
 }
 
-/// Returns the step of 1, 2 or 5 times a power of ten that gives about `most` ticks over a width.
+/// Returns a step of 1, 2 or 5 times a power of ten, such that a range of this width has about
+/// `most` steps.
 fn step_for(width: f64, most: usize) -> Step {
     let least = width / most.max(1) as f64;
     let power = 10_f64.powf(least.log10().floor());
@@ -115,7 +118,8 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
         .clone()
         .filter(|decade| inside(f64::from(*decade)))
         .count();
-    // With fewer than three decades 2 and 5 are labelled as well.
+    // If the axis has fewer than three powers of ten, 2 and 5 times these powers are labelled as
+    // well.
     let labelled: &[i32] = match whole {
         0..=1 if high - low < 0.7 => &[1, 2, 3, 4, 5, 6, 7, 8, 9],
         0..=2 => &[1, 2, 5],
@@ -137,7 +141,8 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
             });
         }
     }
-    // A range of less than a factor of two may contain no round number.
+    // If the range is narrow, it may contain fewer than two of these numbers. Then it gets the
+    // numbers of a linear axis.
     if ticks.iter().filter(|tick| tick.label.is_some()).count() < 2 {
         let numbers = linear(10_f64.powf(low), 10_f64.powf(high), most, 0.0);
         return numbers
@@ -151,7 +156,7 @@ fn logarithmic(low: f64, high: f64, most: usize) -> Vec<Tick> {
     ticks
 }
 
-/// Returns the label of a digit from 1 to 9 times a power of ten.
+/// Returns the label of the number `digit` (1 to 9) times ten to the power `decade`.
 fn logarithmic_label(digit: i32, decade: i32, is_plain: bool) -> Label {
     if is_plain {
         let power = 10_f64.powi(decade);

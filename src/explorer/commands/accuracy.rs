@@ -1,5 +1,5 @@
-//! Studies of the present scene: error of its outcome, springs for a tolerance, data of the shown
-//! pane, and the curve of a typed value.
+//! Studies that the present scene needs: the error of its outcome, the number of springs for a
+//! tolerance, the data of the shown pane, and the curve for a typed value.
 
 use super::{edit, measured, target};
 use crate::explorer::action::Task;
@@ -18,11 +18,12 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Largest number of springs for which a demo estimates the error: above, viewers would have to
-/// wait.
+/// Largest number of springs for which a demo estimates the error. With more springs, the viewers
+/// would have to wait.
 const MOST_ESTIMATED: u64 = 1 << 17;
 
-/// Empty: the paths of an explored scene are absolute or relative to the working folder.
+/// Folder to which paths in the scene are relative. It is empty, because these paths are absolute
+/// or relative to the working folder.
 const FOLDER: &str = "";
 
 #[derive(Clone, Debug)]
@@ -32,8 +33,8 @@ pub struct Choosing {
     pub found: Option<Result<Choice, ChoiceError>>,
 }
 
-/// The studies that the present state needs and that have not ended, in the order in which they are
-/// performed.
+/// Returns the studies that the present state needs and that have not ended, in the order in which
+/// they are performed.
 pub fn studies(app: &mut App) -> Vec<Study> {
     let mut wanted: Vec<Study> = app.tried.as_ref().map(preview).into_iter().collect();
     wanted.extend(target::study(app));
@@ -66,7 +67,7 @@ pub fn studies(app: &mut App) -> Vec<Study> {
     app.studies.begin(wanted)
 }
 
-/// Computes the outcome of the scene with the value being typed.
+/// Study that computes the outcome of the scene with the value being typed.
 fn preview(document: &Document) -> Study {
     let (text, scene) = (document.text().to_owned(), scene_of(document));
     Study::new(document.text(), false, move |simulation, control| {
@@ -75,7 +76,8 @@ fn preview(document: &Document) -> Study {
     })
 }
 
-/// Computes the random profiles of the scene, for the headline; `None` for a fixed profile.
+/// Study that computes the random profiles of the scene for the headline; `None` if the scene has a
+/// fixed profile.
 fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     let profiles = Ensemble::profiles_of(&scene);
@@ -86,7 +88,7 @@ fn ensemble(app: &App, is_long: bool) -> Option<Study> {
     })
 }
 
-/// Computes loops of random squares in three dimensions.
+/// Study that computes loops of random squares in three dimensions.
 fn squares(app: &App) -> Study {
     let (scene, key) = (Arc::clone(&app.edit.scene), ensemble_key(&app.edit.scene));
     Study::new(key, true, move |simulation, control| {
@@ -94,7 +96,7 @@ fn squares(app: &App) -> Study {
     })
 }
 
-/// Searches the smallest number of springs of a scene for a tolerance.
+/// Study that searches for the smallest number of springs with which the scene meets a tolerance.
 fn choice(generation: u64, scene: Arc<CheckedScene>, tolerance: f64) -> Study {
     Study::new(generation, false, move |_, mut control| {
         let stop = control.stop();
@@ -122,7 +124,7 @@ pub fn type_tolerance(app: &mut App) {
     }
 }
 
-/// Begins the search of the number of springs that meets a typed tolerance.
+/// Begins the search for the number of springs that meets the typed tolerance.
 pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     let tolerance = parse_tolerance(typed)?;
     if !app.is_current() {
@@ -138,7 +140,7 @@ pub fn accept_tolerance(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Applies the result of the search to the scene.
+/// Sets the number of springs that the search has found.
 pub fn found(app: &mut App) {
     if let Some(Choosing {
         found: Some(found), ..
@@ -168,7 +170,8 @@ fn apply(app: &mut App, choice: &Choice) {
             return;
         }
     }
-    // The errors of the choice are known from finer solutions than those of an estimate.
+    // The search has used finer solutions than an estimate would use. Therefore its errors are
+    // shown.
     app.studies
         .set(app.edit.generation, choice.estimate(), true);
     let unchanged = if is_unchanged { "as it is: " } else { "" };

@@ -1,4 +1,4 @@
-//! Scenes kept for comparison.
+//! Scenes that are kept for comparison with the present scene.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -8,21 +8,22 @@ use asperity_report::letter;
 use asperity_study::half_space::SquareLoops;
 use std::sync::Arc;
 
-/// Largest number of kept scenes: each has a colour of its own.
+/// Largest number of kept scenes, because each has a colour of its own.
 const MOST_GHOSTS: usize = 4;
 
 pub fn clear(app: &mut App) {
     app.ghosts.clear();
 }
 
-/// Switches the loops in three dimensions on or off.
+/// Shows or hides the loops of random squares in three dimensions.
 pub fn toggle_squares(app: &mut App) {
     app.view.squares ^= true;
     app.studies.forget::<SquareLoops>();
     app.effects.push(Task::Study);
 }
 
-/// The present scene, to be kept; `None` before it is computed.
+/// Returns the present scene with its outcome, to be kept for comparison; `None` before the scene
+/// is computed.
 fn ghost(app: &App) -> Option<Ghost> {
     let computed = app.current()?;
     Some(Ghost {

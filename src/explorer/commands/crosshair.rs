@@ -1,5 +1,5 @@
-//! The crosshair of the selected pane, for readings: on profile and close-up at a position along
-//! the line, on other charts at a share of the horizontal axis.
+//! The crosshair of the selected pane, with which values are read. In the profile and the close-up
+//! it has a position along the profile, in other charts a position along the horizontal axis.
 
 use crate::explorer::app::App;
 use crate::explorer::keys::bindings::Context;
@@ -9,12 +9,12 @@ use crate::explorer::panes;
 use asperity_plot::Chart;
 use crossterm::event::{KeyCode, KeyEvent};
 
-/// Number of small steps across a pane.
+/// Number of small steps across the width of a pane.
 const SMALL_STEPS: f64 = 100.0;
-/// Number of large steps across a pane.
+/// Number of large steps across the width of a pane.
 const LARGE_STEPS: f64 = 10.0;
 
-/// Shows or hides the crosshair, which appears in the middle of the selected pane.
+/// Shows the crosshair in the middle of the selected pane, or hides it.
 pub fn toggle(app: &mut App) {
     if app.view.crosshair.take().is_some() {
         return;
@@ -28,7 +28,7 @@ pub fn toggle(app: &mut App) {
     app.view.crosshair = Some(0.5 * (low + high));
 }
 
-/// Moves the crosshair by a small or a large step.
+/// Moves the crosshair by one small or one large step.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
         return;
@@ -44,14 +44,14 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     app.view.crosshair = Some((present + step).clamp(low, high));
 }
 
-/// Moves the crosshair to the left or right end of the pane.
+/// Moves the crosshair to the left or the right end of the pane.
 pub fn go_to_end(app: &mut App, key: &KeyEvent) {
     let (low, high) = ends(app);
     let is_right = matches!(key.code, KeyCode::End | KeyCode::Char('G'));
     app.view.crosshair = Some(if is_right { high } else { low });
 }
 
-/// Moves the crosshair to a number on the horizontal axis of the selected pane.
+/// Moves the crosshair to the number `x` on the horizontal axis of the selected pane.
 pub fn point_at(app: &mut App, x: f64) {
     let share = match (app.section(), app.snapshot.as_deref()) {
         (Some(_), Some(snapshot)) => {
@@ -67,14 +67,16 @@ pub fn point_at(app: &mut App, x: f64) {
     app.view.crosshair = Some(share.clamp(low, high));
 }
 
-/// The main chart of the selected pane, if it has one.
+/// Returns the main chart of the selected pane; `None` if the pane has no chart.
 fn chart(app: &App) -> Option<Chart> {
     let figure = panes::figure(app, app.view.pane)?;
     figure.charts.into_iter().next()
 }
 
-/// Positions, as shares, of the left and right end of the selected pane: of the part of the
-/// profile, or of the named curves of another chart.
+/// Returns the positions of the left and the right end between which the crosshair can move. In the
+/// profile and the close-up, they are the ends of the visible part, as shares of the profile. In
+/// another chart, they are the ends of the curves that have a name, as shares of the horizontal
+/// axis.
 fn ends(app: &App) -> (f64, f64) {
     if let Some(section) = app.section() {
         let springs = springs(app);
@@ -101,7 +103,7 @@ fn ends(app: &App) -> (f64, f64) {
     if low < high { (low, high) } else { WHOLE }
 }
 
-/// Number of springs of the whole profile.
+/// Returns the number of springs of the whole profile.
 fn springs(app: &App) -> f64 {
     match app.outcome() {
         Some(outcome) => outcome.history.work.springs.max(1) as f64,

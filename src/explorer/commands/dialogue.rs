@@ -1,4 +1,4 @@
-//! Prompts: opening, editing, accepting and cancelling them.
+//! Commands of prompts: opening, editing, accepting and cancelling them.
 
 use super::{accuracy, edit, files, measured, movement, target};
 use crate::explorer::action::{OutputFile, Task};
@@ -15,10 +15,10 @@ use asperity_scene::presets;
 use crossterm::event::{KeyCode, KeyEvent};
 use tui_input::InputRequest;
 
-/// Name of the help, a list that is only read: its entries cannot be chosen.
+/// Name of the help. The entries of this list can only be read, not chosen.
 const HELP: &str = "Help";
 
-/// Opens the search of the list of parameters, and its pane.
+/// Begins a search in the list of parameters, and shows this list.
 pub fn find_parameter(app: &mut App) {
     let before = app.view.pane;
     app.ask(Purpose::Parameter { before }, "");
@@ -37,8 +37,8 @@ pub fn listed(app: &mut App, entries: Vec<Entry>) {
     }
 }
 
-/// Opens the help: the notice of the scene, for which a small window has no room, the contents of
-/// the panes, and all keys.
+/// Opens the help. It contains the notice of the scene (which does not fit into a small window),
+/// the contents of the panes, and all keys.
 pub fn open_help(app: &mut App) {
     let mut topics = Vec::new();
     let notice = on_one_line(&app.edit.document.scene().notice);
@@ -59,7 +59,7 @@ pub fn open_help(app: &mut App) {
     app.ask(help, "");
 }
 
-/// Opens the list of commands, of the parameters of the scene, and of the built-in scenes.
+/// Opens a list of all commands, of the parameters of the scene, and of the built-in scenes.
 pub fn open_commands(app: &mut App) {
     let mut topics: Vec<Topic> = app.config.bindings.listed().map(Topic::of).collect();
     for (row, parameter) in app.edit.parameters.iter().enumerate() {
@@ -74,7 +74,7 @@ pub fn open_commands(app: &mut App) {
     app.ask(commands, "");
 }
 
-/// Searches the help for what is typed next.
+/// Begins a search in the help for the text that the user types next.
 pub fn search_help(app: &mut App) {
     if let Some(prompt) = &mut app.prompt
         && let Purpose::Topics { is_typed, .. } = &mut prompt.purpose
@@ -83,7 +83,7 @@ pub fn search_help(app: &mut App) {
     }
 }
 
-/// Moves the selection of the list by a number of rows.
+/// Moves the selection in the list by a number of rows, downwards if it is positive.
 pub fn select(app: &mut App, rows: i32) {
     if let Some(prompt) = &mut app.prompt {
         let last = prompt.found.len().saturating_sub(1);
@@ -92,7 +92,7 @@ pub fn select(app: &mut App, rows: i32) {
     }
 }
 
-/// Moves the selection of the list to the row that a key asks for.
+/// Moves the selection in the list as the pressed key says.
 pub fn select_by(app: &mut App, key: &KeyEvent) {
     let rows = match key.code {
         KeyCode::Home | KeyCode::Char('g') => i32::MIN,
@@ -103,8 +103,8 @@ pub fn select_by(app: &mut App, key: &KeyEvent) {
     select(app, rows);
 }
 
-/// Moves the selection of the list, or of the parameters, by a page: half the rows of a window,
-/// since an entry may take two rows.
+/// Moves the selection in the list, or in the parameters, by a page. A page is half the rows of the
+/// window, because an entry may take two rows.
 pub fn page(app: &mut App, key: &KeyEvent) {
     let rows = i32::from(Layout::of(app).body().height / 2).max(1);
     let rows = if key.code == KeyCode::PageUp {
@@ -119,8 +119,8 @@ pub fn page(app: &mut App, key: &KeyEvent) {
     }
 }
 
-/// Accepts the typed line, the selected row, or the question. A refused line stays in the prompt,
-/// with the reason.
+/// Accepts the typed line or the selected row, or answers a question with yes. A line that is
+/// refused stays in the prompt together with the reason.
 pub fn accept(app: &mut App) {
     let Some(mut prompt) = app.prompt.take() else {
         return;
@@ -131,7 +131,7 @@ pub fn accept(app: &mut App) {
         ..
     } = &mut prompt.purpose
     {
-        // The search of the help is over, and its results stay.
+        // The search of the help ends here, but its results stay visible.
         *is_typed = false;
         app.prompt = Some(prompt);
         return;
@@ -144,7 +144,7 @@ pub fn accept(app: &mut App) {
     }
 }
 
-/// Does what a prompt is for, or returns the reason why not.
+/// Does what the prompt is for. Returns the reason if this is not possible.
 fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     let typed = prompt.line.text();
     match &prompt.purpose {
@@ -181,8 +181,8 @@ fn accept_prompt(app: &mut App, prompt: &Prompt) -> Result<(), String> {
 
 const NOTHING_FITS: &str = "nothing in the list fits";
 
-/// Opens the selected scene or, if no scene in the list fits what is typed, a scene or a study by
-/// its path.
+/// Opens the selected scene. If no scene in the list matches the typed text, the text is the path
+/// of a scene or a study, which is opened.
 fn accept_scene(app: &mut App, prompt: &Prompt) -> Result<(), String> {
     if let Some(entry) = prompt.scene() {
         let document = entry.document.clone();
@@ -221,7 +221,8 @@ pub fn cancel(app: &mut App) {
     }
 }
 
-/// Chooses a command of the list, to be run in a pane in which its key is valid.
+/// Chooses a command from the list. If its key is not valid in the selected pane, a pane in which
+/// the key is valid is shown first.
 fn choose(app: &mut App, command: KeyCommand) {
     let is_valid_here = command.row.contexts.contains(&app.keys());
     if !is_valid_here {
@@ -230,7 +231,7 @@ fn choose(app: &mut App, command: KeyCommand) {
     app.chosen = Some(command);
 }
 
-/// A pane in which the key of a command is valid.
+/// Returns a pane in which the key of a command is valid.
 fn pane_of(row: &Row) -> Pane {
     if row.contexts.contains(&Context::Parameters) {
         Pane::Parameters
@@ -241,7 +242,7 @@ fn pane_of(row: &Row) -> Pane {
     }
 }
 
-/// Paths of parameters whose values contain names of files.
+/// Paths of the parameters whose values contain names of files.
 const WITH_FILES: [&str; 4] = [
     "roughness",
     "roughness.file",
@@ -249,8 +250,8 @@ const WITH_FILES: [&str; 4] = [
     "roughness.opposite",
 ];
 
-/// The path being typed: the whole line, or in a value what follows the last quote, relative to the
-/// folder of the scene.
+/// Returns the path that the user is typing. It is the whole line or, if a value is typed, the text
+/// after its last quotation mark. In a value, the path is relative to the folder of the scene.
 fn typed_in_line(app: &App) -> Option<String> {
     let prompt = app.prompt.as_ref()?;
     let text = prompt.line.text().trim_start();
@@ -269,14 +270,15 @@ pub fn can_complete(app: &App) -> bool {
     typed_in_line(app).is_some()
 }
 
-/// Requests the paths that begin as the typed one.
+/// Requests the paths that begin with the typed path.
 pub fn complete(app: &mut App) {
     if let Some(path) = typed_in_line(app) {
         app.effects.push(Task::Complete(path));
     }
 }
 
-/// Completes the typed path by what all these paths begin with, and shows them if they are several.
+/// Completes the typed path with the characters that all the found paths have in common. If there
+/// are several paths, they are shown.
 pub fn completed(app: &mut App, paths: Vec<String>) {
     let Some(typed) = typed_in_line(app) else {
         return;

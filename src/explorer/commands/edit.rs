@@ -1,4 +1,4 @@
-//! Edits of the scene. Each gives a new document and can be undone.
+//! Edits of the scene. Each edit makes a new document, and can be undone.
 
 use crate::explorer::action::Task;
 use crate::explorer::app::{App, Message};
@@ -23,7 +23,8 @@ use asperity_scene::{Adhesion, Document, RoughnessParameter, SceneErrors, Solver
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use tui_input::InputRequest;
 
-/// Moves the selection in the list of parameters by a number of rows, up to its ends.
+/// Moves the selection in the list of parameters by a number of rows. It stops at the first and the
+/// last row.
 pub fn move_selection(app: &mut App, rows: i32) {
     app.edit.move_selection(rows);
     show_parameters(app);
@@ -35,7 +36,7 @@ pub fn go_to_end(app: &mut App, key: &KeyEvent) {
     move_selection(app, if is_last { i32::MAX } else { i32::MIN });
 }
 
-/// Explores another scene from its beginning.
+/// Opens another scene, and starts its animation at the beginning.
 pub fn open(app: &mut App, document: Document) {
     if app.edit.is_unsaved() {
         app.edit.leave(app.edit.document.clone());
@@ -44,14 +45,14 @@ pub fn open(app: &mut App, document: Document) {
     app.play = Player::START;
     app.view.close_up = CloseUpTarget::WHOLE;
     app.view.profile = LineView::WHOLE;
-    // The map of the scene is shown; a study stays loaded.
+    // Now the live map of the scene is shown. The map of a study stays loaded.
     app.map.of_study = false;
     adopt(app, document);
     app.edit.set_saved();
 }
 
-/// Opens the editor of the selected value; `first` is a first typed character, which replaces the
-/// value.
+/// Opens the editor for the value of the selected parameter. If the user has typed the character
+/// `first`, it replaces the value.
 pub fn edit_value(app: &mut App, first: Option<char>) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -62,7 +63,7 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     } else {
         let text = editable(app, parameter);
         app.ask(Purpose::Value, &text);
-        // No preview of an earlier edit.
+        // The preview of an earlier edit is removed.
         app.tried = None;
         app.studies.forget::<Preview>();
         if let Some(first) = first {
@@ -72,14 +73,15 @@ pub fn edit_value(app: &mut App, first: Option<char>) {
     show_parameters(app);
 }
 
-/// Opens the editor of the selected value with the character of a key, which replaces the value.
+/// Opens the editor for the value of the selected parameter. The character of the pressed key
+/// replaces the value.
 pub fn start_value(app: &mut App, key: &KeyEvent) {
     if let KeyCode::Char(first) = key.code {
         edit_value(app, Some(first));
     }
 }
 
-/// Moves the cursor in the typed line, or deletes a part of it.
+/// Moves the cursor in the typed line or deletes text, as the pressed key says.
 pub fn edit_by(app: &mut App, key: &KeyEvent) {
     let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
     let request = match (key.code, is_control) {
@@ -101,7 +103,7 @@ pub fn clear_line(app: &mut App) {
     edit_line(app, |line| line.edit(InputRequest::DeleteLine));
 }
 
-/// Edits the typed line and updates its preview or its list.
+/// Changes the typed line, then updates its preview or the list below it.
 pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     let Some(prompt) = &mut app.prompt else {
         return;
@@ -121,7 +123,7 @@ pub fn edit_line(app: &mut App, change: impl FnOnce(&mut TextLine)) {
     }
 }
 
-/// States how a parameter without a number is changed.
+/// Returns a sentence that says how a parameter without a number is changed.
 pub fn way_of_changing(parameter: &Parameter) -> String {
     let range = parameter.field.range;
     let is_option = matches!(parameter.setting, Setting::CurveOption(_));
@@ -141,15 +143,16 @@ pub fn way_of_changing(parameter: &Parameter) -> String {
     format!("{} is {way}", parameter.name())
 }
 
-/// Selects the list of parameters if a small window hides it, so that no value changes unseen.
+/// Shows and selects the list of parameters if a small window hides it, so that the user sees which
+/// value changes.
 pub fn show_parameters(app: &mut App) {
     if Layout::of(app).pane(Pane::Parameters).is_none() {
         app.show(Pane::Parameters);
     }
 }
 
-/// Changes the selected value by a number of small or, if `coarse`, large steps; or states why it
-/// has no further step.
+/// Changes the selected value by a number of steps, which are large if `coarse` is true and
+/// otherwise small. If there is no further step, a message says why.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -177,7 +180,7 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// Reason why the value of a parameter cannot be changed in steps; `None` if it can.
+/// Returns the reason why the value of a parameter cannot be changed in steps; `None` if it can.
 fn refusal_of_step(app: &App, parameter: &Parameter) -> Option<String> {
     let is_text = matches!(parameter.field.range, Range::Text { .. });
     if parameter.setting == Setting::Heading || is_text || parameter.path == "loading" {
@@ -196,7 +199,8 @@ fn refusal_of_step(app: &App, parameter: &Parameter) -> Option<String> {
     ))
 }
 
-/// The value of a parameter when its editor opens: in the shown unit, with all digits.
+/// Returns the text of a value with which its editor opens: in the unit that the list shows, and
+/// with all digits.
 pub fn editable(app: &App, parameter: &Parameter) -> String {
     if let Setting::CurveOption(index) = parameter.setting
         && let Some(measured) = &app.edit.measured
@@ -227,7 +231,7 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
         return Ok(());
     }
     let document = with_typed(app, typed)?;
-    // A loading that the contact does not follow is known once its preview has been computed.
+    // Whether the contact can follow the loading is known only after the preview has been computed.
     if app.tried.is_some()
         && let Some(why) = app.studies.failure::<Preview>()
     {
@@ -237,8 +241,8 @@ pub fn accept_value(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The scene with a typed value of the selected parameter, or the reason why it is refused. A stage
-/// may be typed as any kind.
+/// Returns the scene with the typed value of the selected parameter, or the reason why the value is
+/// refused. For a loading stage, the user may type a stage of any kind.
 fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     let parameter = app.edit.parameter().ok_or("no parameter is selected")?;
     if let Setting::CurveOption(_) = parameter.setting {
@@ -254,8 +258,8 @@ fn with_typed(app: &App, typed: &str) -> Result<Document, String> {
     }
 }
 
-/// The scene with a typed loading stage in place of the selected one. A number alone keeps the kind
-/// of the stage.
+/// Returns the scene in which the typed stage replaces the selected loading stage. If only a number
+/// is typed, the kind of the stage stays the same.
 fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, String> {
     let document = &app.edit.document;
     let mut stages = document.stages();
@@ -272,8 +276,8 @@ fn with_typed_stage(app: &App, leg: usize, typed: &str) -> Result<Document, Stri
     within_reach(app, changed.map_err(|errors| reasons(&errors))?)
 }
 
-/// Returns the scene unless it presses more than the present one and out of reach; otherwise the
-/// reason.
+/// Returns an error with the reason if the changed scene has a larger force than the present scene
+/// and the contact cannot reach this force. Otherwise returns the changed scene.
 fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     let force = pressing_force(&changed.scene().loading);
     let present_force = pressing_force(&app.edit.document.scene().loading);
@@ -286,7 +290,7 @@ fn within_reach(app: &App, changed: Document) -> Result<Document, String> {
     Ok(changed)
 }
 
-/// Sets the selected parameter to a value in the notation of the scene.
+/// Sets the selected parameter to a value, which is written as in the scene file.
 pub fn set_selected(app: &mut App, written: &str) {
     match with_selected(app, written) {
         Ok(document) => apply(app, Ok(document)),
@@ -294,8 +298,8 @@ pub fn set_selected(app: &mut App, written: &str) {
     }
 }
 
-/// The scene with another value of the selected parameter, in the notation of the scene; or the
-/// reason why it is refused.
+/// Returns the scene with another value of the selected parameter, or the reason why the value is
+/// refused. The value is written as in the scene file.
 fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     let selected = app.edit.parameter().ok_or("no parameter is selected")?;
     let document = &app.edit.document;
@@ -321,12 +325,13 @@ fn with_selected(app: &App, written: &str) -> Result<Document, String> {
     within_reach(app, changed)
 }
 
-/// The number of a parameter in the notation of the scene.
+/// Returns the number of a value that is written as in the scene file.
 fn parse_number(parameter: &Parameter, written: &str) -> Result<f64, String> {
     parse_quantity(written, parameter.field.unit).map_err(|error| error.to_string())
 }
 
-/// The scene with a value of a field; a field that it replaces loses its value.
+/// Returns the scene with another value of a field. If the field replaces another field, that field
+/// loses its value.
 fn with_field(document: &Document, path: &str, written: &str) -> Result<Document, SceneErrors> {
     let mut values = Vec::new();
     if let Some(replaced) = replaced_by(path)
@@ -340,7 +345,7 @@ fn with_field(document: &Document, path: &str, written: &str) -> Result<Document
     document.set_all(&values)
 }
 
-/// Returns the reason why a number is out of the range of its field, if it is.
+/// Returns an error if a number is outside the range of its field.
 fn check_range(field: &Field, value: f64) -> Result<(), String> {
     if field.range.contains(value) {
         return Ok(());
@@ -354,8 +359,8 @@ fn check_range(field: &Field, value: f64) -> Result<(), String> {
     ))
 }
 
-/// The adhesion of the scene with another κ or e_el/γ. A scene that states γ keeps stating γ, which
-/// then follows from this value.
+/// Returns the adhesion of the scene with another κ or e_el/γ (`parameter`). If the scene states γ,
+/// it still states γ afterwards, with the value that follows from `value`.
 fn with_roughness_parameter(
     app: &App,
     parameter: RoughnessParameter,
@@ -374,14 +379,14 @@ fn with_roughness_parameter(
     }
 }
 
-/// Reason to refuse a change whose result depends on the outcome of the present scene.
+/// Reason why a change is refused if it depends on the outcome of the present scene.
 pub(super) const STILL_COMPUTED: &str = "the scene is still being computed";
 
 fn undefined(parameter: RoughnessParameter) -> String {
     format!("{} is not defined without roughness", parameter.symbol())
 }
 
-/// Errors of values, without their places.
+/// Joins the messages of errors in values, without the places of the errors in the file.
 pub fn reasons(errors: &SceneErrors) -> String {
     errors
         .iter()
@@ -390,17 +395,19 @@ pub fn reasons(errors: &SceneErrors) -> String {
         .join("; ")
 }
 
-/// Largest number of springs for a preview while a value is typed; the next character stops the
-/// computation.
+/// Largest number of springs for which a preview is computed while a value is typed. The next typed
+/// character stops the computation.
 const MOST_SPRINGS_TRIED: u64 = 1 << 20;
 
-/// Returns true if a scene is small enough for a preview, which the stepwise solver never is.
+/// Returns true if a preview of the scene is computed. This is the case if the scene is small
+/// enough and uses the exact solver, because the stepwise solver is too slow.
 fn is_previewed(document: &Document) -> bool {
     let numerics = document.scene().numerics;
     numerics.points <= MOST_SPRINGS_TRIED && numerics.solver == Solver::Exact
 }
 
-/// Requests the curve for the value typed so far; no curve if the value is not allowed.
+/// Requests the curve for the value typed so far. If the value is not allowed, the preview
+/// disappears.
 pub fn preview(app: &mut App) {
     let tried = tried(app);
     if tried.as_ref().map(Document::text) == app.tried.as_ref().map(Document::text) {
@@ -410,7 +417,8 @@ pub fn preview(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// The scene with the value typed so far, if it is allowed, new and small enough for a preview.
+/// Returns the scene with the value typed so far; `None` if the value is not allowed, changes
+/// nothing, or gives a scene that is too large for a preview.
 fn tried(app: &App) -> Option<Document> {
     if !app.is_typing_value() {
         return None;
@@ -445,14 +453,16 @@ pub fn refuse(app: &mut App, why: String) {
     app.message = Some(Message::Refused(why));
 }
 
-/// Sets a field; for an invalid value the scene stays unchanged and the reason is stated.
+/// Sets a field to a value. If the value is not allowed, the scene stays unchanged and a message
+/// says why.
 pub fn change(app: &mut App, path: &str, value: &str) {
     let changed = app.edit.document.set(path, value);
     apply(app, changed)
 }
 
-/// Draws another random profile with a seed of at most six digits, which can be read out to a
-/// colleague. The seeds follow each other in a sequence that repeats none.
+/// Draws another random profile. Its seed has at most six digits, so that users can easily tell it
+/// to each other. The next seed follows from the present one, and no seed is repeated before all of
+/// them have been used.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {
         Some(seed) => {
@@ -463,7 +473,7 @@ pub fn draw_seed(app: &mut App) {
     }
 }
 
-/// Makes a changed document the explored one, or states why it is not allowed.
+/// Makes the changed document the explored scene. If the change is not allowed, a message says why.
 pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     let document = match changed {
         Ok(document) => document,
@@ -471,7 +481,8 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     };
     let before = app.edit.document.comments();
     let lost = before.saturating_sub(document.comments());
-    // The words of a built-in scene go with the values that they describe.
+    // If a built-in scene is changed, its comments are dropped without a message, because they
+    // describe the values that are replaced.
     let are_own = !document.is_changed_built_in();
     adopt(app, document);
     if lost > 0 && are_own {
@@ -486,25 +497,26 @@ pub fn apply(app: &mut App, changed: Result<Document, SceneErrors>) {
     }
 }
 
-/// Makes a document the explored one; an undo returns to the former document.
+/// Makes a document the explored scene. Undo returns to the previous document.
 pub fn adopt(app: &mut App, document: Document) {
     app.edit.adopt(document);
     after_edit(app);
 }
 
-/// Makes a document and a measured curve the explored ones, in one edit.
+/// Makes a document and a measured curve the explored scene and curve, in one edit.
 pub fn adopt_all(app: &mut App, edited: Edited) {
     app.edit.adopt_all(edited);
     after_edit(app);
 }
 
-/// Continues the last edit: its new result replaces the former one.
+/// Continues the last edit: the document replaces the result of this edit.
 pub fn replace(app: &mut App, document: Document) {
     app.edit.replace(document);
     after_edit(app);
 }
 
-/// Undoes the last edit or, unless `back`, redoes the last undone edit; states the change.
+/// If `back` is true, undoes the last edit; otherwise redoes the last undone edit. A message says
+/// what has changed.
 pub fn undo(app: &mut App, back: bool) {
     let name = if back { "undo" } else { "redo" };
     let Some(what) = app.edit.undo(back) else {
@@ -516,7 +528,7 @@ pub fn undo(app: &mut App, back: bool) {
     }
 }
 
-/// Drops what belongs to the former scene.
+/// Drops everything that belongs to the scene before the edit.
 fn after_edit(app: &mut App) {
     app.message
         .take_if(|message| !matches!(message, Message::Done(_)));
@@ -526,7 +538,7 @@ fn after_edit(app: &mut App) {
     let profiles = ensemble_key(&app.edit.scene);
     let preview = app.edit.document.text();
     app.studies.keep(&[&live_map, preview, &profiles]);
-    // Manual loading belongs to the former profile and contact.
+    // Manual loading ends, because it belongs to the profile and the contact before the edit.
     if app.manual.take().is_some() {
         app.set_done("the body is back on the scene's loading");
     }

@@ -1,4 +1,4 @@
-//! Output of the explorer: the scene, exports, and the command that opens the scene.
+//! Output of the explorer: scene files, exports, and the command that opens the scene.
 
 use super::edit;
 use crate::explorer::action::{Content, EXPORTS, OutputFile, Task, WriteFailure};
@@ -41,7 +41,8 @@ fn write(app: &mut App, path: PathBuf, content: Content, then_quit: bool) -> Res
     Ok(())
 }
 
-/// Asks for the file of the scene or, if that is saved, of another scene with unsaved changes.
+/// Asks for the name of a file for the scene. If the present scene is already saved, it asks for
+/// the file of another scene with unsaved changes.
 pub fn save_before_leaving(app: &mut App) {
     if !app.edit.is_unsaved()
         && let Some(document) = app.edit.unsaved().first()
@@ -62,7 +63,7 @@ pub fn ask_export(app: &mut App) {
     app.ask(Purpose::Export, &file);
 }
 
-/// Exports the selected pane to a file; the extension of the name chooses the format.
+/// Exports the selected pane to a file. The extension of the file name determines the format.
 pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     let extensions = EXPORTS.map(Format::extension);
     let Some(place) = check_extension(&path, &extensions)? else {
@@ -75,7 +76,8 @@ pub fn export(app: &mut App, path: PathBuf) -> Result<(), String> {
     write(app, path, Content::Pane(EXPORTS[place]), false)
 }
 
-/// Reports the result of writing a file, and what follows from it.
+/// Shows whether a file has been written, and continues with the next step, such as a question or
+/// the end of the explorer.
 pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>) {
     let path = file.path.display();
     let is_scene = file.content == Content::Scene;
@@ -104,7 +106,7 @@ pub fn written(app: &mut App, file: OutputFile, result: Result<(), WriteFailure>
     }
 }
 
-/// Leaves the explorer, or asks about unsaved changes first.
+/// Ends the explorer. If there are unsaved changes, asks the user first.
 pub fn ask_quit(app: &mut App) {
     if app.edit.unsaved().is_empty() {
         app.finished = true;
@@ -113,7 +115,8 @@ pub fn ask_quit(app: &mut App) {
     }
 }
 
-/// Copies the command that opens the scene, with its changes and the measured curve beside it.
+/// Copies to the clipboard the command that opens the scene with its changes and the measured
+/// curve.
 pub fn copy_command(app: &mut App) {
     let measured = match &app.edit.measured {
         Some(Measured { path, options, .. }) => {
@@ -124,14 +127,15 @@ pub fn copy_command(app: &mut App) {
     let document = &app.edit.document;
     let program = format!("asperity{measured}");
     let command = command_line(&program, document.name(), document.overrides());
-    // Pasted into a shell, control characters would act on its terminal.
+    // If a user pasted control characters into a shell, the terminal would obey them.
     if command.contains(is_control) {
         app.set_error(
             "not copied: control characters in the name of the file; allowed: a name without any",
         );
         return;
     }
-    // The terminal does not confirm a copy, so the notice has the command too.
+    // The terminal does not confirm that it has copied the text. Therefore the notice contains the
+    // command too.
     app.set_done(format!("copied: {command}"));
     app.effects.push(Task::Copy(command));
 }

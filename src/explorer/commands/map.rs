@@ -1,4 +1,4 @@
-//! Commands of the map, on which the scene is a mark.
+//! Commands of the map, on which a mark shows the scene.
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 const NO_STUDY: &str = "no study is open; o and the path of its folder open one";
 
-/// Changes between the map of the study and the live map.
+/// Switches between the map of the study and the live map.
 pub fn toggle_study(app: &mut App) {
     if app.map.study.is_none() {
         app.set_error(NO_STUDY);
@@ -23,8 +23,8 @@ pub fn toggle_study(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Shows another map of the study. If the scene belongs to the former map, it is moved to the new
-/// one.
+/// Shows the next or the previous map of the study. If the scene belongs to the map shown before,
+/// the scene moves to the new map.
 pub fn step_slice(app: &mut App, key: &KeyEvent) {
     let steps = if key.code == KeyCode::PageUp { -1 } else { 1 };
     let Some(study) = app.map.shown_study() else {
@@ -53,16 +53,17 @@ pub fn step_slice(app: &mut App, key: &KeyEvent) {
     };
     let was_unsaved = app.edit.is_unsaved();
     edit::apply(app, followed);
-    // Browsing is no change that anyone has to save.
+    // The scene has only moved with the map, so this change does not count as unsaved.
     if !was_unsaved && !app.is_refused() {
         app.edit.set_saved();
     }
 }
 
-/// Number of columns or rows of a large step: on the live map the double of κ.
+/// Number of columns or rows of a large step. On the live map, four rows double κ.
 const LARGE_STEP: i32 = 4;
 
-/// Moves the mark, and with it the scene, by a column or a row of the map, or by several.
+/// Moves the mark by one or several columns or rows of the map. The scene gets the values at the
+/// new position.
 pub fn step(app: &mut App, key: &KeyEvent) {
     let Some(direction) = direction(key) else {
         return;
@@ -93,10 +94,10 @@ pub fn step(app: &mut App, key: &KeyEvent) {
     move_to(app, (next_across, next_up));
 }
 
-/// Message for a step beyond the map.
+/// Message if a step would leave the map.
 const EDGE: &str = "edge of the map";
 
-/// Why the scene has no mark on the map.
+/// Returns the reason why the scene has no mark on the map.
 fn why_no_place(app: &App) -> String {
     if let Err(why) = Plan::of_map(app.edit.document.scene()) {
         return why.to_string();
@@ -107,7 +108,8 @@ fn why_no_place(app: &App) -> String {
     "the scene is still being computed: its κ follows from its profile".to_owned()
 }
 
-/// The value after a number of steps on an axis; `None` beyond its ends.
+/// Returns the value that is a number of steps further on an axis; `None` if it would lie beyond
+/// the end of the axis.
 fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
     if steps == 0 {
         Some(value)
@@ -116,10 +118,11 @@ fn next_on(axis: &Axis, value: f64, steps: i32) -> Option<f64> {
     }
 }
 
-/// Message for a scene that lacks a quantity of the map's axes.
+/// Message if the scene lacks a quantity that an axis of the map shows.
 const NO_PLACE: &str = "the scene has no place on this map: it lacks a quantity of the axes";
 
-/// Sets the scene to the values at a place on the map. Successive moves count as one edit.
+/// Sets the scene to the values at a position on the map. Successive moves are one edit, so that
+/// one undo reverts them all.
 pub fn move_to(app: &mut App, place: GridPlace) {
     match moved_to(app, place) {
         Ok(document) if app.map.moving => edit::replace(app, document),
@@ -128,7 +131,8 @@ pub fn move_to(app: &mut App, place: GridPlace) {
     app.map.moving = !app.is_refused();
 }
 
-/// The scene moved to a place on the map. A preload in units of E* h L may change with the place.
+/// Returns the scene with the values at a position on the map. If the preload is given in units of
+/// E* h L, the preload may change with the position.
 fn moved_to(app: &App, place: GridPlace) -> Result<Document, SceneErrors> {
     let (value_across, value_up) = place;
     let axes = app.map_axes();

@@ -1,5 +1,5 @@
-//! A measured force curve beside the scene: its first touch, the residual of the scene, and fits of
-//! parameters.
+//! A measured force curve beside the scene: its point of first touch, its deviation from the scene,
+//! and fits of parameters.
 
 use super::edit;
 use crate::explorer::action::{CurveRequest, Task};
@@ -17,11 +17,12 @@ use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// Number of computed curves between two progress reports of a fit.
+/// Number of computed curves between two reports of the progress of a fit.
 const REPORTED: u64 = 64;
 
-/// The study of the measured curve: the requested fit, or else the position of the curve and the
-/// residual.
+/// Returns the study of the measured curve. It is the fit that the user has requested. If none is
+/// requested, the study fits only the displacement at first touch, and gives the deviation of the
+/// curve from the scene.
 pub fn study(app: &App) -> Option<Study> {
     let (curve, document) = (
         Arc::clone(&app.edit.measured.as_ref()?.curve),
@@ -89,7 +90,8 @@ pub fn accept_fit(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Applies what a study has found: the position of the curve, and the scene of a fit.
+/// Applies the results of the study of the measured curve: the displacement at first touch, and the
+/// scene with the fitted parameters.
 pub fn found(app: &mut App) {
     if let Some(Fitting {
         found: Some(found), ..
@@ -112,7 +114,7 @@ pub fn found(app: &mut App) {
     }
 }
 
-/// Measured displacement at first touch, m, if a fit has found it.
+/// Returns the measured displacement at first touch in m; `None` if no fit has found it yet.
 fn fitted_offset(app: &App) -> Option<f64> {
     let fit = fitted(&app.studies)?;
     let mut parameters = fit.parameters.iter();
@@ -120,7 +122,8 @@ fn fitted_offset(app: &App) -> Option<f64> {
     Some(offset.value)
 }
 
-/// The option in the selected row, with the curve that it belongs to.
+/// Returns the option for reading the curve that the selected row shows, and the curve; `None` if
+/// the selected row is no such option.
 fn selected(app: &App) -> Option<(&'static CurveOptionRow, &Measured)> {
     let Setting::CurveOption(index) = app.edit.parameter()?.setting else {
         return None;
@@ -128,12 +131,12 @@ fn selected(app: &App) -> Option<(&'static CurveOptionRow, &Measured)> {
     Some((OPTIONS.get(index)?, app.edit.measured.as_ref()?))
 }
 
-/// Returns true if the selected row is an option of the measured curve.
+/// Returns true if the selected row is an option for reading the measured curve.
 pub fn is_option(app: &App) -> bool {
     selected(app).is_some()
 }
 
-/// Takes a typed value of the selected option; the curve is then read anew.
+/// Sets the selected option to the typed value. The curve is then read again.
 pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     let Some((option, measured)) = selected(app) else {
         return Ok(());
@@ -148,7 +151,8 @@ pub fn accept_option(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Changes the selected option to the next choice; given forces change as the forces of a scene do.
+/// Sets the selected option to its next choice. If its value is a force, the force changes in the
+/// steps of forces in a scene.
 pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     edit::show_parameters(app);
     let Some((option, measured)) = selected(app) else {
@@ -168,7 +172,7 @@ pub fn step_option(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// The value of an option after a number of steps; `None` if it can only be typed.
+/// Returns the value of an option after a number of steps; `None` if the value can only be typed.
 fn next_value(
     option: &CurveOptionRow,
     measured: &Measured,
@@ -182,8 +186,8 @@ fn next_value(
     option.field.stepped(&present, steps, coarse)
 }
 
-/// Shows the curve as read with other options, in one edit with its loading; or states why it was
-/// not read.
+/// Shows the curve that was read with other options, together with the loading that follows from
+/// it, in one edit. If the curve was not read, a message says why.
 pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured>, String>) {
     match read.and_then(|measured| with_loading(app, *measured)) {
         Ok(edited) => {
@@ -199,7 +203,7 @@ pub fn show_read(app: &mut App, wanted: &CurveRequest, read: Result<Box<Measured
     }
 }
 
-/// The present scene with the loading of a measured curve, and the curve.
+/// Returns the present scene with the loading of a measured curve, together with this curve.
 fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
     let document = measured.curve.load(&app.edit.document, measured.offset);
     Ok(Edited {
@@ -208,8 +212,8 @@ fn with_loading(app: &App, measured: Measured) -> Result<Edited, String> {
     })
 }
 
-/// The fitted parameters with their intervals, in words; first of all whether the scene does not
-/// describe the curve.
+/// Returns the fitted parameters with their intervals as text. If the scene does not describe the
+/// curve, the text says this first.
 fn sentence(fit: &FitResult) -> String {
     let values: Vec<String> = fit.parameters.iter().map(value_in_words).collect();
     let values = values.join(", ");
@@ -220,7 +224,7 @@ fn sentence(fit: &FitResult) -> String {
     format!("the scene does not describe the curve, misfit {misfit}; {values}; {reason} u undoes")
 }
 
-/// A fitted parameter with its interval.
+/// Returns a fitted parameter with its interval as text.
 fn value_in_words(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
     let (low, high) = fitted.interval;

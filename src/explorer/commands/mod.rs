@@ -1,4 +1,4 @@
-//! The commands of the explorer: the table of keys, and one file for the functions of each kind.
+//! The commands of the explorer: the table of keys, and one file for each group of functions.
 
 pub mod accuracy;
 mod compare;

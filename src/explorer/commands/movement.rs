@@ -1,4 +1,4 @@
-//! Movement of the body: the animation of the scene's loading, or manual loading.
+//! Commands that move the body: the animation of the scene's loading, and manual loading.
 
 use crate::explorer::app::App;
 use crate::explorer::player::{At, Player};
@@ -10,17 +10,18 @@ use asperity_data::{in_unit, parse_quantity};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Time that the animation takes for one loading stage at speed 1.
+/// Time that the animation takes for a loading stage at speed 1.
 const LEG_TIME: Duration = Duration::from_secs(6);
-/// Number of steps of the animation over one loading stage.
+/// Number of steps in which the animation can go through a loading stage.
 const STEPS: f64 = 120.0;
-/// Share of a loading stage that counts as its start.
+/// Largest share of a loading stage at which the animation still counts as being at the start of
+/// the stage.
 const NEAR_START: f64 = 0.05;
-/// Number of small steps of manual loading over the whole range of indentations.
+/// Number of small steps of manual loading from the lowest to the highest indentation.
 const SMALL_PUSHES: f64 = 400.0;
-/// Number of large steps of manual loading over the whole range of indentations.
+/// Number of large steps of manual loading from the lowest to the highest indentation.
 const LARGE_PUSHES: f64 = 40.0;
-/// Largest number of points kept of the path of manual loading.
+/// Largest number of points that are kept of the path of manual loading.
 const PATH_KEPT: usize = 20_000;
 
 pub fn toggle_manual(app: &mut App) {
@@ -29,7 +30,8 @@ pub fn toggle_manual(app: &mut App) {
     }
 }
 
-/// Presses the body by a number of steps of manual loading, or pulls it if negative.
+/// Presses the body by a number of steps of manual loading. If `steps` is negative, the body is
+/// pulled.
 pub fn push(app: &mut App, steps: i32, coarse: bool) {
     let (low, high) = app.indentations().unwrap_or_default();
     let steps_over_range = if coarse { LARGE_PUSHES } else { SMALL_PUSHES };
@@ -41,8 +43,9 @@ pub fn separate(app: &mut App) {
     take(app, Some(ManualMove::Separate))
 }
 
-/// Plays or pauses the animation. At rest it starts again from the beginning. Like all movements of
-/// the animation this ends manual loading, since the animation shows the loading of the scene.
+/// Starts or pauses the animation. If the animation is at rest at its end, it starts again from the
+/// beginning. Manual loading ends, because the animation shows the loading of the scene; this holds
+/// for all movements of the animation.
 pub fn toggle_play(app: &mut App) {
     app.manual = None;
     let is_last = app.play.leg + 1 >= app.legs().len();
@@ -54,8 +57,8 @@ pub fn toggle_play(app: &mut App) {
     }
 }
 
-/// Moves the animation by a number of steps; past the end of a stage it stops at the boundary to
-/// the next one.
+/// Moves the animation by a number of steps. If it would leave its stage, it stops at the boundary
+/// to the next or the previous stage.
 pub fn step(app: &mut App, steps: i32) {
     app.manual = None;
     app.play.playing = false;
@@ -87,11 +90,12 @@ pub fn restart(app: &mut App) {
     app.play = Player::START;
 }
 
-/// Goes to the start of a loading stage, `legs` after the present one; back from inside a stage,
-/// first to its own start.
+/// Goes to the start of the loading stage that is `legs` stages after the present one. If `legs` is
+/// negative and the animation is inside a stage, it goes to the start of this stage.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
-    // A playing animation has passed the start by the time of the next key.
+    // A playing animation moves on between two keys, so a position shortly after the start counts
+    // as the start. Otherwise the user could not get back to earlier stages.
     let is_inside = app.play.share(app.legs()) > NEAR_START;
     let distance = if legs < 0 && is_inside { 0 } else { legs };
     let leg = app.play.leg.saturating_add_signed(distance as isize);
@@ -99,8 +103,8 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Goes to the state at the pull-off, just before the contact is lost, in which the animation
-/// rests.
+/// Goes to the state at the pull-off, just before the contact is lost. This is the state in which
+/// the animation rests.
 pub fn go_to_pull_off(app: &mut App) {
     let rest = Player::at_rest(app.legs());
     if rest.at == At::End {
@@ -113,7 +117,7 @@ pub fn go_to_pull_off(app: &mut App) {
     app.manual = None;
 }
 
-/// Lets the animation play for a time.
+/// Advances the animation by the elapsed time.
 pub fn elapse(app: &mut App, time: Duration) {
     if !app.play.playing || app.legs().is_empty() || !app.is_current() {
         return;
@@ -122,8 +126,8 @@ pub fn elapse(app: &mut App, time: Duration) {
     let last = legs.len() - 1;
     let mut player = app.play;
     let mut share = app.config.speed * time.as_secs_f64() / LEG_TIME.as_secs_f64();
-    // What a stage leaves of the distance continues on the next stage, so that the frame rate does
-    // not change the speed.
+    // If the distance goes beyond the end of a stage, the rest continues on the next stage. The
+    // speed then does not depend on the frame rate.
     while player.leg < last && share > 1.0 - player.share(legs) {
         share -= 1.0 - player.share(legs);
         player = Player {
@@ -143,9 +147,11 @@ pub fn elapse(app: &mut App, time: Duration) {
     app.play = player;
 }
 
-/// Shows a snapshot of the solver, and continues the path of manual loading with it.
+/// Shows a snapshot that the solver has made. If it belongs to manual loading, the path is
+/// continued.
 pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
-    // Another snapshot may have been on its way when the patch was requested.
+    // A snapshot that was requested earlier may arrive first. It does not answer the question which
+    // patch to show.
     if snapshot.focus == app.view.close_up.focus && app.view.close_up.focus.is_question() {
         let middle = snapshot.close_up.patch.map(|facts| facts.patch.middle());
         app.view.close_up.focus = middle.map_or(Focus::Summit, Focus::Spring);
@@ -156,8 +162,8 @@ pub fn shown(app: &mut App, snapshot: Arc<ContactSnapshot>) {
     app.snapshot = Some(snapshot);
 }
 
-/// Adds what the body has travelled to the path of manual loading, or states why a move was
-/// refused.
+/// Adds the points that the body has passed to the path of manual loading. If a move was refused, a
+/// message says why.
 fn continue_path(app: &mut App, travelled: &ManualPath) {
     let Some(manual) = &mut app.manual else {
         return;
@@ -185,7 +191,7 @@ fn continue_path(app: &mut App, travelled: &ManualPath) {
     }
 }
 
-/// Begins manual loading if it has not begun, and moves the body.
+/// Begins manual loading if it has not begun. If `order` is a move, the body is moved.
 pub fn take(app: &mut App, order: Option<ManualMove>) {
     if !app.is_current() || app.legs().is_empty() {
         return;
@@ -212,7 +218,7 @@ fn begin_manual(app: &mut App) {
     };
     if let Some(snapshot) = app.present() {
         manual.path.push(snapshot.point);
-        // The start of a stage is the end of the one before, which the path may continue.
+        // The start of a stage is the end of the previous stage, which manual loading may continue.
         manual.stages.push(match at {
             At::Start => leg.saturating_sub(1),
             _ => leg,

@@ -13,8 +13,8 @@ use asperity_report::LoopQuantities;
 use asperity_study::maps::StudyMap;
 use std::sync::Arc;
 
-/// Creates the state of an explorer in a window of this size, opened with the arguments of the
-/// program.
+/// Creates the state of an explorer in a window of this size. `opening` contains what the arguments
+/// of the program have opened.
 pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config: Config) -> App {
     let Opening {
         document,
@@ -34,8 +34,8 @@ pub fn begin(opening: Opening, size: (u16, u16), appearance: Appearance, config:
     app
 }
 
-/// Explores a scene or a study that was opened by its path, or shows a measured curve beside the
-/// present scene.
+/// Shows what was opened by its path: a scene, a study, or a measured curve beside the present
+/// scene.
 pub fn open(app: &mut App, opened: Opened) {
     match opened {
         Opened::Scene(opening) => {
@@ -54,8 +54,8 @@ fn show_study(app: &mut App, study_map: Arc<StudyMap>) {
     app.show(Pane::Map);
 }
 
-/// Shows a measured curve with its options of reading. The scene gets the loading of the curve, in
-/// the same edit.
+/// Shows a measured curve beside the scene. In the same edit, the scene gets the loading of the
+/// curve.
 fn show_measured(app: &mut App, measured: Measured) {
     let is_new = app.edit.measured.as_ref() != Some(&measured);
     let undone = if is_new {

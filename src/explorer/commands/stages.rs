@@ -1,4 +1,5 @@
-//! Edits of the loading: of single stages, and by the path of manual loading.
+//! Edits of the loading: changes of single stages, and the path of manual loading as the new
+//! loading.
 
 use super::{edit, measured};
 use crate::explorer::app::App;
@@ -10,11 +11,12 @@ use asperity_data::round_to;
 use asperity_scene::loading::StageKind;
 use asperity_scene::{Document, SceneErrors};
 
-/// Loading stages; a stage of the present loading has its index in it.
+/// Loading stages. A stage that is already part of the present loading comes with its index in this
+/// loading.
 type Stages = Vec<(Option<usize>, Move)>;
 
-/// Index of the selected stage, or on the row of the whole loading of the last one; states an error
-/// if neither is selected.
+/// Returns the index of the selected stage. If the row of the whole loading is selected, it is the
+/// last stage. If neither is selected, an error message is shown.
 fn selected(app: &mut App) -> Option<usize> {
     edit::show_parameters(app);
     let last = app.edit.document.scene().loading.len() - 1;
@@ -27,8 +29,8 @@ fn selected(app: &mut App) -> Option<usize> {
     }
 }
 
-/// Changes the stages, given the index of the selected one; `change` returns the index of the stage
-/// to select.
+/// Changes the stages with the function `change`. The function receives the stages and the index of
+/// the selected stage, and returns the index of the stage to select afterwards.
 fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     let Some(selected) = selected(app) else {
         return;
@@ -41,7 +43,7 @@ fn change(app: &mut App, change: impl FnOnce(&mut Stages, usize) -> usize) {
     }
 }
 
-/// Makes a scene the explored one, if it is allowed, and selects a stage.
+/// Makes the changed scene the explored scene and selects a stage, if the change is allowed.
 fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     let is_allowed = changed.is_ok();
     edit::apply(app, changed);
@@ -50,8 +52,9 @@ fn adopt(app: &mut App, changed: Result<Document, SceneErrors>, stage: usize) {
     }
 }
 
-/// Adds a stage after the selected one and opens its editor: after a stage that presses, a stage to
-/// zero force, or at the end to separation; otherwise a stage that presses.
+/// Adds a stage after the selected one, and opens its editor. If the selected stage does not press,
+/// the new stage presses. If it presses, the new stage goes to zero force or, at the end of the
+/// loading, to separation.
 pub fn add(app: &mut App) {
     let force = pressing_force(app);
     let before = app.edit.generation;
@@ -72,7 +75,7 @@ pub fn add(app: &mut App) {
     }
 }
 
-/// Returns true for a stage to a force or a displacement above zero.
+/// Returns true for a stage to a force, an indentation or a displacement above zero.
 fn presses(stage: Move) -> bool {
     match stage {
         Move::ToForce(target) | Move::ToIndentation(target) | Move::ToDisplacement(target) => {
@@ -89,7 +92,7 @@ pub fn delete(app: &mut App) {
     })
 }
 
-/// Exchanges the selected stage with the previous or the next one.
+/// Moves the selected stage by `distance` places and exchanges it with the stage there.
 pub fn shift(app: &mut App, distance: isize) {
     change(app, |stages, selected| {
         let place = selected.saturating_add_signed(distance);
@@ -99,9 +102,9 @@ pub fn shift(app: &mut App, distance: isize) {
     })
 }
 
-/// Changes the selected stage to the next kind, forwards or backwards, that the loading allows,
-/// with the value that it reaches now. If no other kind is allowed, the reason against the last one
-/// is stated.
+/// Changes the selected stage to the next kind that the loading allows, or the previous kind if
+/// `forwards` is false. The number of the new kind is the value that the stage reaches now. If no
+/// other kind is allowed, a message gives the reason against the last kind that was tried.
 pub fn change_kind(app: &mut App, forwards: bool) {
     let Some(selected) = selected(app) else {
         return;
@@ -127,10 +130,10 @@ pub fn change_kind(app: &mut App, forwards: bool) {
     }
 }
 
-/// The number of a stage of this kind that ends where the stage ends now, in the unit of the kind;
-/// a usual one if the end of the stage is not known.
+/// Returns the number with which a stage of this kind ends where the stage ends now, in the unit of
+/// the kind. If the end of the stage is not known, it is a usual value.
 fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
-    /// Indentation of a stage that is not computed, m.
+    /// Indentation in m for a stage that is not computed.
     const USUAL_INDENTATION: f64 = 1e-7;
     let end = app.current().and_then(|solved| {
         let leg = solved.outcome.history.legs.get(stage)?;
@@ -155,8 +158,9 @@ fn number_of_kind(app: &App, stage: usize, kind: &StageKind) -> f64 {
     }
 }
 
-/// Largest force of the loading or of the loading before the last edits, N; otherwise a force that
-/// suits the computed scene.
+/// Returns the largest force of the present loading in N. If this loading does not press, it is the
+/// largest force of the most recent earlier version of the scene that presses; failing that, a
+/// force that suits the computed scene.
 fn pressing_force(app: &App) -> f64 {
     let present = &app.edit.document;
     let earlier = app.edit.past.iter().rev().map(|edited| &edited.document);
@@ -179,11 +183,12 @@ fn pressing_force(app: &App) -> f64 {
     }
 }
 
-/// Force of a stage that presses in a scene that suggests none, N.
+/// Force in N of a stage that presses, if neither the scene nor its outcome suggests a force.
 const USUAL_FORCE: f64 = 1e-5;
 
-/// Steps the selected value; for an option of the measured curve the next choice. A stage without a
-/// number, such as a separation, stays, since another kind of stage is another loading.
+/// Changes the selected value by a number of steps. An option for reading the measured curve gets
+/// its next choice. A stage without a number, such as a separation, does not change, because
+/// another kind of stage would be another loading.
 pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     let Some(parameter) = app.edit.parameter() else {
         return;
@@ -203,7 +208,8 @@ pub fn step_value(app: &mut App, steps: i32, coarse: bool) {
     }
 }
 
-/// The stages of a loading that replaces the loading of a scene; an unchanged stage keeps its text.
+/// Returns the stages of a loading that replaces the loading of the scene. Stages that do not
+/// change keep their text in the file.
 fn replaced(document: &Document, loading: &[Move]) -> Stages {
     let present = &document.scene().loading;
     let mut stages = Stages::new();
@@ -215,14 +221,16 @@ fn replaced(document: &Document, loading: &[Move]) -> Stages {
     stages
 }
 
-/// The scene with the path of manual loading as its loading; `None` without manual loading.
+/// Returns the scene with the path of manual loading as its loading; `None` if there is no manual
+/// loading.
 pub fn with_path(app: &App) -> Option<Result<Document, SceneErrors>> {
     let document = &app.edit.document;
     let stages = replaced(document, &app.manual.as_ref()?.loading);
     Some(document.with_stages(&stages))
 }
 
-/// Makes the path of manual loading the loading of the scene, with the body at its end.
+/// Makes the path of manual loading the loading of the scene. The body stays at the end of the
+/// path.
 pub fn keep_path(app: &mut App) {
     let document = match with_path(app) {
         None => return app.set_error("no manual loading; d begins it"),

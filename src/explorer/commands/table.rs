@@ -1,5 +1,5 @@
-//! The one table of keys with their functions, for dispatch, footer, help, list of commands,
-//! configuration, demo and docs/keys.md.
+//! The table of all keys with their functions. From this table follow the dispatch of keys, the
+//! footer, the help, the list of commands, the configuration, the demo and docs/keys.md.
 
 use super::{
     accuracy, compare, crosshair, dialogue, edit, files, map, measured, movement, stages, target,
@@ -16,7 +16,7 @@ use crate::explorer::request::Focus;
 use Run::{Do, Key};
 use crossterm::event::KeyEvent;
 
-/// A row of the table with its function and the condition for its place in the footer.
+/// Row of the table, with its function and the condition under which the footer shows it.
 pub struct Entry {
     row: Row,
     run: Run,
@@ -26,7 +26,7 @@ pub struct Entry {
 #[derive(Clone, Copy)]
 enum Run {
     Do(fn(&mut App)),
-    /// Runs a function that also takes the key, for keys that differ in what they do.
+    /// Function that also receives the pressed key, for rows whose keys do different things.
     Key(fn(&mut App, &KeyEvent)),
 }
 
@@ -45,13 +45,13 @@ pub fn run(command: KeyCommand, app: &mut App) {
     }
 }
 
-/// The key with which a command acts that is run without a key.
+/// Returns the key with which a command runs if the user has not pressed a key.
 fn first_key(row: &Row) -> Option<KeyEvent> {
     let name = row.keys.split(' ').next()?;
     Some(key::Key::named(name)?.event())
 }
 
-/// The entry of the table that a row is part of.
+/// Returns the entry of the table that contains a row.
 fn entry_of(row: &Row) -> Option<&'static Entry> {
     TABLE.iter().find(|entry| std::ptr::eq(&entry.row, row))
 }
@@ -60,8 +60,8 @@ pub fn bindings() -> Bindings {
     Bindings::of(TABLE.iter().map(|entry| &entry.row))
 }
 
-/// Keys and rows for the footer, the most important first; neighbouring rows with the same label
-/// are one item.
+/// Returns the keys and rows for the footer, the most important first. Neighbouring rows with the
+/// same label become one item.
 pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     let is_manual = app.manual.is_some();
     app.config.bindings.footer(app.keys(), is_manual, |row| {
@@ -69,12 +69,13 @@ pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     })
 }
 
-/// Contexts in which arrows select a parameter: not the map and the crosshair, where they move
-/// these.
+/// Contexts in which all arrows act on the list of parameters. On the map and with a crosshair,
+/// they move the mark or the crosshair instead.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
-/// Contexts in which ↑ ↓ select a parameter: not the map.
+/// Contexts in which ↑ and ↓ select a parameter. On the map, they move the mark instead.
 const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
-/// Contexts except the list of parameters, in which these characters begin a value.
+/// Contexts except the list of parameters. In that list, the characters of these keys begin a
+/// value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];
@@ -84,7 +85,7 @@ const HELP: &[Context] = &[Context::Help];
 const TYPED: &[Context] = &[Context::Line, Context::List];
 const SEARCHED: &[Context] = &[Context::List];
 const LINE: &[Context] = &[Context::Line];
-/// Contexts with a list: a prompt with a list, and the help.
+/// Contexts with a list: prompts with a list, and the help.
 const LISTS: &[Context] = &[Context::List, Context::Help];
 const OVERWRITE: &[Context] = &[Context::Overwrite];
 const LEAVE: &[Context] = &[Context::Leave];
@@ -172,7 +173,7 @@ fn takes_number(app: &App) -> bool {
     app.edit.parameter().is_some_and(Parameter::takes_number)
 }
 
-/// All keys. A test ensures one meaning of a key in each context.
+/// All keys. A test checks that a key has only one meaning in each context.
 #[rustfmt::skip]
 static TABLE: &[Entry] = &[
     row("space", EXPLORE, "toggle-play", Do(movement::toggle_play), "play", "play or pause", ANIMATION),

@@ -1,4 +1,4 @@
-//! The inverse question: the value of the selected row at which a quantity has a typed value.
+//! The inverse question: which value of the selected parameter gives a quantity the typed value?
 
 use super::edit;
 use crate::explorer::action::Task;
@@ -15,18 +15,18 @@ use asperity_study::{Ensemble, Found, Question};
 use std::convert::Infallible;
 use std::sync::Arc;
 
-/// The target that the prompt proposes.
+/// Target that the prompt proposes.
 const USUAL: &str = "F_a/F_a,max = 80 %";
 
-/// The answer to a question, which is identified by its key.
+/// Answer to a question. The key says to which question the answer belongs.
 #[derive(Clone, Debug)]
 pub struct Sought {
     key: String,
     found: Result<Found, String>,
 }
 
-/// Path of the number that is sought on the row of a parameter: its own, or of the loading the
-/// preload.
+/// Returns the path of the number that is sought for the row of a parameter: the preload for a row
+/// of the loading, otherwise the value of the parameter itself. `None` if nothing can be sought.
 fn sought(parameter: &Parameter) -> Option<&str> {
     if parameter.group == "loading" {
         return Some("preload");
@@ -42,7 +42,7 @@ fn sought(parameter: &Parameter) -> Option<&str> {
     }
 }
 
-/// Name of the number that is sought on the selected row.
+/// Returns the name of the number that is sought for the selected row.
 pub fn name(app: &App) -> String {
     match app.edit.parameter() {
         Some(parameter) if sought(parameter) != Some("preload") => parameter.name(),
@@ -50,7 +50,7 @@ pub fn name(app: &App) -> String {
     }
 }
 
-/// Asks for a target of the selected row.
+/// Asks the user for a target of the selected row.
 pub fn ask(app: &mut App) {
     edit::show_parameters(app);
     let Some(parameter) = app.edit.parameter() else {
@@ -67,7 +67,7 @@ pub fn ask(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// The condition being typed; `None` without such a prompt.
+/// Returns the target that is being typed; `None` if there is no such prompt.
 fn typed(app: &App) -> Option<&str> {
     let prompt = app.prompt.as_ref()?;
     match prompt.purpose {
@@ -76,13 +76,14 @@ fn typed(app: &App) -> Option<&str> {
     }
 }
 
-/// Key of the question for the selected row with this condition.
+/// Returns the key of the question that consists of the selected row and this target.
 fn key(app: &App, typed: &str) -> Option<String> {
     let path = sought(app.edit.parameter()?)?;
     Some(format!("{} {path} {}", app.edit.generation, typed.trim()))
 }
 
-/// Finds the value for the typed target; `None` without a target that can be read.
+/// Returns the study that finds the value for the typed target; `None` if the target cannot be
+/// read.
 pub fn study(app: &App) -> Option<Study> {
     let (key, condition) = (
         key(app, typed(app)?)?,
@@ -107,7 +108,7 @@ pub fn study(app: &App) -> Option<Study> {
     ))
 }
 
-/// The answer to the question with this condition; `None` while it is not known.
+/// Returns the answer to the question with this target; `None` if the answer is not known yet.
 fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     let key = key(app, typed)?;
     let sought = app.studies.value::<Sought>()?;
@@ -118,7 +119,7 @@ fn found<'a>(app: &'a App, typed: &str) -> Option<&'a Result<Found, String>> {
     }
 }
 
-/// The answer in words, or what is missing; `None` without a question.
+/// Returns the answer as text, or a text that says what is missing; `None` if no question is asked.
 pub fn answer(app: &App) -> Option<String> {
     let typed = typed(app)?;
     if let Err(why) = Question::parse_condition(typed) {
@@ -145,8 +146,8 @@ fn answer_in_words(found: &Found) -> String {
     }
 }
 
-/// The value to take: the median over the profiles. `None` if the target is met at any preload, so
-/// that it needs none.
+/// Returns the value to be set, which is the median over the profiles. `None` if the target is met
+/// at any preload, so that no particular preload is needed.
 fn value(found: &Found) -> Option<f64> {
     let median = found.quantile(0.5)?;
     let (least, _) = found.question.searched;
@@ -154,7 +155,8 @@ fn value(found: &Found) -> Option<f64> {
     if is_needed { Some(median) } else { None }
 }
 
-/// Gives the selected row the found value; a preload goes to the stage that presses most.
+/// Sets the selected row to the value that was found. A preload becomes the force of the stage that
+/// presses most.
 pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Question::parse_condition(typed).map_err(|error| error.to_string())?;
     let known = match found(app, typed) {
@@ -174,7 +176,7 @@ pub fn accept(app: &mut App, typed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Index of the stage that presses to the largest force, the last one of several.
+/// Returns the index of the stage to the largest force; the last one if there are several.
 fn pressing_stage(loading: &[Move]) -> Option<usize> {
     let mut pressing: Option<(usize, f64)> = None;
     for (index, stage) in loading.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Changes of the view: panes, close-up, visible part of the line, quantities, colours.
+//! Commands that change the view: panes, close-up, visible part of the profile, quantities and
+//! colours.
 
 use crate::explorer::action::Task;
 use crate::explorer::app::App;
@@ -9,10 +10,11 @@ use crate::explorer::theme::Cycle;
 use asperity_data::AxisScale;
 use crossterm::event::{KeyCode, KeyEvent};
 
-/// Smallest number of springs in a section of the profile.
+/// Smallest number of springs in the visible part of the profile.
 const FEWEST_SPRINGS: usize = 8;
 
-/// Shows the patch that answers a question; `question` receives the spring of the shown patch.
+/// Shows another patch in the close-up. `question` receives the middle spring of the shown patch,
+/// and returns which patch to show.
 pub fn go_to_patch(app: &mut App, question: fn(Option<usize>) -> Focus) {
     let snapshot = app.snapshot.as_ref();
     let shown = snapshot.and_then(|snapshot| snapshot.close_up.patch);
@@ -30,7 +32,7 @@ pub fn next_theme(app: &mut App) {
     app.set_done(format!("colours: {}", app.view.appearance.theme.name()));
 }
 
-/// Changes between equal distances and equal ratios of the preloads.
+/// Switches the scale of the preloads between linear and logarithmic.
 pub fn toggle_preload_scale(app: &mut App) {
     app.view.preloads = match app.view.preloads {
         AxisScale::Linear => AxisScale::Logarithmic,
@@ -39,14 +41,14 @@ pub fn toggle_preload_scale(app: &mut App) {
     app.effects.push(Task::Study);
 }
 
-/// Number of springs of the whole profile.
+/// Returns the number of springs of the whole profile.
 fn springs(app: &App) -> usize {
     app.outcome()
         .map_or(1, |outcome| outcome.line.points)
         .max(1)
 }
 
-/// Number of springs in the close-up.
+/// Returns the number of springs in the close-up.
 fn close_up_springs(app: &App) -> usize {
     if let Some(springs) = app.view.close_up.springs {
         return springs;
@@ -57,7 +59,7 @@ fn close_up_springs(app: &App) -> usize {
     }
 }
 
-/// Zooms the profile if its pane is selected, otherwise the close-up; positive steps zoom in.
+/// Zooms the profile if its pane is selected, otherwise the close-up. Positive steps zoom in.
 pub fn zoom(app: &mut App, steps: i32) {
     let most = springs(app);
     if app.view.pane == Pane::Profile {
@@ -74,7 +76,8 @@ pub fn zoom(app: &mut App, steps: i32) {
     }
 }
 
-/// Zooms the section in the selected pane so that a position, m, stays at its place on the screen.
+/// Zooms the visible part in the selected pane. The point of the profile at `position` (m) stays at
+/// its place on the screen.
 pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     let pointer = position.and_then(|position| share_of_shown(app, position));
     let profile = app.view.profile;
@@ -97,7 +100,8 @@ pub fn zoom_at(app: &mut App, steps: i32, position: Option<f64>) {
     }
 }
 
-/// A position along the profile, m, as a share of the section that the selected pane shows.
+/// Converts a position along the profile in m to a share (0 to 1) of the part that the selected
+/// pane shows.
 fn share_of_shown(app: &App, position: f64) -> Option<f64> {
     let snapshot = app.snapshot.as_ref()?;
     let section = if app.view.pane == Pane::Profile {
@@ -110,13 +114,14 @@ fn share_of_shown(app: &App, position: f64) -> Option<f64> {
     Some(spring / section.springs.max(1) as f64)
 }
 
-/// The focus on a spring, which may be given beyond the ends of the profile.
+/// Returns a focus of the close-up on a spring. If the number of the spring is beyond an end of the
+/// profile, it is the spring at this end.
 fn focus_within(app: &App, spring: f64) -> Focus {
     let last = (springs(app) - 1) as f64;
     Focus::Spring(spring.clamp(0.0, last) as usize)
 }
 
-/// Moves along the profile by a quarter of the visible part.
+/// Moves the visible part of the profile by a quarter of its width.
 pub fn pan(app: &mut App, key: &KeyEvent) {
     let is_left = key.code == KeyCode::Char('(');
     let quarter = if is_left { -0.25 } else { 0.25 };

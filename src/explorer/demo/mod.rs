@@ -1,4 +1,5 @@
-//! Demo of the explorer: the same frames in every run, for a terminal, a pipe or a recording.
+//! Demo of the explorer, for a terminal, a pipe or a recording. Each time it plays, it shows
+//! exactly the same frames.
 
 pub mod script;
 pub mod watch;
@@ -22,17 +23,16 @@ pub struct Demo {
     explorer: Runtime,
     cues: VecDeque<Cue>,
     typing: VecDeque<char>,
-    /// Seconds until the next cue of the script.
+    /// Time in s until the next cue of the script.
     pause: f64,
-    /// Time since the demo began, and between frames, s.
+    /// Time in s since the demo began. The next field is the time in s between two frames.
     seconds: f64,
     frame: f64,
     begun: bool,
 }
 
 impl Demo {
-    /// Creates a demo that begins on a scene and follows a script, at a number of frames per
-    /// second.
+    /// Creates a demo that begins with the scene `document` and follows a script.
     pub fn new(
         document: Document,
         script: &[Cue],
@@ -41,7 +41,7 @@ impl Demo {
         frames_per_second: f64,
     ) -> Self {
         let mut app = App::new(document, size, appearance, Config::new(bindings()));
-        // Times differ from run to run.
+        // Computing times would differ each time the demo plays.
         app.view.shows_times = false;
         app.view.demo = Some("");
         let engine = Engine::inline(Simulation::run, |study| !study.is_long);
@@ -63,7 +63,8 @@ impl Demo {
         }
     }
 
-    /// Advances to the next frame and returns its time in seconds; `None` when the demo is over.
+    /// Advances to the next frame and returns the time of this frame in s since the demo began.
+    /// Returns `None` if the demo is over.
     pub fn advance(&mut self) -> Option<f64> {
         let mut left = if std::mem::replace(&mut self.begun, true) {
             self.frame
@@ -78,7 +79,7 @@ impl Demo {
                 self.explorer.act(Action::Paste(character.to_string()));
                 self.pause = TYPING;
             } else if let Some(prompt) = &self.explorer.app.prompt {
-                // A refused value stays in the editor.
+                // If a typed value has been refused, its editor is still open.
                 let is_refused = prompt.refused.is_some();
                 self.explorer
                     .command(if is_refused { "cancel" } else { "accept" });

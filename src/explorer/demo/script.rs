@@ -5,21 +5,21 @@ use Cue::{Do, Enter, Open, Repeat, Select, Wait};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cue {
     Wait(f64),
-    /// Runs a command of the table of keys, by its name.
+    /// Runs the command with this name in the table of keys.
     Do(&'static str),
-    /// Runs a command a number of times, with this interval in seconds.
+    /// Runs a command several times: number of times, interval in s, and name of the command.
     Repeat(u32, f64, &'static str),
     Open(&'static str),
     Select(&'static str),
-    /// Types a value for the selected parameter, character by character.
+    /// Types a value for the selected parameter, one character at a time.
     Enter(&'static str),
 }
 
-/// Duration, s, of a loop of two loading stages and a pause at its end.
+/// Duration in s of a loading and an unloading stage, with a pause at the end.
 const LOOP: f64 = 12.5;
 
-/// The tour of the built-in scenes: the three regimes, pressing harder, manual loading, contact
-/// patches, a sphere with and without its roughness.
+/// Tour of the built-in scenes: the three regimes of adhesion, a larger preload, manual loading,
+/// contact patches, and a sphere with and without roughness.
 pub const TOUR: &[Cue] = &[
     Open("ideal-adhesion"),
     Wait(LOOP),
@@ -59,7 +59,7 @@ pub const TOUR: &[Cue] = &[
     Wait(LOOP),
 ];
 
-/// One scene that is pressed and pulled off, with its contact patches.
+/// One scene: its loading and unloading, with the contact patches.
 pub const ONE_SCENE: &[Cue] = &[Wait(LOOP)];
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use std::mem::ManuallyDrop;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// Plays a demo at a number of frames per second until it is over or a key is pressed.
+/// Plays a demo in the terminal until the demo is over or the user presses a key.
 pub fn play(demo: &mut Demo, frames_per_second: f64) -> io::Result<()> {
     demo.set_note("any key ends the demo");
     let mut size = window()?;

@@ -1,52 +1,56 @@
-//! The rows of the table of keys, and the keys in use, from the table or from the configuration.
+//! The rows of the table of keys, and the keys in use: the keys of the table, or the keys of the
+//! configuration that replace them.
 
 use super::key::Key;
 use asperity_scene::text::nearest;
 use crossterm::event::KeyEvent;
 use std::fmt;
 
-/// Context of keys: it depends on the prompt or, without a prompt, on the selected pane.
+/// Context in which a key is pressed, which determines the function of the key. It depends on the
+/// open prompt. Without a prompt, it depends on the selected pane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::VariantArray)]
 pub enum Context {
     Explore,
-    /// Exploring, with the map selected.
+    /// No prompt, and the map is selected.
     Map,
-    /// Exploring, with a crosshair in the selected pane.
+    /// No prompt, and the selected pane shows a crosshair.
     Crosshair,
-    /// Exploring, with the list of parameters selected.
+    /// No prompt, and the list of parameters is selected.
     Parameters,
-    /// A prompt with a line being typed, without a list.
+    /// A prompt in which a line is typed, without a list.
     Line,
-    /// A prompt with a line being typed, with a list.
+    /// A prompt in which a line is typed, with a list.
     List,
     Overwrite,
     Help,
     Leave,
 }
 
-/// A row of the table: keys of one function, and the contexts in which they are valid.
+/// Row of the table of keys: a function, its keys, and the contexts in which these keys are valid.
 pub struct Row {
-    /// Names of the keys, separated by blanks: `Shift+← H`, `1–9`.
+    /// Names of the keys, separated by blanks, such as `Shift+← H` or `1–9`.
     pub keys: &'static str,
     pub contexts: &'static [Context],
     /// Name of the function in the configuration and in scripts.
     pub name: &'static str,
-    /// Word for the footer; empty for a function that the footer leaves out.
+    /// Label of the function in the footer; empty if the footer does not show the function.
     pub label: &'static str,
     pub help: &'static str,
-    /// Everyday words for the function that its description does not have.
+    /// Everyday words with which the user can also find the function, in addition to its
+    /// description.
     pub words: &'static str,
     pub section: &'static str,
-    /// Rank in the footer; the smallest is first.
+    /// Rank in the footer. The row with the smallest rank comes first.
     pub rank: u8,
     pub is_listed: bool,
-    /// True if a further command of the kind continues the same edit.
+    /// True if repeated commands of this kind are a single edit, which one undo reverts.
     pub merges: bool,
-    /// True if the keys differ in what the function does, which receives the key.
+    /// True if the keys of the row do different things, so that the function receives the pressed
+    /// key.
     pub takes_key: bool,
 }
 
-/// A row of the table as a command, with the pressed key.
+/// A row of the table as a command, with the pressed key if there is one.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyCommand {
     pub row: &'static Row,
@@ -59,7 +63,7 @@ impl fmt::Debug for Row {
     }
 }
 
-/// Contexts of the keys while exploring, whichever pane is selected.
+/// Contexts without a prompt, for any selected pane.
 pub const EXPLORE: &[Context] = &[
     Context::Explore,
     Context::Map,
@@ -70,8 +74,8 @@ pub const ANY: &[Context] = <Context as strum::VariantArray>::VARIANTS;
 pub const MANUAL: &str = "Manual loading";
 
 impl Row {
-    /// Returns true if the configuration may replace the keys of the row. Digits and keys for
-    /// prompts are fixed.
+    /// Returns true if the configuration may replace the keys of the row. Keys that are valid in
+    /// prompts and keys that do different things, such as digits, are fixed.
     fn is_rebindable(&self) -> bool {
         let is_for_exploring = self
             .contexts
@@ -80,8 +84,8 @@ impl Row {
         is_for_exploring && !self.takes_key
     }
 
-    /// Returns true if the list of commands has the row. Keys for texts and questions only work in
-    /// a prompt, and keys of the crosshair only while it is shown.
+    /// Returns true if the list of commands contains the row. It does not contain functions that
+    /// work only in a prompt or only with a crosshair.
     fn is_listed(&self) -> bool {
         let mut contexts = self.contexts.iter();
         let works_without_prompt =
@@ -89,8 +93,10 @@ impl Row {
         self.is_listed && works_without_prompt
     }
 
-    /// Group in the footer: help and quit, which even the smallest window shows; keys of this
-    /// context only; main keys; others.
+    /// Returns the place of the row in the footer:
+    /// * 0: help and quit, which even the smallest window shows,
+    /// * 1: keys that are valid only in the present context,
+    /// * 2 and more: main keys, then other keys.
     fn place(&self, is_manual: bool) -> u8 {
         let is_special = !self.contexts.contains(&Context::Explore);
         if is_special || is_manual && self.section == MANUAL {
@@ -112,8 +118,8 @@ impl Binding {
         names_of(&self.keys)
     }
 
-    /// Keys for the footer. Of keys that do different things, as arrows do, the first two are
-    /// shown, otherwise the first.
+    /// Returns the names of the keys for the footer. If the keys of the row do different things, as
+    /// arrows do, it shows the first two keys, otherwise only the first.
     fn footer_names(&self) -> String {
         let most = if self.row.takes_key { 2 } else { 1 };
         names_of(&self.keys[..self.keys.len().min(most)])
@@ -125,12 +131,12 @@ fn names_of(keys: &[Key]) -> String {
     names.join(" ")
 }
 
-/// The keys in use: the keys of the table, replaced where the configuration has others.
+/// The keys in use: the keys of the table, or the keys of the configuration that replace them.
 #[derive(Clone, Debug, Default)]
 pub struct Bindings(Vec<Binding>);
 
 impl Bindings {
-    /// Creates the bindings of these rows with the keys of the table.
+    /// Creates the bindings of these rows, with the keys of the table.
     pub fn of(rows: impl Iterator<Item = &'static Row>) -> Self {
         let mut bindings = Vec::new();
         for row in rows {
@@ -162,7 +168,8 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_listed())
     }
 
-    /// The command with a name in a context, with a key if the row takes one: `start-value 3`.
+    /// Returns the command with this name that is valid in the context. If the function needs to
+    /// know the pressed key, its name follows the name of the command, as in `start-value 3`.
     pub fn named(&self, name: &str, context: Context) -> Option<KeyCommand> {
         let (name, key) = match name.split_once(' ') {
             Some((name, key)) => (name, Key::named(key)),
@@ -176,8 +183,8 @@ impl Bindings {
         })
     }
 
-    /// Keys and rows for the footer in a context, the most important first; neighbouring rows with
-    /// the same label are one item.
+    /// Returns the keys and rows for the footer in a context, the most important first.
+    /// Neighbouring rows with the same label become one item.
     pub fn footer(
         &self,
         context: Context,
@@ -195,10 +202,11 @@ impl Bindings {
         items
     }
 
-    /// Replaces the keys of the function with this name. Ctrl+C always quits.
+    /// Replaces the keys of the function with the name `action`. Ctrl+C cannot be replaced, and
+    /// always ends the explorer.
     ///
     /// # Errors
-    /// The wrong member of the setting, and what is wrong with it.
+    /// Returns the name of the wrong entry of the setting, and an error message.
     pub fn rebind(&mut self, action: &str, keys: &[String]) -> Result<(), (&'static str, String)> {
         const ALLOWED: &str = "one character, Ctrl+c, Shift+Left, F5, PageUp and the like";
         let mut parsed = Vec::new();
@@ -240,8 +248,8 @@ impl Bindings {
         self.rows().filter(|binding| binding.row.is_rebindable())
     }
 
-    /// Lists in Markdown, for docs/keys.md: keys by section, with their functions and names for the
-    /// configuration.
+    /// Returns lists in Markdown for docs/keys.md: the keys of each section, with their functions
+    /// and the names of these functions in the configuration.
     pub fn markdown(&self) -> String {
         let mut text = String::new();
         let mut section = "";
@@ -257,8 +265,8 @@ impl Bindings {
         text
     }
 
-    /// A key that two functions of one context share, with the names of both; `None` if there is
-    /// none.
+    /// Returns a key that has two functions in the same context, and the names of both functions;
+    /// `None` if there is no such key.
     pub fn conflict(&self) -> Option<(String, &'static str, &'static str)> {
         for context in ANY {
             let mut seen: Vec<(&Key, &'static str)> = Vec::new();
@@ -281,7 +289,7 @@ mod tests {
     use crate::explorer::commands::table::bindings;
     use crossterm::event::{KeyCode, KeyModifiers};
 
-    /// Largest number of rows of the table of keys, which a user reads in the help.
+    /// Largest number of rows in the table of keys, because users read all of them in the help.
     const MOST_ROWS: usize = 95;
 
     #[test]

@@ -1,12 +1,12 @@
-//! A key with its modifiers, identified by its name.
+//! A key with its modifiers, which is identified by its name.
 
 use asperity_data::is_control;
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// A key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.
+/// Key with its modifiers, or a range of characters: `Ctrl+p`, `1–9`.
 #[derive(Clone, Debug)]
 pub struct Key {
-    /// Name, as in the table of keys or the configuration.
+    /// Name of the key in the table of keys or in the configuration.
     pub name: String,
     first: KeyCode,
     last: KeyCode,
@@ -14,7 +14,8 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns true if an event is this key. Shift belongs to a character and is no modifier.
+    /// Returns true if the event is a press of this key. For a character, Shift is not a modifier,
+    /// because a shifted character is another character.
     pub fn matches(&self, event: &KeyEvent) -> bool {
         let modifiers = match event.code {
             KeyCode::Char(_) | KeyCode::BackTab => event.modifiers - KeyModifiers::SHIFT,
@@ -23,7 +24,8 @@ impl Key {
         self.modifiers == modifiers && (self.first..=self.last).contains(&event.code)
     }
 
-    /// Returns the event of the key; for a range the event of its first character.
+    /// Returns the event that this key causes. For a range of characters, it is the event of the
+    /// first character.
     pub fn event(&self) -> KeyEvent {
         KeyEvent::new(self.first, self.modifiers)
     }
@@ -33,8 +35,8 @@ impl Key {
         self.modifiers == other.modifiers && self.first <= other.last && other.first <= self.last
     }
 
-    /// The key with this name: a character or the word on a keyboard, with modifiers: `Up`,
-    /// `Ctrl+p`, `Shift+Left`.
+    /// Returns the key with this name. The name is a character or a word such as `Up`, possibly
+    /// after modifiers, as in `Ctrl+p` and `Shift+Left`. `None` if there is no such key.
     pub fn named(name: &str) -> Option<Key> {
         let (has_control, rest) = without_modifier(name, "Ctrl+");
         let (has_shift, rest) = without_modifier(rest, "Shift+");
@@ -51,7 +53,7 @@ impl Key {
     }
 }
 
-/// Returns true if a name begins with a modifier, and the name without it.
+/// Returns true if a name begins with a modifier, and the rest of the name.
 fn without_modifier<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
     match name.split_at_checked(modifier.len()) {
         Some((beginning, rest)) if beginning.eq_ignore_ascii_case(modifier) => (true, rest),
@@ -59,8 +61,8 @@ fn without_modifier<'a>(name: &'a str, modifier: &str) -> (bool, &'a str) {
     }
 }
 
-/// First and last code of the key with this name; they differ for a range of characters only. Shift
-/// is part of a character, so `Shift+a` is no key.
+/// Returns the first and the last code of the key with this name. They differ only for a range of
+/// characters. Shift is not allowed before a character, so `Shift+a` is not a key.
 fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
     if let Some((_, code)) = NAMES.iter().find(|(known, _)| *known == name) {
         return Some(match code {
@@ -84,19 +86,19 @@ fn codes(name: &str, has_shift: bool) -> Option<(KeyCode, KeyCode)> {
     }
 }
 
-/// Step of an arrow key or of its letter.
+/// Direction and size of the step that an arrow key, or a letter in its place, means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KeyDirection {
-    /// Columns to the right.
+    /// Number of columns to the right.
     pub columns: i32,
-    /// Rows upwards.
+    /// Number of rows upwards.
     pub rows: i32,
     /// True for a large step.
     pub is_coarse: bool,
 }
 
-/// The step of an arrow key or of its letter; a capital letter or Shift makes it large. `None` for
-/// another key.
+/// Returns the step of an arrow key, or of the letter in its place. With Shift or a capital letter,
+/// the step is large. `None` for any other key.
 pub fn direction(key: &KeyEvent) -> Option<KeyDirection> {
     let (columns, rows) = match key.code {
         KeyCode::Left | KeyCode::Char('h' | 'H') => (-1, 0),

@@ -1,4 +1,4 @@
-//! Keys, the rows of the table of keys, and the keys in use.
+//! Keys, the rows of the table of keys, and the bindings of keys to functions.
 
 pub mod bindings;
 pub mod key;

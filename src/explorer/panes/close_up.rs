@@ -1,4 +1,4 @@
-//! The close-up of a contact patch, with its boundary points as white circles as in the paper.
+//! The close-up of a contact patch. White circles mark the ends of the patches, as in the paper.
 
 use super::row::PaneRow;
 use super::section;
@@ -25,7 +25,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Smallest width of the pane with the names of its lines, columns.
+/// Smallest width in columns of a pane that shows the names of its curves.
 const WITH_NAMES: u16 = 40;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -55,7 +55,8 @@ fn panel(app: &App, size: Size) -> Panel {
     }
     if let Body::Chart(plot) = &mut panel.body {
         if size.width < WITH_NAMES {
-            // The profile beside it has the same colours.
+            // The names are not needed, because the profile pane beside this one uses the same
+            // colours.
             for layer in &mut plot.chart.layers {
                 layer.name = Label::default();
             }
@@ -68,7 +69,7 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// The signs at the ends of the contact patches.
+/// Returns the markers at the ends of the contact patches.
 fn ends(snapshot: &ContactSnapshot) -> Layer {
     let mut points = Vec::new();
     for (spring, height) in &snapshot.close_up.boundaries {
@@ -78,7 +79,7 @@ fn ends(snapshot: &ContactSnapshot) -> Layer {
     Layer::new("patch end".into(), Ink::Contact, signs)
 }
 
-/// Chart of the springs in the pane, for a file.
+/// Returns the chart of the springs in the pane for a file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     let section = &snapshot.close_up.section;
@@ -87,7 +88,8 @@ fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     Some(chart)
 }
 
-/// Range of heights: the profile, and the surface unless it is far above or below.
+/// Returns the range of heights. It contains the profile, and the surface unless the surface is far
+/// above or below the profile.
 fn heights(section: &Section) -> Span {
     let (low, high) = section.heights;
     let room = 0.4 * (high - low);
@@ -95,10 +97,11 @@ fn heights(section: &Section) -> Span {
     Span::around([low, high, level].into_iter(), 0.05)
 }
 
-/// Share of a stretch below which a difference counts as rounding.
+/// Relative difference of two stretches below which they count as equal.
 const ROUNDING: f64 = 1e-13;
 
-/// Length and force of a contact patch, and the stretch of its most stretched spring.
+/// Returns the length and the force of a contact patch, the stretch of its most stretched spring,
+/// and its number of springs, as texts.
 fn describe(app: &App, facts: PatchFacts) -> [String; 4] {
     let state = facts.state;
     let limit = state.largest_stretch;

@@ -1,4 +1,4 @@
-//! The force curve: the hysteresis loop with loading and unloading, curves compared with it, and
+//! The force curve: the loop of loading and unloading, other curves to compare with the loop, and
 //! manual loading.
 
 use super::row::{Exported, PaneRow, outcome};
@@ -44,7 +44,8 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// The measured curve with the model and the residuals; `None` without a measured curve.
+/// Returns the measured curve with the computed forces and the residuals; `None` if there is no
+/// measured curve, or if it is not fitted yet.
 fn fit_report(app: &App) -> Option<FitReport<'_>> {
     let Measured { name, curve, .. } = app.edit.measured.as_ref()?;
     Some(FitReport {
@@ -55,8 +56,9 @@ fn fit_report(app: &App) -> Option<FitReport<'_>> {
     })
 }
 
-/// The curves of the kept scenes and of the present one. A kept scene is named by its title, or by
-/// its differences if it is a variant of the present scene or both have the same title.
+/// Returns the curves of the kept scenes and of the present scene. The name of a kept scene is its
+/// title. But if the kept scene is a variant of the present scene, or if both have the same title,
+/// the name consists of the differences.
 fn compared(app: &App) -> Option<Figure> {
     let present = &app.edit.document;
     let mut names: Vec<String> = Vec::new();
@@ -77,7 +79,7 @@ fn compared(app: &App) -> Option<Figure> {
     Some(force_figure(&curves, units(app)))
 }
 
-/// The report of the measured curve, with the command that computes the fit.
+/// Returns the report on the measured curve, and the command that computes the fit.
 fn fit(app: &App) -> Exported<'_> {
     let report = fit_report(app)?;
     let options = &app.edit.measured.as_ref()?.options;
@@ -96,7 +98,7 @@ fn fit(app: &App) -> Exported<'_> {
     Some((command.into(), Box::new(report)))
 }
 
-/// Smallest number of rows of a pane that lists the kept scenes.
+/// Smallest height in rows of a pane that lists the kept scenes.
 const WITH_GHOSTS: u16 = 12;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -126,7 +128,8 @@ fn panel(app: &App, size: Size) -> Panel {
     panel
 }
 
-/// Names and forces of the marked points of the present curve, the most important first.
+/// Returns the names and forces of the marked points of the present curve, the most important
+/// first.
 fn names_of_marks(app: &App) -> Vec<Name> {
     const BY_IMPORTANCE: [Mark; 3] = [Mark::PullOff, Mark::Preload, Mark::JumpIn];
     let units = units(app);
@@ -149,7 +152,7 @@ fn names_of_marks(app: &App) -> Vec<Name> {
     names
 }
 
-/// The letters of the kept scenes, for places beside their curves, the newest first.
+/// Returns the letters of the kept scenes, to be written beside their curves, the newest first.
 fn letters_of_ghosts(app: &App) -> Vec<Name> {
     let units = units(app);
     let mut names = Vec::new();
@@ -164,8 +167,8 @@ fn letters_of_ghosts(app: &App) -> Vec<Name> {
     names
 }
 
-/// Lines above the chart that describe the kept scenes, the newest first. The chart keeps the
-/// larger part of the pane.
+/// Returns the lines above the chart that describe the kept scenes, the newest first. They take at
+/// most a quarter of the pane.
 fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
     let mut lines = Vec::new();
     if size.height < WITH_GHOSTS {
@@ -185,7 +188,7 @@ fn lines_of_ghosts(app: &App, size: Size) -> Vec<Line<'static>> {
     lines
 }
 
-/// Texts on the right of the title: F_a/F_a,max, and the shown state after its sign.
+/// Returns the texts on the right of the title: F_a/F_a,max, and the shown state after the sign ◆.
 fn edge(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     if let Some(share) = app.adhesion_share_in_words() {
@@ -203,9 +206,10 @@ fn edge(app: &App) -> Vec<Part> {
     parts
 }
 
-/// The shown state in words, the most important first: indentation, force and contact, and under
-/// manual loading what the last move changed. E* l is the stiffness with fixed edges (Popov and
-/// Filippov 2012, eq. (1)), p_m the mean pressure on a circle with the radius of the contact.
+/// Returns the shown state as texts, the most important first: indentation d, force F and contact.
+/// Under manual loading, the change by the last move replaces the share in contact. E* l is the
+/// stiffness of the contact if its edges stay fixed (Popov and Filippov 2012, eq. (1)), and p_m the
+/// mean pressure, which is the force divided by the area of a circle with the contact radius.
 fn state(app: &App) -> Vec<String> {
     let (Some(snapshot), Some(outcome)) = (app.present(), app.outcome()) else {
         return Vec::new();
@@ -243,8 +247,8 @@ fn state(app: &App) -> Vec<String> {
     parts
 }
 
-/// Name of the vertical quantity with its unit, the dissipated energy if its area is shaded, and
-/// the event at the shown state.
+/// Returns the title: the name and the unit of the vertical quantity, the dissipated energy if its
+/// area is shaded, and the event at the shown state.
 fn title(app: &App, y: Option<&ChartAxis>) -> String {
     let name = match app.view.curve.quantities {
         LoopQuantities::ForceIndentation | LoopQuantities::ForceDisplacement => "Force",
@@ -268,13 +272,13 @@ fn title(app: &App, y: Option<&ChartAxis>) -> String {
     format!("{name}{loss}{event}")
 }
 
-/// Returns true if the area of the dissipated energy is shaded; only the force over the
-/// indentation has this area.
+/// Returns true if the area of the dissipated energy is shaded. Only a chart of force over
+/// indentation has such an area.
 fn shows_loss(app: &App) -> bool {
     app.view.curve.loss && app.view.curve.quantities == LoopQuantities::ForceIndentation
 }
 
-/// The dissipated energy in words, with the Tabor number on which its size depends.
+/// Returns the dissipated energy as text, with the Tabor number on which it depends.
 fn loss(app: &App) -> String {
     let Some(outcome) = app.outcome() else {
         return "ΔW open".to_owned();
@@ -303,7 +307,8 @@ fn units(app: &App) -> LoopUnits {
     }
 }
 
-/// Indentation at a number on the horizontal axis, m; `None` if that axis does not determine it.
+/// Returns the indentation in m at a number on the horizontal axis; `None` if this number does not
+/// determine the indentation.
 pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
     app.indentations().and(units(app).indentation(x))
 }
@@ -311,8 +316,9 @@ pub fn indentation_at(app: &App, x: f64) -> Option<f64> {
 /// Name of the measured points in the legend.
 const MEASURED: &str = "measured";
 
-/// The residuals of the measured curve over this horizontal axis, in units of the noise. The chart
-/// has no points until they are computed; there is none without a curve or an axis of the force.
+/// Returns the chart of the residuals of the measured curve, divided by the noise, with the
+/// horizontal axis `x`. Until the residuals are computed, the chart has no points. `None` if there
+/// is no measured curve, or if the chart of the pane has no axis of force.
 fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     let units = units(app);
     if !units.shows_force() {
@@ -341,11 +347,12 @@ fn residuals(app: &App, x: &ChartAxis) -> Option<Chart> {
     Some(Chart::new(x.clone(), y, layers))
 }
 
-/// Share of the residuals in the range of their strip; the few others, as at a jump of the contact,
-/// are at its edge.
+/// Share of the residuals that lie in the range of their chart. The few larger residuals, for
+/// example at a jump of the contact, are drawn at the edge.
 const IN_RANGE: f64 = 0.98;
 
-/// The smallest of 5, 10, 20, 50 and so on that is as large as nearly all residuals.
+/// Returns the smallest of the numbers 5, 10, 20, 50 and so on that is not below the absolute value
+/// of nearly all residuals.
 fn half_range(residuals: Vec<f64>) -> f64 {
     let mut sizes: Vec<f64> = residuals.into_iter().map(f64::abs).collect();
     sizes.sort_by(f64::total_cmp);
@@ -361,7 +368,8 @@ fn half_range(residuals: Vec<f64>) -> f64 {
     most
 }
 
-/// Stiffness of the instrument of the shown scene, N/m; `None` before a scene is computed.
+/// Returns the stiffness of the instrument of the computed scene in N/m, infinite if the instrument
+/// is rigid; `None` before a scene is computed.
 fn stiffness(app: &App) -> Option<f64> {
     match app.outcome()?.instrument {
         Some(instrument) => Some(instrument.stiffness),
@@ -369,8 +377,8 @@ fn stiffness(app: &App) -> Option<f64> {
     }
 }
 
-/// The chart with the mark of the shown state, and without the names that the pane writes
-/// elsewhere: of marks, kept scenes and axes.
+/// Returns the chart with a marker at the shown state. The names of marks, kept scenes and axes are
+/// left out, because the pane writes them elsewhere.
 fn shown_chart(app: &App) -> Option<Chart> {
     let mut chart = chart(app)?.with_symbols();
     if let Some(snapshot) = app.present() {
@@ -388,8 +396,8 @@ fn shown_chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// The loop, curves compared with it, the path of manual loading, and marks. Later curves are drawn
-/// over earlier ones.
+/// Returns the chart with the loop, the curves to compare with it, the path of manual loading, and
+/// the marks. Later curves are drawn over earlier ones.
 fn chart(app: &App) -> Option<Chart> {
     app.indentations()?;
     let units = units(app);
@@ -410,7 +418,7 @@ fn chart(app: &App) -> Option<Chart> {
             layer.shape = Shape::signs(layer.shape.points(), Sign::Point);
         }
     }
-    // Areas are drawn below the curves, so that no curve is interrupted.
+    // Areas are inserted below the curves, because otherwise they would interrupt the curves.
     for [lower, _, upper] in &bands {
         let border = lower.iter().chain(upper.iter().rev());
         insert_area(&mut chart, units, border);
@@ -422,7 +430,7 @@ fn chart(app: &App) -> Option<Chart> {
     Some(chart)
 }
 
-/// Inserts the area inside a closed border of points, below the curves of a chart.
+/// Inserts an area below the curves of a chart. The points of `border` enclose the area.
 fn insert_area<'a>(
     chart: &mut Chart,
     units: LoopUnits,
@@ -433,8 +441,8 @@ fn insert_area<'a>(
     chart.layers.insert(1, area);
 }
 
-/// The points of the measured curve; `None` without a curve, an axis of the force or a computed
-/// scene.
+/// Returns the points of the measured curve; `None` if there is no measured curve, no axis of
+/// force, or no computed scene.
 fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     if !units(app).shows_force() {
         return None;
@@ -443,8 +451,9 @@ fn measured_points(app: &App) -> Option<Vec<CurvePoint>> {
     Some(measured.points(stiffness(app)?))
 }
 
-/// Mean and scatter of the loops of random squares, if they are shown: for each direction three
-/// curves, the lower end, the mean and the upper end.
+/// Returns the mean and the scatter of the loops of random squares in three dimensions, if they are
+/// shown. For each direction of motion there are three curves: the lower end of the scatter, the
+/// mean and the upper end.
 fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
     if !app.view.squares || !units(app).shows_force() {
         return Vec::new();
@@ -455,7 +464,7 @@ fn bands_of_squares(app: &App) -> Vec<[Vec<CurvePoint>; 3]> {
     }
 }
 
-/// A single curve that is no loop of a scene.
+/// Returns a curve that does not belong to the loop of a scene.
 fn curve_alone(points: &[CurvePoint]) -> ForceLoop<'_> {
     ForceLoop {
         curves: vec![(Direction::Unloading, points)],
@@ -463,7 +472,7 @@ fn curve_alone(points: &[CurvePoint]) -> ForceLoop<'_> {
     }
 }
 
-/// The loop of an outcome without its marked points.
+/// Returns the loop of an outcome, without its marked points.
 fn unmarked_loop(outcome: &Outcome) -> ForceLoop<'_> {
     ForceLoop {
         marks: Vec::new(),
@@ -512,8 +521,9 @@ fn preview_loop(outcome: &Outcome) -> ForceLoop<'_> {
     }
 }
 
-/// The loop of the shown scene. If the scene has changed since, its curve stays in the background
-/// until the new one is computed. Over measured points only a line without gaps can be seen.
+/// Returns the loop of the computed scene. If the scene has changed since then, the loop stays in
+/// the background until the new one is computed. If the loop lies over measured points, its line is
+/// solid, because a line with gaps could not be seen.
 fn present_loop<'a>(app: &App, outcome: &'a Outcome, is_over_points: bool) -> ForceLoop<'a> {
     let stroke = if is_over_points {
         Some(Stroke::Solid)
@@ -543,19 +553,19 @@ fn manual_loop(manual: &ManualState) -> ForceLoop<'_> {
     }
 }
 
-/// Values of a kept scene that differ from the present scene, in words.
+/// Returns the values of a kept scene that differ from the present scene, as text.
 fn differences(app: &App, ghost: &Ghost) -> String {
     ghost.changes(&app.edit.document, |change| {
         format!("{} {}", change.name, change.from)
     })
 }
 
-/// Number of points on the curve of each loading stage beside which the letter of a kept scene may
-/// be written.
+/// Number of points on the curve of a loading stage beside which the letter of a kept scene may be
+/// written.
 const PLACES: usize = 8;
 
-/// Points beside which the letter of a kept scene may be written: its marks, the pull-off first,
-/// and some points of its curve, the last stage first.
+/// Returns the points beside which the letter of a kept scene may be written. First come its marks,
+/// beginning with the pull-off, then points on its curve, beginning with the last stage.
 fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
     let legs = &ghost.outcome.history.legs;
     let mut marks = Mark::all(legs);
@@ -568,8 +578,8 @@ fn places_of_letter(ghost: &Ghost) -> Vec<CurvePoint> {
     places
 }
 
-/// Adhesion force of a kept scene, and how much more or less the present scene has:
-/// `F_a 12 µN, now 3 µN more`.
+/// Returns the adhesion force of a kept scene, and how much larger or smaller the adhesion force of
+/// the present scene is: `F_a 12 µN, now 3 µN more`.
 fn adhesion(app: &App, ghost: &Ghost) -> Option<String> {
     let units = units(app);
     let kept = ghost.outcome.figures.adhesion_force?;

@@ -1,4 +1,4 @@
-//! The map: shades in the colours of the regimes, the mark of the scene, and the values at the
+//! The map: shades in the colours of the regimes, the mark of the scene, and the values at this
 //! mark.
 
 use super::row::{Exported, PaneRow};
@@ -39,10 +39,12 @@ pub static ROW: PaneRow = PaneRow {
     ],
 };
 
-/// Largest number of springs for a map in a demo, since it takes hundreds of scenes.
+/// Largest number of springs with which a demo computes a map. A map consists of hundreds of
+/// scenes, so larger scenes would take too long.
 const MOST_SPRINGS: u64 = 1 << 12;
 
-/// Computes the missing cells of the live map; `None` for a scene without a map.
+/// Returns the study that computes the missing cells of the live map; `None` if the scene has no
+/// map.
 fn study(app: &App, computed: &SolvedScene) -> Option<Study> {
     let plan = app.map.plan(&computed.scene)?;
     let (key, is_long) = (
@@ -97,9 +99,9 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Map of the regimes or of a quantity over two axes; `None` for a grid along one axis. The shades
-/// show the regimes, so no cell has a letter, and in a map of another quantity letters would hide
-/// the boundary.
+/// Returns the map of the regimes or of another quantity over two axes; `None` if the grid has only
+/// one axis. The cells have no letters of the regimes: the shades already show the regimes, and in
+/// a map of another quantity letters would hide the boundary.
 fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     let mut chart = study_map(grid, mapped, true)?;
     if let Some(map) = chart.map_mut() {
@@ -113,7 +115,7 @@ fn map(grid: &Grid, mapped: Quantity) -> Option<Chart> {
     Some(chart)
 }
 
-/// Curves over the only axis of a map, with the mark of the scene.
+/// Returns the curves of quantities over the only axis of the grid, with the mark of the scene.
 fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     let mut charts = Vec::new();
     for quantity in shown_quantities(app.mapped(), grid) {
@@ -135,8 +137,9 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     charts
 }
 
-/// Figure of the pane: the map, together with the quantities that decide the regimes if these are
-/// shown; or curves over the only axis.
+/// Returns the figure of the pane. If the grid has two axes, it contains the map, and for a map of
+/// regimes also the quantities that decide the regime. If the grid has one axis, it contains
+/// curves.
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
@@ -152,7 +155,8 @@ fn figure(app: &App, grid: &Grid) -> Figure {
     study_figure(title, grid, charts)
 }
 
-/// Title of the pane: the quantity, the axes, and the number of profiles of the mean.
+/// Returns the title of the pane: the quantity, the axes, and the number of profiles over which the
+/// mean is taken.
 fn title(app: &App) -> String {
     let Some((across, up)) = app.map_axes() else {
         return "Map".to_owned();
@@ -205,7 +209,8 @@ fn nothing_yet(app: &App) -> String {
     }
 }
 
-/// Short name of a quantity: its symbol, if no other quantity of the map has the same.
+/// Returns a short name of a quantity: its symbol, if no other quantity of the map has the same
+/// symbol, otherwise its name.
 fn name_of(grid: &Grid, quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime ({})", quantity.short_protocol());
@@ -220,8 +225,8 @@ fn name_of(grid: &Grid, quantity: Quantity) -> String {
     }
 }
 
-/// Legend: which map of the study is shown, label of the vertical axis, shades with their meaning,
-/// and classes.
+/// Returns the legend: the shown map of the study, the label of the vertical axis, the shades with
+/// their meaning, and the classes.
 fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     let Some(grid) = app.grid() else {
         return Vec::new();
@@ -234,8 +239,9 @@ fn legend(app: &App, chart: &Chart, width: usize) -> Vec<Line<'static>> {
     lines
 }
 
-/// Label of the vertical axis, and the shades with their meaning: regimes, or numbers and the
-/// boundary.
+/// Returns the label of the vertical axis, and the shades with their meaning. In a map of regimes,
+/// the shades mean regimes. In a map of another quantity, they mean numbers, and the boundary is
+/// added.
 fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     let (Some(grid), Some(map)) = (app.grid(), chart.map()) else {
         return Vec::new();
@@ -243,7 +249,7 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     let look = app.view.appearance;
     let mut parts = shades(chart, look, width);
     if !app.mapped().is_regime() {
-        // The last name belongs to the boundary.
+        // The last entry of the legend belongs to the boundary.
         let boundary = entries(chart, look).pop();
         if map.contour.is_some() {
             parts.extend(boundary);
@@ -251,8 +257,8 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
         return parts;
     }
     parts.truncate(1);
-    // Every second shade is of a regime, the densest first. The shades between them are of cells
-    // whose profiles are in this regime and in the next one.
+    // Every second shade means a regime, beginning with the densest. A shade between two of them
+    // means that the profiles of a cell are partly in one regime and partly in the other.
     let shades_of_regimes = SHADES.iter().rev().step_by(2);
     for (class, shade) in map.class_names.iter().zip(shades_of_regimes) {
         let style = in_theme(look, |style| (style.ink)(class.ink));
@@ -266,7 +272,8 @@ fn parts_of_shades(app: &App, chart: &Chart, width: usize) -> Vec<Part> {
     parts
 }
 
-/// The values of the further axes at the shown map of a study, and its number among the maps.
+/// Returns the values of the axes that the shown map of a study does not have, and the number of
+/// this map among all maps.
 fn parts_of_slice(app: &App, study: &OpenStudy, grid: &Grid) -> Vec<Part> {
     let mut parts = Vec::new();
     for value in &grid.fixed {
@@ -281,7 +288,7 @@ fn parts_of_slice(app: &App, study: &OpenStudy, grid: &Grid) -> Vec<Part> {
     parts
 }
 
-/// A place in words: `H 0.8, κ 1.5`.
+/// Returns a position on the map as text: `H 0.8, κ 1.5`.
 fn on_axes(grid: &Grid, place: GridPlace) -> String {
     let (across, up) = place;
     let mut text = on_axis(&grid.across, across);
@@ -298,8 +305,8 @@ fn on_axis(axis: &Axis, value: f64) -> String {
     format!("{} {value}", axis.symbol_or_name())
 }
 
-/// Lines below the map: the position of the scene with the values of the nearest cell, and why the
-/// map is incomplete or not that of the scene.
+/// Returns the lines below the map: the position of the scene, the values of the nearest cell, and
+/// if necessary why the map is incomplete or does not belong to the scene.
 fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     let mut lines = wrapped(&Line::raw(mark_in_words(app, grid)), width);
     if let Some(missing) = missing(app) {
@@ -309,7 +316,7 @@ fn below(app: &App, grid: &Grid, width: u16) -> Vec<Line<'static>> {
     lines
 }
 
-/// The position of the scene with the values of the nearest cell.
+/// Returns the position of the scene and the values of the nearest cell as text.
 fn mark_in_words(app: &App, grid: &Grid) -> String {
     let Some(place) = app.place() else {
         return "no mark: the scene lacks a quantity of the axes".to_owned();
@@ -323,7 +330,8 @@ fn mark_in_words(app: &App, grid: &Grid) -> String {
     format!("◆ {}{outside}: {values}", on_axes(grid, place))
 }
 
-/// Why the map is incomplete or not that of the scene, if it is so.
+/// Returns why the map is incomplete or does not belong to the scene; `None` if neither is the
+/// case.
 fn missing(app: &App) -> Option<String> {
     if let Some(study) = app.map.shown_study() {
         let scene = app.edit.document.scene();
@@ -343,7 +351,7 @@ fn missing(app: &App) -> Option<String> {
     Some("computing further cells…".to_owned())
 }
 
-/// The quantities that decide a regime.
+/// Returns the two quantities that decide the regime.
 fn deciding(regime: Quantity) -> [Quantity; 2] {
     let [share, share_after_zero_force] = Quantity::ADHESION_SHARES;
     let share = if regime == Quantity::RegimeAfterZeroForce {
@@ -354,8 +362,8 @@ fn deciding(regime: Quantity) -> [Quantity; 2] {
     [share, Quantity::AdhesionCoefficient]
 }
 
-/// Quantities that are shown together: with a regime the quantities that decide it, if there are
-/// any.
+/// Returns the quantities that are shown together. For a regime, these are the quantities that
+/// decide it, if the grid has them. Any other quantity is shown alone.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];
@@ -370,8 +378,8 @@ fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     shown
 }
 
-/// Values of the cell nearest to the mark, and its position unless the mark is there; `None` if no
-/// cell is computed.
+/// Returns the values of the cell nearest to the mark, and the position of this cell if it differs
+/// from the mark. `None` if no cell is computed.
 fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
     let (cell, column, row) = grid.nearest(mark)?;
     let across = grid.across.values[column];
@@ -387,8 +395,9 @@ fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
         Err(why) => return Some(format!("{place}{why}")),
     };
     let mapped = app.mapped();
-    // Quantities that decide a regime are shown together with it, so that the map keeps its place
-    // when another of them is mapped.
+    // If the shown quantity decides a regime, the text contains this regime and all quantities that
+    // decide it. The text then has the same length for each of them, so that the map does not move
+    // on the screen.
     let mut regimes = Quantity::REGIMES.into_iter();
     let decided = regimes.find(|regime| deciding(*regime).contains(&mapped));
     let mapped = decided.unwrap_or(mapped);
@@ -407,7 +416,7 @@ fn cell_values(app: &App, grid: &Grid, mark: GridPlace) -> Option<String> {
     Some(format!("{place}{}", parts.join(", ")))
 }
 
-/// The regime of most profiles of a cell, and of how many of them.
+/// Returns the regime of most profiles of a cell, and the number of these profiles.
 fn regime_in_words(cell: &GridCell, mapped: Quantity) -> Option<String> {
     let regimes = cell.regimes_of(mapped);
     let (regime, count) = regimes.most()?;
@@ -423,7 +432,7 @@ fn regime_in_words(cell: &GridCell, mapped: Quantity) -> Option<String> {
     ))
 }
 
-/// A mean in words, with median and range if the profiles differ.
+/// Returns a mean value as text, with the median and the range if the profiles differ.
 fn value(statistics: Statistics, unit: &str) -> String {
     let mean = format_rounded(statistics.mean, 2, unit);
     let (least, most) = statistics.range;

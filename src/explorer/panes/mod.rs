@@ -1,5 +1,5 @@
-//! The table of panes, one row each. A pane is one file, with one function that makes its panel
-//! from the state.
+//! The table of panes, with one row for each pane. Each pane has a file, with a function that makes
+//! its panel from the state.
 
 mod close_up;
 pub mod force;
@@ -23,7 +23,7 @@ use crate::explorer::panel::{Panel, Under};
 use asperity_plot::Figure;
 use ratatui::layout::{Position, Size};
 
-/// Size inside the frame of a pane that is exported, columns and rows.
+/// Columns and rows inside the frame of the pane from which a figure for a file is made.
 const EXPORTED: Size = Size {
     width: 120,
     height: 40,
@@ -43,10 +43,11 @@ pub fn row(pane: Pane) -> &'static PaneRow {
     }
 }
 
-/// Panel of a pane, with the crosshair, for an area of this size inside the frame.
+/// Returns the panel of a pane for an area of this size inside the frame, including the crosshair.
 pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     let mut panel = (row(pane).panel)(app, size);
-    // On profile and close-up the crosshair is at a spring, and they draw it themselves.
+    // In the profile and the close-up, the crosshair is at a spring. These panes draw it
+    // themselves.
     let draws_crosshair =
         pane == app.view.pane && pane.keys() == Context::Crosshair && app.section().is_none();
     if draws_crosshair && let Some(position) = app.view.crosshair {
@@ -55,14 +56,14 @@ pub fn panel(app: &App, pane: Pane, size: Size) -> Panel {
     panel
 }
 
-/// Figure of a pane for a file; `None` if it has no chart.
+/// Returns the figure of a pane for a file; `None` if the pane has no chart.
 pub fn figure(app: &App, pane: Pane) -> Option<Figure> {
     let properties = row(pane);
     let content = (properties.panel)(app, EXPORTED);
     (properties.figure)(app, &content)
 }
 
-/// Returns the pane at a cell of the screen and what it shows there.
+/// Returns the pane at a cell of the screen, and what the pane shows in this cell.
 pub fn under(app: &App, cell: Position) -> Option<(Pane, Under)> {
     let mut panes = Layout::of(app).panes.into_iter();
     let (pane, area) = panes.find(|(_, area)| area.contains(cell))?;

@@ -28,16 +28,17 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Smallest number of columns for a typed value beside its name.
+/// Smallest number of columns for the typed value beside its label.
 const TYPED_COLUMNS: usize = 12;
-/// Smallest number of rows of a list with derived values below it.
+/// Smallest height in rows of a list with derived values below it.
 const WITH_DERIVED: u16 = 12;
-/// Largest number of rows of an explanation, except of a refusal.
+/// Largest height in rows of an explanation, unless it is the reason of a refusal.
 const MOST_EXPLAINED: u16 = 6;
-/// Smallest number of letters of a shortened name.
+/// Smallest number of letters to which a name may be shortened.
 const FEWEST_LETTERS: usize = 4;
 
-/// The list of parameters, and below it derived values and some lines of explanation.
+/// Returns the panel: the list of parameters, and below it derived values and some lines of
+/// explanation.
 fn panel(app: &App, size: Size) -> Panel {
     let List { rows, selected } = list(app);
     let mut foot = if size.height >= WITH_DERIVED {
@@ -45,7 +46,7 @@ fn panel(app: &App, size: Size) -> Panel {
     } else {
         Vec::new()
     };
-    // Rows that the list does not need are for the explanation.
+    // The explanation gets the rows that the list does not need.
     let taken = rows.len() + foot.len();
     let free = usize::from(size.height).saturating_sub(taken) as u16;
     foot.extend(explanation(app, rows.get(selected).copied(), size, free));
@@ -64,8 +65,9 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Lines that explain the parameter with this index, or what fits the search if there is none.
-/// `free` is the number of rows that the list does not need.
+/// Returns lines that explain the parameter with this index. If `index` is `None`, no parameter
+/// matches the search, and the lines name a field of the scene file that does. `free` is the number
+/// of rows that the list does not need.
 fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Line<'static>> {
     let usual = match size.height {
         0..3 => 0,
@@ -77,8 +79,8 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
         Some(index) => meaning_of_parameter(app, index),
         None => Line::styled(not_listed(app), app.style(Meaning::Quiet)),
     };
-    // The list makes room for the whole reason of a refusal, and for all that was done to a
-    // measured curve.
+    // The list gives up rows for two texts that must not be cut: the reason of a refusal, and the
+    // statements on what was done to a measured curve.
     let most = usual.max(size.height / 2);
     if refusal(app).is_some() {
         return wrapped_within(&text, size.width, most);
@@ -87,7 +89,7 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
     let is_of_curve = parameter.is_some_and(|parameter| parameter.path == curve_options::GROUP);
     let rows = if is_of_curve { most } else { usual };
     let mut lines = wrapped_within(&text, size.width, rows);
-    // The explanation always takes the same rows, so that the list keeps its place.
+    // The explanation always has the same number of rows, so that the list does not move.
     let kept = if is_of_curve {
         lines.len().max(3)
     } else {
@@ -99,13 +101,14 @@ fn explanation(app: &App, index: Option<usize>, size: Size, free: u16) -> Vec<Li
 
 /// The parameters in the list.
 struct List {
-    /// Their indices among the parameters of the scene.
+    /// Index of each listed parameter among the parameters of the scene.
     rows: Vec<usize>,
     /// Index of the selected row.
     selected: usize,
 }
 
-/// The parameters of the scene, or those that fit a search.
+/// Returns the list of all parameters of the scene or, during a search, of the parameters that
+/// match it.
 fn list(app: &App) -> List {
     if let Some(Prompt {
         purpose: Purpose::Parameter { .. },
@@ -125,8 +128,8 @@ fn list(app: &App) -> List {
     }
 }
 
-/// What fits the search among the fields of the scene file, which has more of them than the list
-/// has rows.
+/// Returns a sentence for a search that no parameter in the list matches. It names a field of the
+/// scene file that matches, if there is one.
 fn not_listed(app: &App) -> String {
     const NONE: &str = "no parameter of this scene fits";
     let typed = app.prompt.as_ref().map_or("", |prompt| prompt.line.text());
@@ -138,7 +141,7 @@ fn not_listed(app: &App) -> String {
     format!("{NONE}; the scene file may have {path}: {meaning}")
 }
 
-/// Texts of a field that a search compares.
+/// Returns the texts of a field that are compared with the search.
 fn searched_texts(field: &Field) -> Vec<String> {
     vec![
         field.symbol.to_owned(),
@@ -172,8 +175,7 @@ fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> L
     } else if is_selected && has_focus(app) {
         Meaning::Selected
     } else if is_selected {
-        // One pane has the focus: the row that the keys change is marked in the others too, but not
-        // as bright.
+        // If another pane receives the keys, the selected row is marked too, but less brightly.
         Meaning::Title
     } else {
         Meaning::Text
@@ -181,11 +183,12 @@ fn parameter_line(app: &App, index: usize, is_selected: bool, width: usize) -> L
     Line::styled(text, app.style(meaning))
 }
 
-/// A row of the list: marks, name and value. The name makes room for the value, which matters more.
+/// Returns a row of the list: marks, name and value. If there is not enough room, the name is
+/// shortened, because the value is more important.
 fn row_text(app: &App, parameter: &Parameter, lead: &str, width: usize) -> String {
     let symbol = parameter.field.symbol;
     let letters = match parameter.field.range {
-        // A long text is cut, and not its name.
+        // A long text is shortened, and its name is kept.
         Range::Text { .. } => columns(&parameter.name()),
         _ if symbol.is_empty() => FEWEST_LETTERS,
         _ => columns(symbol),
@@ -201,7 +204,7 @@ fn row_text(app: &App, parameter: &Parameter, lead: &str, width: usize) -> Strin
     format!("{lead}{name}{gap}{value}")
 }
 
-/// Returns true while the keys of the list act, or a parameter is searched.
+/// Returns true if the list receives the keys, or if a parameter is searched.
 fn has_focus(app: &App) -> bool {
     let is_searched = match &app.prompt {
         Some(prompt) => matches!(prompt.purpose, Purpose::Parameter { .. }),
@@ -210,8 +213,8 @@ fn has_focus(app: &App) -> bool {
     app.view.pane == Pane::Parameters || is_searched
 }
 
-/// Marks before a name: for the first row of a group, and for an effect that is on or off; other
-/// rows are indented.
+/// Returns the marks before a name. One mark shows the first row of a group, and another mark
+/// whether an effect is on or off. Other rows are indented.
 fn lead(app: &App, parameter: &Parameter) -> String {
     if !parameter.is_head() {
         return "  ".to_owned();
@@ -224,8 +227,8 @@ fn lead(app: &App, parameter: &Parameter) -> String {
     format!("─{mark}")
 }
 
-/// The row of a value being typed: name, symbol and unit of a number as far as there is room, the
-/// typed text, and what it means.
+/// Returns the row of a value being typed: a label as long as possible, the typed text, and what
+/// the typed text means.
 fn editor(
     app: &App,
     parameter: &Parameter,
@@ -253,7 +256,8 @@ fn editor(
     Line::from(spans)
 }
 
-/// Labels of a value being typed, the longest first.
+/// Returns labels for a value being typed, the longest first. The longest one consists of the name,
+/// the symbol and the unit.
 fn labels_of_editor(app: &App, parameter: &Parameter, lead: &str) -> [String; 3] {
     let symbol = parameter.field.symbol;
     let named = if symbol.is_empty() {
@@ -264,7 +268,7 @@ fn labels_of_editor(app: &App, parameter: &Parameter, lead: &str) -> [String; 3]
     let shown = typed::shown(app, parameter);
     let unit = match parameter.field.unit {
         "" | "1" => String::new(),
-        // A shown value may have a prefix before its unit.
+        // The shown value may have a prefix before its unit, which the label repeats.
         usual => match unit_of(&shown) {
             "" => format!(" ({usual})"),
             prefixed => format!(" ({prefixed})"),
@@ -278,8 +282,8 @@ fn labels_of_editor(app: &App, parameter: &Parameter, lead: &str) -> [String; 3]
     ]
 }
 
-/// Name and symbol within a number of columns: the name is shortened, or left out if little of it
-/// would remain.
+/// Returns the name and the symbol of a parameter in at most `room` columns. If necessary, the name
+/// is shortened, or left out if too few letters would remain.
 fn name_within(parameter: &Parameter, room: usize) -> String {
     let name = parameter.name();
     let symbol = parameter.field.symbol;
@@ -302,12 +306,12 @@ fn columns(text: &str) -> usize {
     Span::raw(text).width()
 }
 
-/// A text within a number of columns; the rest is replaced by `…`.
+/// Returns a text in at most `room` columns. If the text is longer, its end is replaced by `…`.
 fn cut(text: &str, room: usize) -> String {
     fitted(Line::raw(text.to_owned()), room as u16).to_string()
 }
 
-/// Derived values of the scene, in as many lines as needed.
+/// Returns the derived values of the scene, in as many lines as needed.
 fn derived(app: &App, width: u16) -> Vec<Line<'static>> {
     let mut parts = Vec::new();
     for (name, value) in derived_values(app) {
@@ -317,14 +321,14 @@ fn derived(app: &App, width: u16) -> Vec<Line<'static>> {
     filled(parts, "  ", width.into())
 }
 
-/// Names and values of what follows from the scene.
+/// Returns the names and the values of quantities that follow from the scene.
 fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     let Some(outcome) = app.outcome() else {
         return Vec::new();
     };
     let governing = app.governing().unwrap_or(outcome.governing);
     let mut values = vec![("E*", format_quantity(governing.effective_modulus, "Pa"))];
-    // The amplitude of random roughness has rows of its own.
+    // A measured surface has no rows for its amplitude. Random roughness has such rows.
     let roughness = &app.edit.document.scene().roughness;
     if let Some(Roughness::Measured(_)) = roughness
         && let Some(amplitude) = governing.amplitude
@@ -332,7 +336,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
         values.push(("h", format_quantity(amplitude.rms_height, "m")));
         values.push(("⟨∇z⟩", format_quantity(amplitude.rms_gradient, "1")));
     }
-    // A scene that failed has no further values.
+    // If the computation of the scene has failed, there are no further values.
     let has_failed = !app.is_current() && !app.is_computing();
     if has_failed {
         return values;
@@ -343,7 +347,7 @@ fn derived_values(app: &App) -> Vec<(&'static str, String)> {
     values
 }
 
-/// Reason why the typed value is refused, if it is.
+/// Returns the reason why the typed value is refused; `None` if it is not refused.
 fn refusal(app: &App) -> Option<&String> {
     if let Some(Message::Refused(why)) = &app.message {
         return Some(why);
@@ -354,7 +358,8 @@ fn refusal(app: &App) -> Option<&String> {
     app.prompt.as_ref()?.refused.as_ref()
 }
 
-/// Why the value of a parameter is refused, or its meaning and allowed range.
+/// Returns why the value of a parameter is refused, or otherwise the meaning and the allowed range
+/// of the parameter.
 fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
     if let Some(error) = refusal(app) {
         return Line::styled(format!("! {error}"), app.style(Meaning::Error));
@@ -379,7 +384,7 @@ fn meaning_of_parameter(app: &App, index: usize) -> Line<'static> {
     Line::styled(text, app.style(Meaning::Quiet))
 }
 
-/// What was done to the measured curve when it was read.
+/// Returns what was done to the measured curve when it was read.
 fn statements(app: &App) -> String {
     match &app.edit.measured {
         Some(measured) => measured.statements(),

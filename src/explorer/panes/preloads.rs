@@ -1,5 +1,6 @@
-//! Adhesion force against preload: the staircase of the scene's profile, the spread over random
-//! profiles, adhesion without load, and the preload of the scene.
+//! Adhesion force against preload: the staircase of the scene's profile, the scatter over random
+//! profiles, the adhesion forces after a loading turned at first touch and at zero force, and the
+//! present preload.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::app::App;
@@ -46,7 +47,7 @@ pub static ROW: PaneRow = PaneRow {
     )],
 };
 
-/// The drawn curves, with the command that computes them as a table.
+/// Returns the data of the curves, and the command that computes them as a table.
 fn report(app: &App) -> Exported<'_> {
     let curve = app.studies.value::<PreloadCurve>()?;
     let axis = &curve.axis;
@@ -106,9 +107,10 @@ fn panel(app: &App, size: Size) -> Panel {
 
 /// The charts of the pane.
 struct Charts {
-    /// Adhesion force against preload, with the preload of the scene.
+    /// Adhesion force against preload, with a marker at the preload of the scene.
     curves: Chart,
-    /// Distribution over the profiles at the crosshair or at the preload of the scene.
+    /// Distribution of the adhesion force over the profiles, at the preload of the crosshair or of
+    /// the scene; `None` if there is no such preload.
     distribution: Option<Chart>,
 }
 
@@ -124,7 +126,8 @@ impl Charts {
             let layer = Layer::new("present preload".into(), Ink::Cursor, sign);
             curves.layers.push(layer);
         }
-        // The crosshair is a share of the axis, so it stays at its place when the unit changes.
+        // The crosshair is a share of the axis. Therefore it stays in place if the unit of the axis
+        // changes.
         let axis = &curves.x;
         let read = match app.view.crosshair {
             Some(share) => {

@@ -1,4 +1,4 @@
-//! The profile: the rigid profile, the elastic surface above it, their contact, and the
+//! The profile: the rigid profile, the elastic surface above it, the springs in contact, and the
 //! distribution of heights.
 
 use super::row::PaneRow;
@@ -35,7 +35,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Chart of the springs in the pane, for a file.
+/// Returns the chart of the springs in the pane for a file.
 fn of_springs(app: &App, part: fn(usize, usize) -> LinePart) -> Option<Chart> {
     let snapshot = app.snapshot.as_deref()?;
     section::of_springs(
@@ -57,7 +57,8 @@ fn title(app: &App) -> String {
     format!("Profile, {shown} of {whole},")
 }
 
-/// Panel of the profile in one state, with the distribution of heights, in a pane of this width.
+/// Returns the panel of the profile at the shown state, with the distribution of heights on its
+/// right. `width` is the width of the pane in columns.
 fn with_profile(app: &App, snapshot: &ContactSnapshot, width: u16) -> Panel {
     let z = section::heights(app, snapshot);
     let look = app.view.appearance;
@@ -80,16 +81,17 @@ fn with_profile(app: &App, snapshot: &ContactSnapshot, width: u16) -> Panel {
     panel
 }
 
-/// Position of a spring as a share of a section, below 0 or above 1 if the spring is outside.
+/// Returns the position of a spring in a part of the profile, from 0 at its left end to 1 at its
+/// right end. Outside this part, the position is below 0 or above 1.
 fn share_of_section(section: &Section, spring: usize) -> f64 {
     (spring as f64 - section.first as f64) / section.springs as f64
 }
 
-/// Number of points of the curve of a normal distribution.
+/// Number of points on the curve of the normal distribution.
 const POINTS: usize = 65;
 
-/// Density of heights in the bins of a histogram, and the normal distribution with the same mean
-/// and rms height.
+/// Returns the chart of the distribution of heights: the density in each bin of the histogram, and
+/// the normal distribution with the same mean and rms height.
 fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     let Some(histogram) = histogram.filter(|histogram| histogram.high > histogram.low) else {
         let span = Span {
@@ -104,7 +106,7 @@ fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     let most = densities
         .chain([bins.normal_density(bins.mean)])
         .fold(0.0, f64::max);
-    // A unit of length that makes the largest density a number of few digits.
+    // The unit of length is chosen such that the largest density has few digits.
     let (divisor, unit) = prefixed("m", 1e3 / most);
     let mut boxes = Vec::new();
     for (index, share) in bins.shares.iter().enumerate() {
@@ -134,17 +136,17 @@ fn distribution(histogram: Option<&Histogram>, z: ChartAxis) -> Chart {
     Chart::new(density, z, layers)
 }
 
-/// Bins of a histogram of heights, with the moments of their middles.
+/// Bins of a histogram of heights. Mean and rms height are computed from the middles of the bins.
 struct Bins {
-    /// Lower end of the first bin, m.
+    /// Lower end of the first bin in m.
     lowest: f64,
-    /// Width of a bin, m.
+    /// Width of a bin in m.
     width: f64,
     /// Share of the springs in each bin.
     shares: Vec<f64>,
-    /// Mean height, m.
+    /// Mean height in m.
     mean: f64,
-    /// Rms height about the mean, m.
+    /// Rms deviation of the heights from the mean in m.
     rms: f64,
 }
 
@@ -173,12 +175,12 @@ impl Bins {
         bins
     }
 
-    /// Lower end of a bin, m.
+    /// Returns the lower end of a bin in m.
     fn low(&self, index: usize) -> f64 {
         self.lowest + self.width * index as f64
     }
 
-    /// Density of the normal distribution at a height, 1/m.
+    /// Returns the density of the normal distribution at a height, in 1/m.
     fn normal_density(&self, height: f64) -> f64 {
         let deviation = (height - self.mean) / self.rms;
         (-0.5 * deviation.powi(2)).exp() / (self.rms * TAU.sqrt())
@@ -212,7 +214,7 @@ mod tests {
         else {
             panic!("{chart:?}")
         };
-        // Heights in mm and densities per mm.
+        // The densities are per mm, and the heights are in m.
         let area: f64 = boxes
             .iter()
             .map(|((_, density), (low, high))| density * (high - low) * 1e3)
@@ -226,7 +228,7 @@ mod tests {
                 * 0.25e-3
         };
         assert!((moment(0) - 1.0).abs() < 1e-9 && moment(1).abs() < 1e-9);
-        // (20 · 1.5² + 60 · 0.5²) / 80
+        // Mean squared height in µm²: (20 · 1.5² + 60 · 0.5²) / 80 = 0.75.
         assert!((moment(2) - 0.75).abs() < 1e-4, "{}", moment(2));
         let flat = Histogram {
             low: 1.0,

@@ -1,4 +1,4 @@
-//! The properties of a pane, as one row of the table of panes.
+//! The properties of a pane, which are one row of the table of panes.
 
 use crate::explorer::advice;
 use crate::explorer::app::App;
@@ -12,25 +12,25 @@ use ratatui::layout::Size;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Command that computes the result of a pane, and the result; `None` while it is missing.
+/// Result of a pane, with the command that computes it; `None` as long as there is no result.
 pub type Exported<'a> = Option<(Cow<'static, str>, Box<dyn Report + 'a>)>;
 
 pub struct PaneRow {
-    /// Content for an area of this size inside the frame.
+    /// Makes the panel for an area of this size inside the frame.
     pub panel: fn(&App, Size) -> Panel,
-    /// Content as a figure for a file, which may have more than the chart of the panel.
+    /// Makes the figure for a file. It may contain more than the chart of the panel.
     pub figure: fn(&App, &Panel) -> Option<Figure>,
-    /// Content as a table or JSON with the command that computes it, if that is more than the
-    /// curves of the figure; `None` while the result is missing.
+    /// Makes the table or the JSON for a file, with the command that computes it. It returns `None`
+    /// if the curves of the figure are the whole result, or as long as there is no result.
     pub report: for<'a> fn(&'a App) -> Exported<'a>,
-    /// Studies of a computed scene whose values the pane needs while it is shown.
+    /// Returns the studies whose values the pane needs while it is shown.
     pub studies: fn(&App, &Arc<SolvedScene>) -> Vec<Study>,
-    /// Paragraphs of the help: names, and the meanings of the signs in the pane.
+    /// Paragraphs of the help, each with a name and a text that explains the signs in the pane.
     pub help: &'static [(&'static str, &'static str)],
 }
 
 impl PaneRow {
-    /// Properties of a pane without content, as defaults.
+    /// Row of a pane without content, from which other rows take their defaults.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| {
@@ -45,12 +45,12 @@ impl PaneRow {
     };
 }
 
-/// Command for a result that no other command computes: the explorer opens on the scene, whose
-/// loading is the path of manual loading.
+/// Command for a result that no other command computes. It opens the explorer on the scene. In the
+/// case of manual loading, the loading of this scene is the path of manual loading.
 pub const OPEN_COMMAND: &str = "asperity";
 
-/// Report of the pane's result: the path of manual loading, or else the outcome of the scene with
-/// its force curve.
+/// Returns the path of manual loading as a report. Without manual loading, it returns the outcome
+/// of the scene with its force curve.
 pub fn outcome(app: &App) -> Exported<'_> {
     let scene = app.edit.document.scene();
     if let Some(manual) = &app.manual {

@@ -1,5 +1,5 @@
-//! Part of the profile with its axes: rigid profile, elastic surface and contact, for the profile
-//! pane and the close-up.
+//! Part of the profile (section) with its axes: rigid profile, elastic surface and contact. The
+//! profile pane and the close-up both use it.
 
 use super::row::{Exported, OPEN_COMMAND};
 use crate::explorer::app::App;
@@ -13,8 +13,8 @@ use asperity_report::{Part as LinePart, Report, Section};
 use asperity_scene::stages::LineFacts;
 use ratatui::text::Span as Text;
 
-/// Panel of a section over the position, in a pane of this width; `z` is the range of heights, m.
-/// Beside its title are the readings of the crosshair.
+/// Returns the panel of a section, in a pane of the given width. `z` is the range of heights in m.
+/// The readings of the crosshair are beside the title.
 pub fn panel(
     title: &str,
     snapshot: &ContactSnapshot,
@@ -24,12 +24,12 @@ pub fn panel(
     width: u16,
 ) -> Panel {
     let mut chart = section.chart(snapshot.line, z).with_symbols();
-    // Without colours the stroke separates the surface from the profile.
+    // The dots distinguish the surface from the profile even without colours.
     if let Some(surface) = chart.layers.first_mut() {
         surface.shape = Shape::line(surface.shape.points(), Stroke::Dotted);
     }
     if let Some(probe) = snapshot.probe {
-        // The lines are drawn first, so that no curve is interrupted.
+        // The lines of the crosshair come first, because otherwise they would interrupt the curves.
         let upright = Shape::Upright(position(snapshot.line, probe.spring));
         let level = Shape::Level(probe.height);
         let lines = [upright, level].map(|line| Layer::unnamed(Ink::Cursor, line));
@@ -48,8 +48,8 @@ pub fn panel(
     panel
 }
 
-/// Chart of the springs of a section for a file, with the range of heights `z` (m); it does not
-/// depend on the size of the pane.
+/// Returns the chart of a section for a file. It shows the springs chosen by `part`, independently
+/// of the size of the pane. `z` is the range of heights in m.
 pub fn of_springs(
     snapshot: &ContactSnapshot,
     section: &Section,
@@ -61,7 +61,7 @@ pub fn of_springs(
     Some(whole.chart(snapshot.line, z))
 }
 
-/// Figure of a chart of springs, with indentation and force.
+/// Returns a figure with this chart, and with force and indentation as a note.
 pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     let point = &snapshot.point;
     let force = value_label("", "F", "N", app.without_rounding(point.force)).then(", ");
@@ -73,7 +73,7 @@ pub fn figure(app: &App, snapshot: &ContactSnapshot, chart: Chart) -> Figure {
     }
 }
 
-/// Table of the curves in a chart of springs; `None` while the scene is not computed.
+/// Returns a table of the curves in this chart; `None` as long as the scene is not computed.
 pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     if !app.is_current() {
         return None;
@@ -82,7 +82,8 @@ pub fn table(app: &App, chart: Chart) -> Exported<'static> {
     Some((OPEN_COMMAND.into(), figure))
 }
 
-/// Range of heights, m: the profile, and over the whole loop the surface, unless it is far above.
+/// Returns the range of heights in m. It contains the profile, and the surface at all indentations
+/// of the loop, unless the surface is far above the profile.
 pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     let (low, high) = snapshot.profile.heights;
     let far = high + 0.5 * (high - low);
@@ -96,12 +97,13 @@ pub fn heights(app: &App, snapshot: &ContactSnapshot) -> Span {
     Span::around(ends.into_iter(), 0.05)
 }
 
-/// Position of the middle of a spring, m.
+/// Returns the position of the middle of a spring in m.
 pub fn position(line: LineFacts, spring: usize) -> f64 {
     (line.first + spring) as f64 * line.spacing + 0.5 * line.spacing
 }
 
-/// Values at the crosshair: position, height, and gap or stretch of the spring.
+/// Returns the values at the crosshair as texts: position, height, and the gap or the stretch of
+/// the spring.
 fn at_crosshair(snapshot: &ContactSnapshot, probe: Probe) -> Vec<String> {
     let x = format_quantity(position(snapshot.line, probe.spring), "m");
     let z = format_quantity(probe.height, "m");

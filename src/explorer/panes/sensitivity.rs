@@ -1,4 +1,4 @@
-//! Sensitivity of the results to the numbers of the scene: all changes as a table, with bars for
+//! Sensitivity of the results to each number of the scene: a table of all changes, with bars for
 //! the adhesion force.
 
 use super::row::{Exported, PaneRow};
@@ -13,8 +13,8 @@ use ratatui::layout::Size;
 use ratatui::text::{Line, Span};
 use std::sync::Arc;
 
-/// Number of rows besides the rows of the bars: results of the scene, heading, and horizontal axis
-/// with its numbers and label.
+/// Number of rows that are not available for bars: results of the scene, heading, and horizontal
+/// axis with its numbers and its label.
 const BESIDE: u16 = 5;
 
 pub static ROW: PaneRow = PaneRow {
@@ -64,7 +64,8 @@ fn panel(app: &App, size: Size) -> Panel {
     if let Some(missing) = sensitivity.missing() {
         return Panel::of_text(title, missing);
     }
-    // Each number has two bars, for its decrease and its increase, and each bar a row.
+    // Each number of the scene has two bars, one for its decrease and one for its increase. Each
+    // bar takes a row.
     let bars = usize::from(size.height.saturating_sub(BESIDE));
     let of_range = sensitivity.range.iter().len();
     let most = (bars / 2).saturating_sub(of_range).max(1);
@@ -91,10 +92,11 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Columns of the table with results: F_a, and two further ones.
+/// Columns of the table that contain results: F_a and two other results.
 const RESULTS: [usize; 3] = [3, 5, 6];
 
-/// The results of the unchanged scene, each after its name in the heading of the table.
+/// Returns the results of the unchanged scene. Each comes after its name, which is in the heading
+/// of the table.
 fn results(heading: &[String; 7], present: &[String; 7]) -> Vec<Part> {
     let mut parts = Vec::new();
     for column in RESULTS {
@@ -104,8 +106,8 @@ fn results(heading: &[String; 7], present: &[String; 7]) -> Vec<Part> {
     parts
 }
 
-/// Labels of the rows with as many results as there is room for; `None` if not even the first
-/// result fits into this number of columns.
+/// Returns the labels of the rows, with as many results as fit into this number of columns; `None`
+/// if not even the first result fits.
 fn labels_within(rows: &[[String; 7]], columns: usize) -> Option<Vec<String>> {
     for results in (1..=RESULTS.len()).rev() {
         let labels = labels(rows, results);
@@ -116,8 +118,8 @@ fn labels_within(rows: &[[String; 7]], columns: usize) -> Option<Vec<String>> {
     None
 }
 
-/// Rows of the table, padded to one width: name, change of the number, and changes of the first
-/// `results` results.
+/// Returns the rows of the table as texts of equal width. They contain the name of the number, its
+/// change, and the changes of the first `results` results.
 fn labels(rows: &[[String; 7]], results: usize) -> Vec<String> {
     let mut columns = vec![0, 2];
     columns.extend(&RESULTS[..results]);

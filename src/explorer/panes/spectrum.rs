@@ -1,4 +1,5 @@
-//! Spectra over the wave number, both logarithmic: as measured, as fitted, and of the line.
+//! Spectra over the wave number on logarithmic axes: the measured spectrum, the fitted spectrum and
+//! the spectrum of the profile.
 
 use super::row::PaneRow;
 use crate::explorer::app::App;
@@ -59,7 +60,8 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// Text below the chart: moments with their errors, or the reason why there is no chart.
+/// Returns the texts below the chart: the moments with their errors and the adhesion force, or the
+/// reason why there is no chart.
 fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     let Some(shown) = shown else {
         let text = if let Some(why) = app.studies.failure::<SceneSpectra>() {
@@ -85,14 +87,16 @@ fn words(app: &App, shown: Option<&SceneSpectra>) -> Vec<String> {
     words
 }
 
-/// The fitted moments and the parameters that follow from them, with their standard errors.
+/// Returns the fitted moments, and the parameters that follow from them, with their standard
+/// errors.
 fn moments_in_words(moments: &LineMoments, governing: &Governing) -> String {
     let mut parts = vec![
         format!("fit: h ± {}", relative_error(moments.rms_height)),
         format!("⟨∇z⟩ ± {}", relative_error(moments.rms_gradient)),
     ];
     if let Some(kappa) = governing.kappa {
-        // κ² is proportional to h⟨∇z⟩.
+        // κ² is proportional to h⟨∇z⟩, so the relative error of κ is half the relative error of
+        // h⟨∇z⟩.
         let error = 0.5 * moments.height_gradient.error / moments.height_gradient.value;
         let kappa = format_quantity(kappa, "1");
         parts.push(format!("κ = {kappa} ± {}", per_cent(error)));
@@ -109,8 +113,9 @@ fn relative_error(moment: Moment) -> String {
     per_cent(moment.error / moment.value)
 }
 
-/// Adhesion force with its spread over random profiles and with the spread due to the fit, as far
-/// as computed.
+/// Returns the adhesion force with two kinds of scatter: over the random profiles, and due to the
+/// fit of the spectrum. Both are given as far as they are computed. `None` if the profile of the
+/// scene is not the equivalent line of a measured surface.
 fn adhesion(app: &App) -> Option<String> {
     if !is_sampled(&app.solved.as_ref()?.scene) {
         return None;
@@ -132,14 +137,16 @@ fn adhesion(app: &App) -> Option<String> {
 
 pub const PROFILES: usize = 16;
 
-/// Returns true if the profile of a scene is an equivalent line with adhesion.
+/// Returns true if the scene has adhesion, and its profile is the equivalent line of a measured
+/// surface.
 fn is_sampled(scene: &Scene) -> bool {
     let is_measured = matches!(scene.roughness, Some(Roughness::Measured { .. }));
     let is_adhesive = scene.adhesion.is_some() && scene.numerics.solver == Solver::Exact;
     is_measured && is_adhesive && !scene.measured_as_line()
 }
 
-/// Computes the adhesion force of the random profiles that are not computed yet.
+/// Returns the study that computes the adhesion force of the random profiles that are still
+/// missing.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
     let mut found = app
         .studies

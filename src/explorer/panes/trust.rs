@@ -1,5 +1,5 @@
-//! How far the adhesion force can be trusted: what accuracy costs, as errors over computing times,
-//! the errors by their sources, and what other theories say of the same surface.
+//! How accurate the adhesion force is. The pane shows errors over computing times (the cost of
+//! accuracy), the errors from each source, and what other theories say about the same surface.
 
 use super::row::{Exported, PaneRow};
 use crate::explorer::advice;
@@ -35,7 +35,7 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Time limit of the whole measurement, equal to the default of `asperity cost`.
+/// Time limit of the whole measurement, the same as the default of `asperity cost`.
 const BUDGET: Duration = Duration::from_secs(10);
 
 #[derive(Clone, Debug, Default)]
@@ -44,8 +44,8 @@ pub struct Costs {
     pub trying: Option<String>,
 }
 
-/// Measures the cost table of a scene. Its times belong together, so an interrupted measurement
-/// begins anew.
+/// Returns the study that measures the errors and computing times of a scene. The times are only
+/// comparable within one measurement, so a measurement that was interrupted begins again.
 fn study(computed: &SolvedScene) -> Study {
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, true, move |_, mut control| {
@@ -75,18 +75,19 @@ fn report(app: &App) -> Exported<'_> {
     Some(("asperity cost".into(), Box::new(report)))
 }
 
-/// The comparison with three dimensions, if it is computed.
+/// Returns the comparison with the contact in three dimensions, if it is computed.
 fn reference(app: &App) -> Option<&Reference> {
     app.studies.value::<SquareLoops>()?.reference.as_ref()
 }
 
-/// Relative errors that are drawn as lines, and whose requirements are stated.
+/// Relative errors that are drawn as horizontal lines. For each of them, a text states the
+/// necessary number of springs and the time.
 const TARGETS: [f64; 2] = [0.01, 0.001];
 
-/// Smallest number of rows of the chart.
+/// Smallest height of the chart in rows.
 const LEAST_CHART: usize = 6;
 
-/// Lower end of the error axis; smaller errors are drawn in the lowest row.
+/// Lower end of the axis of relative errors. Smaller errors are drawn in the lowest row.
 const LOWEST: f64 = 1e-8;
 
 fn panel(app: &App, size: Size) -> Panel {
@@ -109,8 +110,8 @@ fn panel(app: &App, size: Size) -> Panel {
     let entries = entries(&chart, app.view.appearance);
     let legend = filled(entries, "  ", size.width.into());
     let beside_chart = room.saturating_sub(LEAST_CHART + legend.len());
-    // In a small window other theories are left out before the chart, and the chart before the
-    // errors.
+    // In a small window, the texts on other theories are left out first, then the chart, and the
+    // errors last.
     let needed = words.cost.len() + words.errors.len() + 1;
     if beside_chart < needed && beside_chart < words.count() {
         let title = "Trust: errors of F_a; the chart needs more rows".to_owned();
@@ -128,12 +129,12 @@ fn panel(app: &App, size: Size) -> Panel {
     }
 }
 
-/// The measured costs, as far as they are measured.
+/// Returns the measured errors and times; `None` before the first are measured.
 fn cost_table(app: &App) -> Option<&CostTable> {
     app.studies.value::<Costs>()?.table.as_ref()
 }
 
-/// The chart of errors over times; `None` until it has a curve.
+/// Returns the chart of errors over times; `None` before it has a curve.
 fn chart(app: &App) -> Option<Chart> {
     let table = cost_table(app)?;
     let chart = work_precision("", table, reference(app)).charts.pop()?;
@@ -143,12 +144,12 @@ fn chart(app: &App) -> Option<Chart> {
     Some(with_scene(chart, app, table))
 }
 
-/// The words beside the chart, the most important first.
+/// Texts below the chart, the most important first.
 #[derive(Default)]
 struct Words {
-    /// Error and time of the scene, and what smaller errors cost.
+    /// Error and computing time of the scene, and the time that smaller errors need.
     cost: Vec<Line<'static>>,
-    /// Errors of the adhesion force by their sources, the largest of them first.
+    /// Errors of the adhesion force from each source, the largest first.
     errors: Vec<Line<'static>>,
     /// Criteria of other theories.
     theories: Vec<Line<'static>>,
@@ -159,7 +160,8 @@ impl Words {
         self.cost.len() + self.errors.len() + self.theories.len()
     }
 
-    /// The words in at most this number of rows; the last one says what is left out.
+    /// Returns the texts in at most this number of rows. If some are left out, the last row says
+    /// how many.
     fn within(self, rows: usize, app: &App) -> Vec<Line<'static>> {
         let mut lines = [self.cost, self.errors, self.theories].concat();
         if lines.len() <= rows {
@@ -176,7 +178,7 @@ impl Words {
     }
 }
 
-/// Cost, errors by their sources, and criteria of other theories, in lines of this width.
+/// Returns the texts on cost, errors and other theories, in lines of this width.
 fn words(app: &App, width: u16) -> Words {
     let cost = filled(sentence(app), "  ", width.into());
     let Some(computed) = app.current() else {
@@ -187,7 +189,7 @@ fn words(app: &App, width: u16) -> Words {
     };
     let ensemble = app.studies.value::<Ensemble>();
     let mut errors = errors(app, computed);
-    // The last row is the largest of the errors.
+    // The last error is the largest, so it moves to the first row.
     let first = errors.len().min(1);
     errors.rotate_right(first);
     let theories = theory_rows(&computed.scene, &computed.outcome, ensemble);
@@ -200,7 +202,7 @@ fn words(app: &App, width: u16) -> Words {
     }
 }
 
-/// Errors of the adhesion force by their sources, each a name and words.
+/// Returns the errors of the adhesion force. Each has the name of its source and a text.
 fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     let outcome = &computed.outcome;
     let estimate = app.studies.value::<Estimate>();
@@ -225,8 +227,8 @@ fn errors(app: &App, computed: &SolvedScene) -> Vec<(&'static str, String)> {
     )
 }
 
-/// Rows of a name and words, as lines of this width. Names have a column of their own, and words
-/// that need several lines are all beside it.
+/// Returns rows of names and texts as lines of this width. The names have a column of their own. A
+/// text that needs several lines stays beside this column.
 fn lines_of_rows(
     app: &App,
     rows: &[(&str, String)],
@@ -249,7 +251,7 @@ fn lines_of_rows(
     lines
 }
 
-/// Text in place of the chart.
+/// Returns the text that replaces the chart as long as there is none.
 fn nothing_yet(app: &App) -> String {
     let text = if app.is_computing() {
         "the scene is still being computed…"
@@ -267,8 +269,8 @@ fn nothing_yet(app: &App) -> String {
     text.to_owned()
 }
 
-/// The chart with the target errors and the scene itself, and errors down to the smallest one of
-/// interest.
+/// Adds the target errors and the marker of the scene to the chart, and lets the axis end at the
+/// smallest error of interest.
 fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     let Span { low, high } = chart.y.span;
     chart.y.span = Span {
@@ -294,8 +296,8 @@ fn with_scene(mut chart: Chart, app: &App, table: &CostTable) -> Chart {
     chart
 }
 
-/// Error and time of the scene, springs and time of the fastest setting for each target, and the
-/// setting that is tried now.
+/// Returns the texts on cost: error and time of the scene, number of springs and time of the
+/// fastest setting for each target, and the setting that is being tried.
 fn sentence(app: &App) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     if app.is_current() {
@@ -325,8 +327,8 @@ fn sentence(app: &App) -> Vec<Part> {
     parts
 }
 
-/// Error and computing time of the scene, and its largest error at other loads. The texts are
-/// short, since a text that is wider than the pane is left out.
+/// Returns the error and the computing time of the scene, and its largest error at other loads. The
+/// texts are short, because a text that does not fit into the width of the pane is left out.
 fn present_in_words(app: &App) -> Vec<String> {
     let error = match app.studies.value::<Estimate>() {
         None if app.studies.failure::<Estimate>().is_some() => "error unknown".to_owned(),
@@ -357,8 +359,8 @@ fn time_of(seconds: f64) -> String {
     format_rounded(seconds, 2, "s")
 }
 
-/// Springs and time of the fastest setting with an error within a bound; `None` while there is none
-/// yet.
+/// Returns the number of springs and the time of the fastest setting whose relative error is at
+/// most `bound`; `None` if there is no such setting yet.
 fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
     let mut fastest: Option<(f64, &CostRow)> = None;
     for knob in [Knob::SubCellSprings, Knob::GridSprings] {
@@ -369,7 +371,7 @@ fn answer(table: &CostTable, bound: f64, is_finished: bool) -> Option<String> {
             continue;
         };
         let seconds = seconds.minimum;
-        // Of two settings with the same time the first one is shown.
+        // If two settings take the same time, the first is shown.
         if fastest.is_none_or(|(least, _)| seconds.total_cmp(&least).is_lt()) {
             fastest = Some((seconds, row));
         }

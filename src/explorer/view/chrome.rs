@@ -21,8 +21,9 @@ use asperity_study::{Ensemble, Quantity};
 use ratatui::text::{Line, Span};
 use std::path::is_separator;
 
-/// Title lines: name of the scene, a sign for unsaved changes, and the notice, which may no longer
-/// hold for a changed scene.
+/// Returns the lines of the title: the name of the scene, a sign for unsaved changes, and the
+/// notice. If the scene has unsaved changes but still its old notice, the notice is left out,
+/// because it may no longer be true.
 pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     let document = &app.edit.document;
     let scene = document.scene();
@@ -45,8 +46,8 @@ pub fn title(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     wrapped_within(&Line::from(spans), width, rows)
 }
 
-/// Status lines: the headline figures, a question, an error, or the typed text, in at most this
-/// number of rows.
+/// Returns the lines of the status, at most this number of rows: the headline figures, a question,
+/// an error, or the typed text.
 pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     if let Some(prompt) = &app.prompt
         && let Some(lines) = status_of_prompt(app, prompt, width, rows)
@@ -64,8 +65,8 @@ pub fn status(app: &App, width: u16, rows: u16) -> Vec<Line<'static>> {
     }
 }
 
-/// Status lines of a prompt; `None` for a prompt that leaves these lines to the headline figures
-/// and messages.
+/// Returns the lines of the status for a prompt. `None` if the prompt leaves these lines to the
+/// headline figures and messages.
 fn status_of_prompt(
     app: &App,
     prompt: &Prompt,
@@ -76,7 +77,7 @@ fn status_of_prompt(
         return Some(status_of_refused(app, prompt, why, width, rows));
     }
     match &prompt.purpose {
-        // A value is typed in its row of the parameters, and the help is only read.
+        // A value is typed in its row in the list of parameters, and the help has no typed line.
         Purpose::Value
         | Purpose::Topics {
             is_typed: false, ..
@@ -100,8 +101,8 @@ fn status_of_prompt(
     }
 }
 
-/// Reason why a typed text is refused, and below it the text if there is room. A value is typed in
-/// its row of the parameters.
+/// Returns the reason why a typed text is refused and, if there is room, the text below it. A typed
+/// value is not repeated here, because it is in its row in the list of parameters.
 fn status_of_refused(
     app: &App,
     prompt: &Prompt,
@@ -137,7 +138,7 @@ fn question_before_leaving(app: &App) -> String {
     )
 }
 
-/// What was done, and after it as much of the headline as there is room for.
+/// Returns the message of what was done, followed by as much of the headline as fits.
 fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     if Span::raw(text).width() + 2 > width.into() {
         return wrapped_within(&Line::raw(text.to_owned()), width, rows);
@@ -148,7 +149,7 @@ fn done(app: &App, text: &str, width: u16, rows: u16) -> Vec<Line<'static>> {
     vec![line]
 }
 
-/// A line being typed, after its label and before what it means.
+/// Returns the line that the user is typing: its label, the typed text, and what the text means.
 fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     let label = Span::raw(label(app, prompt, width));
     let meaning = typed::understood(app).map_or_else(String::new, |text| format!("→ {text}"));
@@ -160,7 +161,8 @@ fn prompted(app: &App, prompt: &Prompt, width: u16) -> Line<'static> {
     Line::from(spans)
 }
 
-/// Label of a prompt; shortened if the typed text would otherwise be out of sight.
+/// Returns the label of a prompt. It is shorter in a narrow window, so that the typed text stays
+/// visible.
 fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     let is_narrow = width < 60;
     match &prompt.purpose {
@@ -182,19 +184,19 @@ fn label(app: &App, prompt: &Prompt, width: u16) -> String {
     }
 }
 
-/// Smallest width, columns, of a status line with the error of F_a, and of one that has random
-/// profiles too.
+/// Smallest widths in columns of a status line: the first for the error of F_a, the second for this
+/// error in addition to the random profiles.
 const WITH_ERROR: usize = 48;
 const WITH_BOTH: usize = 100;
 
-/// As many facts about the loop as there is room for.
+/// Returns the line of the headline: as many facts about the loop as fit.
 fn headline(app: &App, width: usize) -> Line<'static> {
     if app.solved.is_none() {
         return Line::raw("computing…");
     }
     let facts = facts(app, width);
     let full = line_of_facts(app, &facts, width, str::to_owned);
-    // Short names of regimes leave room for further facts.
+    // Shorter names of the regimes may leave room for more facts.
     let short = line_of_facts(app, &facts, width, |text| text.replace("pressure-", ""));
     if short.spans.len() > full.spans.len() {
         short
@@ -203,7 +205,8 @@ fn headline(app: &App, width: usize) -> Line<'static> {
     }
 }
 
-/// The first facts, as far as they fit into a line of this width, in a given wording.
+/// Returns a line with the first facts, as many as fit into this width. `wording` changes the text
+/// of each fact.
 fn line_of_facts(
     app: &App,
     facts: &[Fact],
@@ -218,13 +221,13 @@ fn line_of_facts(
     first_line(parts, " · ", width)
 }
 
-/// The first of the lines that parts fill.
+/// Returns the first of the lines over which the parts are distributed.
 fn first_line(parts: Vec<Part>, between: &'static str, width: usize) -> Line<'static> {
     let lines = filled(parts, between, width);
     lines.into_iter().next().unwrap_or_default()
 }
 
-/// A fact about the loop, for the headline.
+/// A fact about the loop in the headline.
 struct Fact {
     text: String,
     meaning: Meaning,
@@ -239,7 +242,7 @@ impl Fact {
     }
 }
 
-/// Facts about the loop for a line of this width, the most important first.
+/// Returns the facts about the loop for a line of this width, the most important first.
 fn facts(app: &App, width: usize) -> Vec<Fact> {
     let Some(outcome) = app.outcome() else {
         return Vec::new();
@@ -283,7 +286,7 @@ fn facts(app: &App, width: usize) -> Vec<Fact> {
     facts
 }
 
-/// The adhesion force for the value being typed.
+/// Returns the adhesion force for the value that the user is typing.
 fn facts_of_preview(app: &App) -> Vec<Fact> {
     if !app.is_typing_value() {
         return Vec::new();
@@ -302,8 +305,8 @@ fn facts_of_preview(app: &App) -> Vec<Fact> {
     ]
 }
 
-/// The adhesion force over random profiles and of the shown profile, with its error; without
-/// tensile force the largest force.
+/// Returns the adhesion force: over random profiles and of the shown profile, with its error. If
+/// there is no tensile force, it returns the largest force instead.
 fn facts_of_force(app: &App, outcome: &Outcome, width: usize) -> Vec<Fact> {
     let is_wide = width >= WITH_ERROR;
     let error = if is_wide { error(app) } else { None };
@@ -343,7 +346,7 @@ fn after_comma(text: Option<String>) -> String {
     text.map_or_else(String::new, |text| format!(", {text}"))
 }
 
-/// How well the scene describes the measured curve, in words.
+/// Returns how well the scene describes the measured curve, as text.
 fn misfit(app: &App) -> String {
     if let Some(why) = measured::failure(&app.studies) {
         return why.to_owned();
@@ -354,11 +357,12 @@ fn misfit(app: &App) -> String {
     }
 }
 
-/// Smallest width, columns, in which the beginning of a warning can be understood.
+/// Smallest width in columns in which the beginning of a warning can be understood.
 const LEAST_WARNING: usize = 30;
 
-/// Adds the number of warnings and the first of them, as far as there is room; without room, the
-/// number alone after the first fact.
+/// Adds the first warning to the facts, with the number of warnings. If there is little room, the
+/// warning is cut. If there is too little room even for that, only the number is added, after the
+/// first fact.
 fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     let Some(first) = warnings.first() else {
         return;
@@ -391,8 +395,8 @@ fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     }
 }
 
-/// What is known of the loops of random squares in three dimensions, and their difference from the
-/// line. Where there is no room for the whole reason of a failure, its beginning is shown.
+/// Returns what is known of the loops of random squares in three dimensions, and their difference
+/// from the profile. If the computation has failed, it returns as much of the reason as fits.
 fn fact_of_squares(app: &App, width: usize) -> Fact {
     if let Some(why) = app.studies.failure::<SquareLoops>() {
         let text = format!("three dimensions: {why}");
@@ -407,8 +411,8 @@ fn fact_of_squares(app: &App, width: usize) -> Fact {
     Fact::new(text, Meaning::Title)
 }
 
-/// Median and quartiles of the adhesion force over the random profiles computed so far, and with
-/// room their number.
+/// Returns the median and the quartiles of the adhesion force over the random profiles computed so
+/// far. If `is_wide` is true, the number of profiles follows.
 fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     let ensemble = app.studies.value::<Ensemble>()?;
     let (quantity, symbol, unit) = if app.is_normalised() {
@@ -432,8 +436,8 @@ fn fact_of_profiles(app: &App, is_wide: bool) -> Option<Fact> {
     Some(Fact::new(text, Meaning::Title))
 }
 
-/// Estimated error of the headline figure in words: `…` while it is awaited, `None` without an
-/// estimate.
+/// Returns the estimated error of the headline figure as text. It is `± …` while the error is being
+/// computed, and `None` if no error is computed.
 fn error(app: &App) -> Option<String> {
     if let Some(estimate) = app.studies.value::<Estimate>() {
         return Some(estimate.words());
@@ -450,8 +454,8 @@ fn error(app: &App) -> Option<String> {
     Some(text.to_owned())
 }
 
-/// Progress of the search of springs for a tolerance, or of parameters for the measured curve;
-/// `None` without a search.
+/// Returns the progress of a search for the number of springs, or of a fit to the measured curve;
+/// `None` if neither is running.
 fn searching(app: &App) -> Option<String> {
     if let Some(Choosing {
         tolerance, tried, ..
@@ -468,7 +472,7 @@ fn searching(app: &App) -> Option<String> {
     Some(format!("fitting, {curves} curves computed…"))
 }
 
-/// The valid keys, as a line.
+/// Returns the line of the footer, which shows the valid keys.
 pub fn footer(app: &App, width: u16) -> Line<'static> {
     if let Some(note) = app.view.demo {
         return Line::styled(note, app.style(Meaning::Quiet));
@@ -488,7 +492,7 @@ pub fn footer(app: &App, width: u16) -> Line<'static> {
     first_line(items, "  ", width.into())
 }
 
-/// Names of paths, without their folders, as a line.
+/// Returns a line with the names of paths, without their folders.
 fn candidates(app: &App, paths: &[String], width: u16) -> Line<'static> {
     let mut names = Vec::new();
     for path in paths {

@@ -1,5 +1,5 @@
-//! Lists of a prompt in place of the panes: help and commands in sections, or scenes with the
-//! selected one on the right.
+//! Lists of a prompt, which replace the panes: the help or the commands in sections, or the scenes
+//! with the selected scene on the right.
 
 use crate::explorer::layout::inside;
 use crate::explorer::panel;
@@ -12,21 +12,22 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::text::{Line, Span};
 
-/// Width of the names beside their texts, columns.
+/// Width in columns of the names beside their texts.
 const NAMES: usize = 20;
-/// Smallest width of a window with names beside their texts, columns; in others they are above.
+/// Smallest width in columns of a window in which names are beside their texts. In a narrower
+/// window, they are above their texts.
 const BESIDE_FROM: u16 = 56;
-/// Indentation of a text below its name, columns.
+/// Indentation in columns of a text below its name.
 const INDENT: usize = 4;
-/// Smallest width with the selected scene beside the list, columns.
+/// Smallest width in columns of a window that shows the selected scene beside the list.
 const WITH_SCENE: u16 = 62;
 
-/// A list in place of the panes.
+/// A list that replaces the panes.
 struct List<'a> {
     name: &'a str,
-    /// Number of all entries, shown or not.
+    /// Number of all entries, including the entries that are not shown.
     length: usize,
-    /// Text in place of the rows if no entry fits what is typed.
+    /// Text that replaces the rows if no entry matches the typed text.
     none: &'a str,
     rows: Vec<Line<'static>>,
     /// Index of the selected row.
@@ -54,8 +55,8 @@ impl List<'_> {
     }
 }
 
-/// Draws the help or the list of commands: the topics that match what is typed, in sections while
-/// nothing is typed.
+/// Draws the help or the list of commands. It shows the topics that match the typed text or, as
+/// long as nothing is typed, all topics in sections.
 pub fn draw_topics(
     area: Rect,
     look: Appearance,
@@ -90,7 +91,7 @@ pub fn draw_topics(
     panel::draw(&list.panel(prompt), area, false, look, buffer);
 }
 
-/// The name and the text of a topic, in as many rows as needed: in a wide window the text is beside
+/// Returns the rows of a topic, with its name and its text. In a wide window, the text is beside
 /// the name, otherwise below it.
 fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> Vec<Line<'static>> {
     let mut rows = Vec::new();
@@ -100,7 +101,7 @@ fn rows_of_topic(topic: &Topic, is_selected: bool, width: u16, theme: Theme) -> 
     let mark = if is_selected { "›" } else { " " };
     let name = format!("{mark} {}", topic.name);
     let name = fitted(Line::styled(name, theme.style(Meaning::Key)), width);
-    // The row that the next line of the text continues.
+    // The row to which the next line of the text is added.
     let mut begun = Line::default();
     if is_beside {
         begun = name;
@@ -164,8 +165,8 @@ pub fn draw_scenes(
     panel::draw(&scene, right, false, look, buffer);
 }
 
-/// A row of the list of scenes: a number that finds a built-in scene, the name, and where the scene
-/// comes from.
+/// Returns the row of a scene in the list: the number with which a built-in scene can be found, the
+/// name of the scene, and its source.
 fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) -> Line<'static> {
     let mark = if entry.error().is_some() {
         "! "
@@ -198,7 +199,7 @@ fn row_of_scene(index: usize, entry: &Entry, is_selected: bool, theme: Theme) ->
     ])
 }
 
-/// Title, notice, error and text of a scene, broken into lines of this width.
+/// Returns the title, the notice, the error and the text of a scene, in lines of this width.
 fn words_of_scene(entry: &Entry, width: u16, theme: Theme) -> Vec<Line<'static>> {
     let mut texts = vec![
         (entry.title().to_owned(), Meaning::Title),

@@ -15,7 +15,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 pub fn draw(frame: &mut Frame<'_>, app: &App) {
-    // The window may have another size than the state by now.
+    // The window may have changed since its size was stored in the state, so the layout uses the
+    // size of the frame.
     let area = frame.area();
     let layout = Layout::within(app, (area.width, area.height));
     let look = app.view.appearance;
@@ -24,7 +25,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
         panel::draw_lines(&chrome::title(app, area.width, area.height), area, buffer);
     }
     draw_body(app, &layout, buffer);
-    // A long text also takes the place of the keys.
+    // If the status is long, it also takes the row of the keys.
     let rows = 1 + u16::from(layout.footer.is_some());
     let status = chrome::status(app, area.width, rows);
     let status_area = Rect {
@@ -42,7 +43,7 @@ pub fn draw(frame: &mut Frame<'_>, app: &App) {
     }
 }
 
-/// Draws the panes, or in their place the list of a prompt.
+/// Draws the panes, or the list of a prompt instead.
 fn draw_body(app: &App, layout: &Layout, buffer: &mut Buffer) {
     let look = app.view.appearance;
     if let Some(prompt) = &app.prompt {

@@ -5,7 +5,7 @@ use crate::chart::{Chart, Entry, Sample, Stroke};
 use crate::label::Label;
 use ratatui::text::Span as Text;
 
-/// Returns the left, middle and right character of a sample of a line.
+/// Returns the three characters, from left to right, that show a line in the legend.
 fn strokes(stroke: Stroke) -> [&'static str; 3] {
     match stroke {
         Stroke::Solid => ["⠒"; 3],
@@ -30,8 +30,9 @@ fn text_of(sample: Sample) -> String {
     }
 }
 
-/// Returns the entries of the legend of these charts for a terminal. An entry is a list of coloured
-/// texts: samples of the lines, areas or markers of this name, and at the end the name.
+/// Returns the entries of the legend of these charts for a terminal. Each entry is a list of
+/// coloured texts: first a sample of each line, area or marker with this name, and at the end the
+/// name.
 pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>> {
     let mut parts = Vec::new();
     for entry in Entry::of_charts(charts) {
@@ -52,7 +53,8 @@ pub fn legend(charts: &[Chart], style: &CellStyle<'_>) -> Vec<Vec<Text<'static>>
     parts
 }
 
-/// Returns the letter that cells of a map have in place of the marker of this class.
+/// Returns the letter that marks the class of this name in the cells of a map; `None` if the class
+/// has no letter.
 fn letter_of_class(charts: &[Chart], name: &Label) -> Option<char> {
     for map in charts.iter().filter_map(Chart::map) {
         for class in &map.class_names {

@@ -1,4 +1,5 @@
-//! Heat maps in terminal cells: shades, letters of classes, and bars along the contour.
+//! Heat maps in terminal cells: colours or characters for the values, letters for the classes, and
+//! bars along the contour.
 
 use super::style::{CellStyle, Colours};
 use crate::axis::ChartAxis;
@@ -10,14 +11,15 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use std::ops::Range;
 
-/// Characters for the values of a heat map in a terminal without colours, from the lowest to the
-/// highest values.
+/// Characters that show the values of a heat map in a terminal without colours, from the lowest to
+/// the highest value.
 pub const SHADES: [&str; 5] = ["·", "░", "▒", "▓", "█"];
-/// Smallest number of columns with which a cell shows the letter of its class.
+/// Smallest width, in columns of the screen, at which a cell of the map shows the letter of its
+/// class.
 const WITH_LETTER: usize = 3;
 
-/// Returns the index of the value that each screen cell along an axis shows, from the lower end of
-/// the axis.
+/// Returns, for each screen cell along an axis, the index of the value that this cell shows. The
+/// list begins at the lower end of the axis.
 pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec<usize> {
     let borders = HeatMap::borders(axis.scale, values);
     let mut indices = Vec::with_capacity(usize::from(cells));
@@ -30,7 +32,8 @@ pub(super) fn values_behind(axis: &ChartAxis, values: &[f64], cells: u16) -> Vec
     indices
 }
 
-/// Returns the range of the screen cells that show the same value as this cell.
+/// Returns the range of neighbouring screen cells that show the same value as the cell with the
+/// index `cell`.
 fn run(values: &[usize], cell: usize) -> Range<usize> {
     let own = values[cell];
     let start = values.partition_point(|value| *value < own);
@@ -79,7 +82,8 @@ pub(super) fn draw(
     }
 }
 
-/// Returns the character of a value, which is a blank in a terminal with colours.
+/// Returns the character that shows a value. In a terminal with colours it is a blank, because the
+/// background shows the value.
 fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static str {
     match value {
         Some(value) if style.colours == Colours::None => SHADES[step(map.key.share(value))],
@@ -87,8 +91,8 @@ fn shade(map: &HeatMap, value: Option<f64>, style: &CellStyle<'_>) -> &'static s
     }
 }
 
-/// Returns the style of a value: its colours, or the style of its class in a terminal without
-/// colours.
+/// Returns the style of a cell with this value. In a terminal without colours, the style depends on
+/// the class of the cell instead.
 fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellStyle<'_>) -> Style {
     let Some(value) = value else {
         return Style::new();
@@ -103,11 +107,11 @@ fn looks(map: &HeatMap, value: Option<f64>, class: Option<&Class>, style: &CellS
 }
 
 fn step(share: f64) -> usize {
-    // NaN is the lowest step.
+    // If `share` is NaN, the conversion gives 0, the lowest step.
     ((share * SHADES.len() as f64) as usize).min(SHADES.len() - 1)
 }
 
-/// Returns true if the contour lies between two cells.
+/// Returns true if the contour passes between the two cells with these indices.
 fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     let Some(contour) = &map.contour else {
         return false;
@@ -119,10 +123,10 @@ fn crosses(map: &HeatMap, first: usize, second: usize) -> bool {
     (first < contour.level) != (second < contour.level)
 }
 
-/// Returns the colour scale of a heat map as texts with styles, to be written one after the other.
-/// The scale has six numbers and, between each two neighbours, one coloured piece. In a terminal
-/// without colours the pieces are made of [`SHADES`]. A scale that would need more than `columns`
-/// columns shows only the first and the last number.
+/// Returns the colour scale of a heat map as a list of styled texts, to be written one after the
+/// other. The scale has six numbers with a coloured piece between neighbouring numbers. In a
+/// terminal without colours, the pieces consist of the characters [`SHADES`]. If the scale would
+/// need more than `columns` columns, it shows only the first and the last number.
 pub fn key(map: &HeatMap, columns: usize, colours: Colours) -> Vec<(String, Style)> {
     let (divisor, _) = map.key.prefix();
     let steps = SHADES.len();

@@ -1,5 +1,5 @@
-//! A chart in a pane of the screen. The names of the curves are beside the curves, and further
-//! charts can be at the sides.
+//! A chart in a pane of the screen. The name of each curve is written beside the curve. Further
+//! charts can be on the right of the chart and below it.
 
 use super::legend::legend;
 use super::plot::{CellPlot, Name, is_blank};
@@ -13,21 +13,21 @@ use ratatui::style::Style;
 use ratatui::text::Span as Text;
 use std::ops::RangeInclusive;
 
-/// Entry of the legend: samples and a name.
+/// Entry of the legend: first the samples, at the end the name.
 type Entry = Vec<Text<'static>>;
 
-/// Width in columns of a chart beside another chart, including the line between them.
+/// Width in columns of the chart on the right, including the dividing line.
 const BESIDE: u16 = 14;
-/// Smallest width in columns of both charts.
+/// Smallest width in columns of an area that is divided into two charts side by side.
 const WITH_BESIDE: u16 = 54;
-/// Largest number of rows for which the scales beside a chart are laid out. The plot has the rows
-/// of the chart.
+/// Largest number of rows for which the scales of the chart on the right are laid out. The plot
+/// itself has as many rows as the main plot.
 const MOST_BESIDE: u16 = 15;
-/// Smallest number of rows of an area with a chart below its chart.
+/// Smallest height in rows of an area that shows a second chart below the main chart.
 const WITH_BELOW: u16 = 11;
-/// Numbers of rows of the chart below.
+/// Smallest and largest height in rows of the chart below the main chart.
 const BELOW: RangeInclusive<u16> = 3..=7;
-/// Smallest number of rows of a chart with a row of contact signs.
+/// Smallest height in rows of an area that shows a row of contact signs.
 const WITH_CONTACT: u16 = 5;
 
 /// Chart in a pane, which is a part of the screen of the terminal. The names of the curves are
@@ -46,20 +46,21 @@ pub struct PaneChart {
     pub contact: ContactRow,
 }
 
-/// Row of characters below a chart that shows where springs along the horizontal axis are in
-/// contact. `■` means that all springs at this place are in contact, `▪` that some are, and `·`
-/// that none is.
+/// Row of characters below a chart that shows which springs are in contact. Each character stands
+/// for the springs above it: `■` if all of them are in contact, `▪` if some are, and `·` if none
+/// is.
 #[derive(Default)]
 pub struct ContactRow {
-    /// For each spring, from left to right, true if the spring is in contact. Empty for no row.
+    /// For each spring, from left to right, true if the spring is in contact. If the list is empty,
+    /// the row is not drawn.
     pub springs: Vec<bool>,
-    /// Part of the horizontal axis between two brackets, given by its ends from 0 (left) to 1
-    /// (right); `None` for no brackets.
+    /// Part of the horizontal axis that is enclosed in brackets, as the positions of its two ends
+    /// from 0 (left end of the axis) to 1 (right end); `None` for no brackets.
     pub marked: Option<(f64, f64)>,
 }
 
-/// Divides an area of the screen into a left part for a chart and a right part for a second chart.
-/// The right part is `None` if the area is too narrow for two charts.
+/// Divides an area of the screen into a left part for one chart and a right part for a second
+/// chart. The right part is `None` if the area is too narrow for two charts.
 pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     if area.width < WITH_BESIDE {
         return (area, None);
@@ -76,10 +77,11 @@ pub fn split(area: Rect) -> (Rect, Option<Rect>) {
     (left, Some(right))
 }
 
-/// Number of places along a curve at which its name may stand.
+/// Number of points along a curve beside which the name of the curve may be written.
 const NAMED_AT: usize = 19;
 
-/// Returns the shares of a curve at which its name may stand, from the middle to both ends.
+/// Returns the points of a curve beside which its name may be written, as fractions of the curve
+/// from 0 to 1. The first is the middle; the others follow alternately on both sides of it.
 fn shares() -> impl Iterator<Item = f64> {
     let step = 0.5 / (NAMED_AT as f64 + 1.0);
     (0..NAMED_AT).map(move |place| {
@@ -88,14 +90,15 @@ fn shares() -> impl Iterator<Item = f64> {
     })
 }
 
-/// Name of a curve with the points where it may be written, and its entry in the legend.
+/// Name of a curve with the points beside which it may be written, and the entry of the curve in
+/// the legend.
 struct NamedEntry {
     name: Name,
     entry: Entry,
 }
 
-/// Returns the entries of the legend of a chart with their names. Entries without layers are left
-/// out.
+/// Returns the entries of the legend of a chart, each with the name to write beside the curve.
+/// Entries to which no layer belongs are left out.
 fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<NamedEntry> {
     let mut named = Vec::new();
     for entry in legend(std::slice::from_ref(chart), style) {
@@ -131,7 +134,7 @@ fn names_of_layers(chart: &Chart, style: &CellStyle<'_>) -> Vec<NamedEntry> {
 }
 
 impl PaneChart {
-    /// Creates a pane with this chart alone, without further charts and texts.
+    /// Creates a pane that contains only this chart.
     pub fn new(chart: Chart) -> PaneChart {
         PaneChart {
             chart,
@@ -142,9 +145,9 @@ impl PaneChart {
         }
     }
 
-    /// Divides an area of the screen among the charts of the pane. Returns the place of the main
-    /// chart [`Self::chart`], and the area of the chart [`Self::beside`] on its right; `None` if
-    /// this chart is missing or has no room.
+    /// Divides an area of the screen among the charts of the pane. Returns the layout of the main
+    /// chart [`Self::chart`], and the area of the chart [`Self::beside`] on its right. The area is
+    /// `None` if there is no such chart or not enough room for it.
     pub fn divided(&self, area: Rect) -> (CellPlot, Option<Rect>) {
         let (left, right) = if self.beside.is_some() {
             split(area)
@@ -158,8 +161,8 @@ impl PaneChart {
         (self.scaled(left, &self.chart), right)
     }
 
-    /// Divides an area between a plot and its scales, with a row for the signs of contact if there
-    /// are any.
+    /// Divides an area between a plot and its scales. If the pane has contact signs, one row below
+    /// the plot is left free for them.
     fn scaled(&self, area: Rect, chart: &Chart) -> CellPlot {
         if self.has_signs(area) {
             CellPlot::above(area, chart, 1)
@@ -172,7 +175,7 @@ impl PaneChart {
         !self.contact.springs.is_empty() && area.height >= WITH_CONTACT
     }
 
-    /// Returns the number of rows of the chart below.
+    /// Returns the height in rows of the chart below the main chart; 0 if it is not shown.
     fn rows_below(&self, area: Rect) -> u16 {
         if self.below.is_none() || area.height < WITH_BELOW {
             return 0;
@@ -180,8 +183,9 @@ impl PaneChart {
         (area.height / 4).clamp(*BELOW.start(), *BELOW.end())
     }
 
-    /// Draws the chart below under the columns of the plot. The ends of its vertical axis are on
-    /// the left, and its name is shown if there is room.
+    /// Draws the chart [`Self::below`] under the plot of the main chart. The numbers at the ends of
+    /// its vertical axis are on the left. The name of this axis is written on a blank row, if there
+    /// is one.
     fn draw_below(&self, plot: Rect, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let height = self.rows_below(area);
         let Some(below) = &self.below else {
@@ -211,8 +215,8 @@ impl PaneChart {
         }
     }
 
-    /// Draws all charts and texts into `area`. Returns the legend entries of curves whose names
-    /// found no room in the chart.
+    /// Draws all charts and texts into `area`. Returns the legend entries of the curves whose names
+    /// did not fit beside the curves.
     pub fn draw(&self, area: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) -> Vec<Entry> {
         let (place, right) = self.divided(area);
         let plot = place.plot;
@@ -247,7 +251,7 @@ impl PaneChart {
         left_out
     }
 
-    /// Draws the chart beside in the rows of the plot.
+    /// Draws the chart [`Self::beside`] in the same rows as the main plot.
     fn draw_beside(
         &self,
         chart: &Chart,
@@ -262,7 +266,8 @@ impl PaneChart {
         let area = Rect {
             x: right.x + 1,
             width: right.width - 1,
-            // The label below has no row of its own.
+            // The label of the horizontal axis gets no row of its own if the area has at most this
+            // height.
             height: right.height.min(MOST_BESIDE),
             ..right
         };
@@ -272,8 +277,8 @@ impl PaneChart {
         beside.draw(buffer, chart, style);
     }
 
-    /// Draws pointers on the axes of a map at the mark of the scene, and blanks on both sides of
-    /// the mark. The mark is then visible without colours.
+    /// Marks the point of the present scene on a map with pointers on both axes, and with a blank
+    /// on each side of the point. The point is then visible even without colours.
     fn point_at_mark(
         &self,
         place: &CellPlot,
@@ -310,7 +315,7 @@ impl PaneChart {
             && ["│", "┤"].contains(&cell.symbol())
         {
             cell.set_symbol("▶").set_style(style);
-            // The number of the mark replaces a number that the row has.
+            // The value at the mark replaces any number of the axis in this row.
             let number = format_rounded(point.1, 2, &self.chart.y.unit);
             let columns = usize::from(plot.x.saturating_sub(area.x + 2));
             if number.chars().count() <= columns {
@@ -320,8 +325,8 @@ impl PaneChart {
     }
 }
 
-/// Draws the vertical axis of the chart below, with the numbers at its ends, on the left of
-/// `place`.
+/// Draws the vertical axis of the chart below, with the numbers at its two ends, in the columns to
+/// the left of `place`.
 fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer: &mut Buffer) {
     let columns = usize::from(place.x - area.x).saturating_sub(1);
     if columns == 0 {
@@ -336,7 +341,7 @@ fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer
             None
         };
         let number = end.map_or_else(String::new, |end| format_rounded(end, 2, &below.y.unit));
-        // A number without a blank after it if it needs the column of the blank.
+        // The blank after the number is omitted if there is no column for it.
         let number = match columns.checked_sub(number.len()) {
             None => String::new(),
             Some(0) => number,
@@ -349,7 +354,7 @@ fn draw_ends_beside(below: &Chart, area: Rect, place: Rect, quiet: Style, buffer
 }
 
 impl ContactRow {
-    /// Draws the signs in the row below a plot, and the brackets of the marked part.
+    /// Draws the contact signs into the row below a plot, and the brackets around the marked part.
     fn draw(&self, plot: Rect, style: &CellStyle<'_>, buffer: &mut Buffer) {
         let y = plot.bottom();
         let signs = self.signs(usize::from(plot.width));
@@ -367,8 +372,8 @@ impl ContactRow {
         }
     }
 
-    /// Returns a sign for each cell of a row: `■` if all springs are in contact, `▪` if some are,
-    /// `·` if none is.
+    /// Returns one sign for each cell of a row: `■` if all springs of the cell are in contact, `▪`
+    /// if some are, `·` if none is.
     fn signs(&self, cells: usize) -> String {
         let springs = &self.springs;
         let mut signs = String::new();

@@ -1,4 +1,4 @@
-//! A chart in an area of a terminal: the plot and the scales beside it.
+//! A chart in an area of a terminal: the plot, and the numbers on the left of it and below it.
 
 use super::map;
 use super::shapes::LayerShape;
@@ -14,27 +14,27 @@ use ratatui::widgets::Widget;
 use ratatui::widgets::canvas::Canvas;
 use std::ops::RangeInclusive;
 
-/// Smallest number of columns of an area whose plot has a scale on the left.
+/// Smallest width in columns of an area that has numbers on the left of the plot.
 pub(super) const COLUMNS_WITH_LEFT_SCALE: u16 = 26;
-/// Smallest number of rows of an area whose plot has a scale on the left.
+/// Smallest height in rows of an area that has numbers on the left of the plot.
 const ROWS_WITH_LEFT_SCALE: u16 = 6;
-/// Smallest number of rows of an area with a scale below the plot.
+/// Smallest height in rows of an area that has numbers below the plot.
 const WITH_SCALE_BELOW: u16 = 5;
-/// Smallest number of rows of an area with a line between the plot and the scale below.
+/// Smallest height in rows of an area that has a line between the plot and the numbers below it.
 const WITH_LINE_BELOW: u16 = 12;
-/// Smallest number of rows of an area whose label of the horizontal axis gets its own row if it
-/// would cover a number.
+/// Smallest height in rows of an area in which the label of the horizontal axis may get a row of
+/// its own. It gets this row only if it would otherwise cover a number.
 const WITH_LABEL_BELOW: u16 = 16;
-/// Columns of Braille dots in a cell.
+/// Number of columns of Braille dots in a cell.
 const COLUMNS_OF_DOTS: u16 = 2;
-/// Rows of Braille dots in a cell.
+/// Number of rows of Braille dots in a cell.
 const ROWS_OF_DOTS: u16 = 4;
 
 /// Text that [`CellPlot::draw_name`] draws beside a point of a chart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Name {
-    /// Points (x, y) on the axes of the chart beside which the text may be written. The first point
-    /// with enough room is used.
+    /// Points (x, y), as numbers on the axes of the chart, beside which the text may be written.
+    /// The first point with enough room is used.
     pub at: Vec<(f64, f64)>,
     /// Alternative texts, from the longest to the shortest. The first one that fits is written.
     pub texts: Vec<String>,
@@ -46,19 +46,19 @@ pub struct CellPlot {
     /// Area of the screen in which the data of the chart are drawn, without the numbers along the
     /// axes.
     pub plot: Rect,
-    /// Number of columns on the left of the plot.
+    /// Number of columns of the area on the left of the plot, which contain the numbers.
     left: u16,
     /// Number of rows between the plot and the numbers below it.
     between: u16,
-    /// True if the first of these rows has a line.
+    /// True if the first row below the plot contains a line.
     has_line: bool,
     /// True if there are numbers below the plot.
     has_scale_below: bool,
-    /// True if the label of the horizontal axis has its own row below these numbers.
+    /// True if the label of the horizontal axis has its own row below the numbers.
     has_label_row: bool,
 }
 
-/// Number of an axis, at a column or a row of the plot.
+/// Column or row of the plot, and the number of the axis that is written there.
 type PlacedNumber = (u16, String);
 
 impl CellPlot {
@@ -72,8 +72,8 @@ impl CellPlot {
         }
     }
 
-    /// Divides an area of the screen as [`Self::within`], but leaves `between` rows free directly
-    /// below the plot.
+    /// Divides an area of the screen as [`Self::within`] does, but leaves `between` rows free
+    /// directly below the plot.
     pub fn above(area: Rect, chart: &Chart, between: u16) -> CellPlot {
         let has_scale_below = area.height >= WITH_SCALE_BELOW;
         let has_label_row =
@@ -86,7 +86,8 @@ impl CellPlot {
             let widths = numbers.iter().map(|(_, text)| text.chars().count() as u16);
             left = widths.max().unwrap_or(0) + 2;
         }
-        // The bars beside names have the same content as the names.
+        // Names on the vertical axis may take more room than numbers, because the bars beside them
+        // repeat what the names say.
         let most = if chart.y.names.is_empty() {
             area.width / 2
         } else {
@@ -111,9 +112,9 @@ impl CellPlot {
         }
     }
 
-    /// Returns the point (x, y) on the axes of the chart at a cell of the screen, which is given by
-    /// column and row. For a heat map it is the pair of axis values of the map cell that is drawn
-    /// there, or `None` outside the map.
+    /// Returns the point (x, y) on the axes of the chart that a cell of the screen shows. The cell
+    /// is given as (column, row). In a heat map, the point is the pair of axis values of the map
+    /// cell that is drawn there, or `None` outside the map.
     pub fn data_at(&self, chart: &Chart, cell: (u16, u16)) -> Option<(f64, f64)> {
         let (column, row) = cell;
         let plot = self.plot;
@@ -132,9 +133,9 @@ impl CellPlot {
         Some((number_at(&chart.x, across), number_at(&chart.y, 1.0 - down)))
     }
 
-    /// Returns column and row of the cell of the screen that contains the point (x, y) on the axes
-    /// of the chart. Returns `None` for a point outside the chart; in a heat map such a point has
-    /// the nearest cell at the edge.
+    /// Returns the cell of the screen, as (column, row), that contains the point (x, y) on the axes
+    /// of the chart. For a point outside the chart it returns `None`, but for a point outside a
+    /// heat map it returns the nearest cell at the edge.
     pub fn cell(&self, chart: &Chart, point: (f64, f64)) -> Option<(u16, u16)> {
         let (x, y) = point;
         let plot = self.plot;
@@ -150,7 +151,7 @@ impl CellPlot {
             let row = ((nearest_down * f64::from(plot.height)) as u16).min(plot.height - 1);
             return Some((plot.x + column, plot.y + row));
         }
-        // A share that is not a number differs from itself.
+        // NaN differs from itself, so a position that is not a number returns `None` here.
         if (nearest_across, nearest_down) != (across, down) {
             return None;
         }
@@ -191,8 +192,8 @@ impl CellPlot {
         self.draw_signs(buffer, chart, style);
     }
 
-    /// Writes the longest text of a name that fits on blank cells beside one of the points
-    /// [`Name::at`]. Returns false if no text fits.
+    /// Writes the longest text of a name for which there are enough blank cells beside one of the
+    /// points [`Name::at`]. Returns false if no text fits.
     pub fn draw_name(
         &self,
         buffer: &mut Buffer,
@@ -211,7 +212,8 @@ impl CellPlot {
         false
     }
 
-    /// Returns the first cell of a text that fits on blank cells beside a point.
+    /// Returns the first cell of a text beside a point; `None` if there are not enough blank cells
+    /// on any side of the point.
     fn free_place(
         &self,
         buffer: &Buffer,
@@ -226,7 +228,7 @@ impl CellPlot {
         let right = column + 2;
         let left = column - 1 - width;
         let middle = column - width / 2;
-        // Beside the point, then a row below and a row above.
+        // The row of the point is tried first, then the row below, then the row above.
         let places = [
             (right, row),
             (left, row),
@@ -245,9 +247,9 @@ impl CellPlot {
         None
     }
 
-    /// Returns true if a text of this width from the cell (x, y) on lies inside the plot on blank
-    /// cells, with a blank column on either side unless the plot ends there. The cell of the named
-    /// point may have content.
+    /// Returns true if a text of this width that begins at the cell (x, y) lies inside the plot on
+    /// blank cells. The columns before and after the text must be blank too, unless the plot ends
+    /// there. The cell of the named `point` may have content.
     fn is_free(&self, buffer: &Buffer, point: (u16, u16), x: i32, y: i32, width: i32) -> bool {
         let plot = self.plot;
         let first = i32::from(plot.x);
@@ -273,11 +275,11 @@ impl CellPlot {
             else {
                 continue;
             };
-            // A point is a dot, which the canvas draws.
+            // The canvas has already drawn points of this kind as dots.
             if *sign == Sign::Point {
                 continue;
             }
-            // At most one sign in every other column.
+            // Signs are drawn in at most every second column, so that they stay apart.
             let every = (2 * points.len())
                 .div_ceil(usize::from(self.plot.width))
                 .max(1);
@@ -348,7 +350,7 @@ impl CellPlot {
         } else {
             plot.right() - label_width
         };
-        // One blank is left before a label in the same row.
+        // If the label is in the same row as the numbers, one blank is kept before the label.
         let end_of_numbers = end.max(from + 1) + u16::from(self.has_label_row);
         let mut free = from;
         for (column, text) in numbers {
@@ -379,8 +381,8 @@ pub(super) fn is_blank(cell: &Cell) -> bool {
     matches!(cell.symbol(), " " | "\u{2800}")
 }
 
-/// Returns the share of an axis in the middle of a cell, if the axis has `cells` cells from the
-/// cell `first` on.
+/// Returns the position of the middle of a cell along an axis, from 0 to 1. The axis consists of
+/// `cells` cells, and begins at the cell with the number `first`.
 fn share_at(cell: u16, first: u16, cells: u16) -> f64 {
     ((f64::from(cell) + 0.5 - f64::from(first)) / f64::from(cells.max(1))).clamp(0.0, 1.0)
 }
@@ -389,15 +391,16 @@ fn number_at(axis: &ChartAxis, share: f64) -> f64 {
     axis.scale.number(axis.span.low + share * axis.span.width())
 }
 
-/// Returns the cell at a share of `cells` cells. The share is rounded to one of the `dots` dots of
-/// a cell, as the canvas does, so that signs and ticks fit their curves.
+/// Returns the cell at the position `share` (0 to 1) along an axis of `cells` cells. The position
+/// is first rounded to one of the `dots` dots of each cell, as the canvas does, so that signs and
+/// ticks coincide with the curves.
 fn cell_at(share: f64, cells: u16, dots: u16) -> u16 {
     let last = f64::from(cells) * f64::from(dots) - 1.0;
     (share * last).round().max(0.0) as u16 / dots
 }
 
-/// Returns the rows of a plot of this height that have a number of the vertical axis, with these
-/// numbers.
+/// Returns the numbers of the vertical axis of a plot of this height, each with the row in which it
+/// is written.
 fn scale_beside(chart: &Chart, height: u16) -> Vec<PlacedNumber> {
     let span = chart.y.span;
     let row = |number: f64| cell_at((span.high - number) / span.width(), height, ROWS_OF_DOTS);
@@ -406,8 +409,9 @@ fn scale_beside(chart: &Chart, height: u16) -> Vec<PlacedNumber> {
     numbers_at(&chart.y, fewest..=most, row, |_| true)
 }
 
-/// Returns the numbers of an axis with their places. The fewest ticks of which two are visible are
-/// used, or the fewest possible.
+/// Returns the numbers of an axis, each with its column or row from the function `place`. The
+/// number of ticks is the smallest in the range `ticks` for which at least two numbers are visible.
+/// If there is no such number of ticks, it is the smallest of the range.
 fn numbers_at(
     axis: &ChartAxis,
     ticks: RangeInclusive<usize>,
@@ -424,7 +428,7 @@ fn numbers_at(
     for most in ticks {
         let numbers = numbers(most);
         let mut seen = numbers.iter().filter(|number| is_seen(number));
-        // Numbers in one cell count as one.
+        // Two numbers in the same cell count as one, because the second hides the first.
         if let Some((first, _)) = seen.next()
             && seen.any(|(place, _)| place != first)
         {
@@ -434,9 +438,9 @@ fn numbers_at(
     numbers(fewest)
 }
 
-/// Returns the columns of a plot of this width that have a number of the horizontal axis, with
-/// these numbers, and the label of the axis. The label is complete if it has its own row. Otherwise
-/// it is only the symbol, if the name would take more than half of the columns.
+/// Returns the numbers of the horizontal axis of a plot of this width, each with its column, and
+/// the label of the axis. If the label does not fit its row, or half of the row that it shares with
+/// the numbers, it contains only the symbol and the unit.
 fn scale_below(chart: &Chart, width: u16, has_own_row: bool) -> (Vec<PlacedNumber>, String) {
     let mut label = chart.x.label_with_unit().to_string();
     let room = if has_own_row { width } else { width / 2 };
@@ -559,7 +563,8 @@ mod tests {
             {
                 let cell = place.cell(&chart, (x, y)).unwrap();
                 let (across, up) = place.data_at(&chart, cell).unwrap();
-                // Of several values in one cell, one whose middle is in that cell or the next.
+                // If several values share a screen cell, the value found lies in this cell or in a
+                // neighbour.
                 let (column, row) = place.cell(&chart, (across, up)).unwrap();
                 assert!(
                     column.abs_diff(cell.0) <= 1 && row.abs_diff(cell.1) <= 1,
@@ -572,7 +577,7 @@ mod tests {
                 );
                 assert!(!has_room(place.plot.height, &rows) || up == y, "{y} {up}");
             }
-            // A point beyond the map is at its edge, and there is none outside the plot.
+            // A point beyond the map gets a cell at its edge. A cell outside the plot has no point.
             let corner = Some((place.plot.right() - 1, place.plot.y));
             assert_eq!(place.cell(&chart, (9.0, 1e9)), corner);
             assert_eq!(
@@ -675,7 +680,8 @@ mod tests {
         assert!(found > 10, "{found}");
     }
 
-    /// Of thousands of points each paints its dot, and a line above them keeps its cells.
+    /// Each of thousands of points paints its own dot, and a line drawn above the points keeps its
+    /// cells.
     #[test]
     fn points_are_dots_below_a_line() {
         let cloud = (0..2000).map(|at| {

@@ -13,7 +13,7 @@ pub(super) struct LayerShape<'a> {
     pub colour: Color,
 }
 
-/// Column and row of a dot.
+/// Column and row of a Braille dot on the canvas.
 type Dot = (usize, usize);
 
 impl LayerShape<'_> {
@@ -56,15 +56,16 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Paints the dots inside a closed line that are [shaded](Self::is_shaded). A dot is inside if
-    /// the line crosses the column below it an odd number of times.
+    /// Shades the area inside a closed line: paints every dot inside the line for which
+    /// [`Self::is_shaded`] returns true. A dot is inside if the line crosses the column below the
+    /// dot an odd number of times.
     fn inside(&self, painter: &mut Painter<'_, '_>, border: &[(f64, f64)]) {
         let Some((last, _)) = painter.get_point(1.0, 0.0) else {
             return;
         };
         let mut shares: Vec<Share> = Vec::new();
         for (x, y) in border {
-            // A zero on a logarithmic axis is far below the chart.
+            // Zero on a logarithmic axis has no finite position. It is placed far below the chart.
             let up = self.chart.y.share(*y).clamp(-9.0, 9.0);
             shares.push((self.chart.x.share(*x), up));
         }
@@ -84,7 +85,8 @@ impl LayerShape<'_> {
         }
     }
 
-    /// Returns true for every other dot, or for one of eight in the quiet ink.
+    /// Returns true for the dots that shade an area: every second dot, or in the quiet ink every
+    /// eighth dot.
     fn is_shaded(&self, column: usize, row: usize) -> bool {
         if self.ink == Ink::Quiet {
             column.is_multiple_of(2) && (column / 2 + row).is_multiple_of(4)
@@ -111,7 +113,7 @@ impl LayerShape<'_> {
     }
 }
 
-/// Returns the heights at which a closed line crosses the column at x, in ascending order.
+/// Returns the heights at which a closed line crosses the vertical line at x, in ascending order.
 fn crossings(line: &[Share], x: f64) -> Vec<f64> {
     let mut crossings = Vec::new();
     for (a, b) in line.iter().zip(line.iter().cycle().skip(1)) {
@@ -171,7 +173,8 @@ impl CanvasShape for LayerShape<'_> {
     }
 }
 
-/// Returns true if a stroke paints its dot with this number, so that lines differ without colours.
+/// Returns true if a line with this stroke paints its dot with the number `dot`. The strokes differ
+/// in their gaps, so that lines can be told apart without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,
@@ -182,8 +185,8 @@ fn paints(stroke: Stroke, dot: usize) -> bool {
     }
 }
 
-/// Returns the dots on the straight line from one dot to another without the first, unless both are
-/// the same.
+/// Returns the dots on the straight line between two dots, without the dot `from`. If both dots are
+/// the same, it returns this dot.
 fn between(from: Dot, to: Dot) -> impl Iterator<Item = Dot> {
     let dx = to.0 as f64 - from.0 as f64;
     let dy = to.1 as f64 - from.1 as f64;

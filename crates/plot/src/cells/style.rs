@@ -25,11 +25,12 @@ pub enum Colours {
 }
 
 impl Colours {
-    /// Converts red, green and blue to the same or a similar colour that this terminal can show. A
-    /// terminal without colours uses its default colour.
+    /// Converts a colour to the same or a similar colour that this terminal can show. For a
+    /// terminal without colours, it returns the default colour of the terminal.
     pub fn colour(self, colour: Rgb) -> Color {
         let [red, green, blue] = colour;
-        // The cube of 6 × 6 × 6 colours: 0, 95, 135, … 255.
+        // The 256 colours contain a cube of 6 × 6 × 6 colours, with the levels 0, 95, 135, 175, 215
+        // and 255.
         let level = |value: u8| value.saturating_sub(35) / 40;
         match self {
             Colours::None => Color::Reset,

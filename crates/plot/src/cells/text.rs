@@ -17,20 +17,20 @@ use ratatui::text::Line;
 const FEWEST_COLUMNS: usize = 40;
 /// Largest width of the text in columns.
 const MOST_COLUMNS: usize = 160;
-/// Largest width of a plot of curves in columns.
+/// Largest width in columns of a chart of curves.
 const WIDEST_PLOT: u16 = 110;
-/// Height of a plot of curves in rows, with the scale below.
+/// Height in rows of a chart of curves, including the scale below.
 const ROWS: u16 = 20;
-/// Largest width of a cell of a map in columns.
+/// Largest width in columns of a cell of a heat map.
 const WIDEST_CELL: usize = 5;
-/// Smallest height of a map in rows.
+/// Smallest height in rows of the cells of a heat map together.
 const FEWEST_ROWS: usize = 10;
-/// Largest height of a map in rows.
+/// Largest height in rows of the cells of a heat map together.
 const MOST_ROWS: usize = 48;
 
-/// Returns a figure as text for a terminal or a file, with its charts one below the other. A line
-/// has at most `columns` characters; values of `columns` below 40 count as 40, and values above 160
-/// as 160.
+/// Returns a figure as text for a terminal or a file. The charts follow one below the other. A line
+/// has at most `columns` characters. A value of `columns` below 40 counts as 40, and a value above
+/// 160 as 160.
 pub fn figure_text(figure: &Figure, columns: usize, colours: Colours) -> String {
     let columns = columns.clamp(FEWEST_COLUMNS, MOST_COLUMNS);
     let ink = |ink: Ink| match (ink, colours) {
@@ -97,7 +97,8 @@ fn push_chart(text: &mut String, chart: &Chart, columns: u16, style: &CellStyle<
     }
 }
 
-/// Returns the area of a map, in which every value has equal columns and rows if there is room.
+/// Returns the area of the screen for a heat map. If there is enough room, all cells of the map
+/// have the same number of columns and rows.
 fn area_of_map(chart: &Chart, map: &HeatMap, columns: u16) -> Rect {
     let mut area = Rect::new(0, 0, columns.min(WIDEST_PLOT), ROWS);
     let values_up = map.rows.len().max(1);
@@ -142,11 +143,11 @@ fn push_legend(text: &mut String, chart: &Chart, columns: usize, style: &CellSty
     }
 }
 
-/// Escape sequence that ends all styles.
+/// Escape sequence that returns to the default colours.
 const RESET: &str = "\x1b[0m";
 
-/// Appends a line of styled texts, without trailing blanks and with the escape sequences of the
-/// styles.
+/// Appends a line that consists of styled texts. Blanks at the end of the line are left out, unless
+/// they are coloured. The colours become escape sequences.
 fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     let mut runs = runs;
     while let [before @ .., (blank, style)] = runs {
@@ -174,7 +175,7 @@ fn push_line<S: AsRef<str>>(text: &mut String, runs: &[(S, Style)]) {
     text.push('\n');
 }
 
-/// Returns the escape sequence of the colours of a style; empty for a style without colours.
+/// Returns the escape sequence for the colours of a style. It is empty for a style without colours.
 fn code(style: &Style) -> String {
     let colours = [(38, style.fg), (48, style.bg)];
     let parameters: Vec<String> = colours
@@ -188,7 +189,8 @@ fn code(style: &Style) -> String {
     }
 }
 
-/// Returns the parameters of a colour, whose kind is 38 for letters and 48 for the background.
+/// Returns the parameters of the escape sequence for a colour. `kind` is 38 for the colour of
+/// letters and 48 for the background.
 fn parameters(kind: u8, colour: Option<Color>) -> Option<String> {
     match colour {
         Some(Color::Rgb(red, green, blue)) => Some(format!("{kind};2;{red};{green};{blue}")),

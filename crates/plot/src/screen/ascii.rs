@@ -4,10 +4,11 @@ use super::{Glyph, dots, glyphs};
 use ratatui::buffer::{Buffer, Cell};
 use std::sync::LazyLock;
 
-/// ASCII characters and their patterns of dots, with one letter for each of four rows from above:
-/// `L` left, `R` right, `B` both, `0` none. Of two equally near characters the first is taken.
-/// Characters that draw lines precede characters that fill. The signs on curves, `^`, `v`, `*`, `o`
-/// and `@`, are left out.
+/// ASCII characters, each with the patterns of 2 × 4 dots that it resembles. A pattern has one
+/// letter for each of the four rows, from above: `L` for the left dot, `R` for the right dot, `B`
+/// for both, `0` for none. If two characters are equally near to a pattern, the first is taken, so
+/// characters that draw lines precede characters that fill. The characters `^`, `v`, `*`, `o` and
+/// `@` are left out, because they are markers on curves.
 const SHAPES: [(char, &[&str]); 15] = [
     ('-', &["0B00", "00B0", "0RL0", "0LR0"]),
     ('|', &["LLLL", "RRRR"]),
@@ -26,7 +27,7 @@ const SHAPES: [(char, &[&str]); 15] = [
     ('#', &["BBBB", "BBB0", "0BBB"]),
 ];
 
-/// Character with the fewest different dots, for each pattern of dots.
+/// For each pattern of dots, the character whose pattern differs from it in the fewest dots.
 static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     let mut nearest = [' '; 256];
     for (pattern, character) in nearest.iter_mut().enumerate().skip(1) {
@@ -35,7 +36,8 @@ static NEAREST: LazyLock<[char; 256]> = LazyLock::new(|| {
     nearest
 });
 
-/// Returns the first character with the fewest dots that differ from a pattern.
+/// Returns the character that differs from a pattern in the fewest dots. If several characters do,
+/// it is the first of them in [`SHAPES`].
 fn nearest_character(pattern: usize) -> char {
     let mut nearest = ' ';
     let mut fewest = u32::MAX;
@@ -51,7 +53,7 @@ fn nearest_character(pattern: usize) -> char {
     nearest
 }
 
-/// Returns a pattern of dots as bits row by row from the upper left.
+/// Returns a pattern of dots as bits, row by row from the upper left dot.
 fn bits(shape: &str) -> u8 {
     let mut bits = 0;
     for row in shape.bytes().rev() {
@@ -66,16 +68,16 @@ fn bits(shape: &str) -> u8 {
     bits
 }
 
-/// Replacements of characters: each word is an ASCII character, followed by the characters that it
-/// replaces. Greek letters become letters that look or sound similar. A letter with an accent loses
-/// the accent.
+/// Table of replacements. Each group between blanks is an ASCII character, followed by the
+/// characters that it replaces. A Greek letter becomes a letter that looks or sounds similar. An
+/// accented letter loses its accent.
 const ALIKE: &str = "^▲△↑⌃ v▼▽↓⌄νυ▾ >▸▶►›»→⟩〉≥⇒ <◂◀◄‹«←⟨〈≤⇐ *◆★☆•∗⋆ o○◌◦°οθ @●◉◎ #■█▉▊ &▓ +▪▫□±┌┐└┘├┤┬┴┼ _▁▄ .·⋅∙ :░¦ %▒ \
     -─−–—‐‑‒―⁻₋ ~…∓≈≃∼∝≅ =≡≠₌⁼ /╱÷⁄∕ \\╲ x◇×╳✕✗ξχ '′‘’ʹ \"▀″“” (⁽₍ )⁾₎ |│┊▋▌▍▎▏▕∣‖ 0⁰₀ 1¹₁ 2²₂ 3³₃ 4⁴₄ 5⁵₅ 6⁶₆ 7⁷₇ \
     8⁸₈∞ 9⁹₉ V∇√ DΔ dδ∂ GΓ gγ SΣ∑∫ sσς PΠΨ pπψ OΩΘ wω LΛ lλℓ FΦ fφϕ aα bβ eεϵ hηℎ iι Kκϰ nⁿₙ rρ tτ uµμ zζ XΞ \
     AÀÁÂÃÄÅ CÇ EÈÉÊË IÌÍÎÏ NÑ OÒÓÔÕÖØ UÙÚÛÜ YÝ aàáâãäå cç eèéêë iìíîï nñ oòóôõöø uùúûü yýÿ";
 
 /// Replaces each symbol on a screen by a similar printable ASCII character in the same cell, or by
-/// `?` if there is none.
+/// `?` if there is no similar character.
 pub fn to_ascii(buffer: &mut Buffer) {
     let width = usize::from(buffer.area.width).max(1);
     for row in buffer.content.chunks_mut(width) {
@@ -103,8 +105,8 @@ pub fn to_ascii(buffer: &mut Buffer) {
     }
 }
 
-/// Returns true for the zero of a power of ten in a row, such as `10⁵`. An `e` in its place keeps
-/// the exponent: `1e5`.
+/// Returns true if the cell with the index `zero` is the zero in a power of ten such as `10⁵`. If
+/// this zero is replaced by `e`, the exponent stays readable: `1e5`.
 fn begins_power_of_ten(row: &[Cell], zero: usize) -> bool {
     let is = |index: usize, signs: &str| {
         row.get(index)
@@ -113,14 +115,15 @@ fn begins_power_of_ten(row: &[Cell], zero: usize) -> bool {
     if !is(zero, "0") || !is(zero + 1, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹") {
         return false;
     }
-    // The one before the zero is not the end of a longer number.
+    // The digit 1 before the zero must not be the last digit of a longer number.
     zero > 0 && is(zero - 1, "1") && (zero == 1 || is(zero - 2, " │┤"))
 }
 
-/// Returns the ASCII substitute of a symbol. Combining marks are dropped.
+/// Returns the ASCII character for a symbol. Combining marks are dropped.
 fn of_glyph(glyph: &Glyph<'_>) -> char {
     match glyph.symbol().chars().next() {
-        // A narrow substitute would not fill the cells of a wide character.
+        // A wide character fills two cells, and no ASCII character is wide, so a wide character
+        // becomes `?`.
         Some(character) if glyph.width == 1 || character == ' ' => of_character(character),
         _ => '?',
     }

@@ -16,7 +16,7 @@ struct Glyph<'a> {
 }
 
 impl<'a> Glyph<'a> {
-    /// Returns the symbol in the cell; a blank for a symbol without a width.
+    /// Returns the symbol in the cell. If the symbol has no width, it returns a blank.
     fn symbol(&self) -> &'a str {
         if self.cell.symbol().cell_width() == 0 {
             " "
@@ -55,10 +55,11 @@ fn glyphs(buffer: &Buffer) -> Vec<Glyph<'_>> {
     glyphs
 }
 
-/// Returns the dots of a Braille character, two across and four down, as bits row by row from the
-/// upper left; `None` for another character.
+/// Returns the dots of a Braille character, two across and four down, as bits: row by row from the
+/// upper left dot. `None` for other characters.
 fn dots(character: char) -> Option<u8> {
-    /// Braille numbers three dots down each side; the lowest row came later.
+    /// Unicode numbers the three upper dots of the left column, then the three upper dots of the
+    /// right column, and at last the two dots of the lowest row.
     const PLACES: [u8; 8] = [0, 2, 4, 1, 3, 5, 6, 7];
     let pattern = u32::from(character)
         .checked_sub(0x2800)
@@ -72,8 +73,8 @@ fn dots(character: char) -> Option<u8> {
     Some(dots)
 }
 
-/// Returns a screen as plain text, with a line for each row. The lines have no blanks at their
-/// ends.
+/// Returns a screen as plain text, with one line for each row. Blanks at the ends of the lines are
+/// left out.
 pub fn screen_text(buffer: &Buffer) -> String {
     let mut rows = vec![String::new(); usize::from(buffer.area.height)];
     for glyph in glyphs(buffer) {

@@ -1,7 +1,7 @@
 //! The screen as an SVG document, for slides and for pages on the web.
 //!
-//! Each word begins in its first cell and is as long as its cells. Dots, blocks and the lines of
-//! frames are drawn as shapes, so that they meet from cell to cell with any font.
+//! Each word begins at its first cell and is stretched to the width of its cells. Dots, blocks and
+//! the lines of frames are drawn as shapes, so that they join across cells in any font.
 
 use super::{Glyph, dots, glyphs};
 use crate::colour::{Palette, Rgb, hex};
@@ -10,24 +10,24 @@ use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier};
 use std::collections::BTreeMap;
 
-/// Width of a cell, px.
+/// Width of a cell in px.
 const WIDTH: u32 = 8;
-/// Height of a cell, px.
+/// Height of a cell in px.
 const HEIGHT: u32 = 16;
-/// Distance of the base line from the upper edge of a cell, px.
+/// Distance of the base line from the upper edge of a cell in px.
 const BASE: u32 = 12;
-/// Margin around the screen, px.
+/// Margin around the screen in px.
 const MARGIN: u32 = 8;
-/// Monospaced fonts of the common systems, whose letters are about 0.6 times as wide as the font
-/// size.
+/// Monospaced fonts of common operating systems. Their letters are about 0.6 times as wide as the
+/// font size.
 const FONTS: &str =
     "ui-monospace,SFMono-Regular,Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
 const FONT_SIZE: f64 = 13.3;
 
-/// Remaining share of a dimmed colour, per cent.
+/// Share in per cent of the text colour in a dimmed colour; the rest is background.
 const DIMMED: u8 = 60;
 
-/// Kind of a shape; shapes are drawn in this order.
+/// Kind of a shape. Shapes are drawn in the order of the kinds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     Ground,
@@ -84,7 +84,7 @@ fn stroke(colour: &str, width: f64, cap: &str) -> String {
     format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
 }
 
-/// Returns the backgrounds and drawn characters as path data, for each kind and colour.
+/// Returns the backgrounds and the drawn characters as path data, grouped by kind and colour.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
@@ -100,25 +100,26 @@ fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     paths
 }
 
-/// Returns the path around the left `width` px of the cells of a symbol.
+/// Returns the rectangle around the left `width` px of the cells of a symbol, as path data.
 fn boxed(glyph: &Glyph<'_>, width: u32) -> String {
     let x = u32::from(glyph.column) * WIDTH;
     let y = u32::from(glyph.row) * HEIGHT;
     format!("M{x} {y}h{width}v{HEIGHT}h-{width}z")
 }
 
-/// Letters without a blank between them, in one colour and weight.
+/// Adjacent letters of one colour and weight.
 struct Word {
     column: u16,
     row: u16,
-    /// Number of cells.
+    /// Width in cells.
     cells: u16,
     colour: Rgb,
     is_bold: bool,
     letters: String,
 }
 
-/// Returns the words on each row. Few viewers read a list of places for the letters of a text.
+/// Returns the words on the screen. The SVG has one text element for each word, because few viewers
+/// support a list of positions for the letters of one text.
 fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
     let mut words: Vec<Word> = Vec::new();
     for glyph in glyphs(buffer) {
@@ -145,7 +146,7 @@ fn words(buffer: &Buffer, palette: &Palette) -> Vec<Word> {
 }
 
 impl Word {
-    /// Returns true if other letters follow in the next cell with the same looks.
+    /// Returns true if `next` begins in the next cell and has the same colour and weight.
     fn continues_with(&self, next: &Word) -> bool {
         let is_adjacent = self.row == next.row && self.column + self.cells == next.column;
         let looks_alike = self.colour == next.colour && self.is_bold == next.is_bold;
@@ -153,7 +154,7 @@ impl Word {
     }
 }
 
-/// Colours of a cell.
+/// Colours of the symbol and of the background of a cell.
 struct CellColours {
     ink: Rgb,
     ground: Rgb,
@@ -174,8 +175,8 @@ impl CellColours {
     }
 }
 
-/// Returns the RGB of a terminal colour in a palette, and `reset` for the default colour. The
-/// explorer uses the sixteen ANSI colours.
+/// Returns the colour in `palette` for a terminal colour, or `reset` for the default colour. Only
+/// the sixteen ANSI colours are known, because the explorer uses no others.
 fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
     const ANSI: &str = "Black Red Green Yellow Blue Magenta Cyan Gray DarkGray LightRed LightGreen \
                         LightYellow LightBlue LightMagenta LightCyan White";
@@ -185,7 +186,7 @@ fn rgb(palette: &Palette, colour: Color, reset: Rgb) -> Rgb {
         .map_or(reset, |index| palette.ansi[index])
 }
 
-/// Mixes two colours. `percent` is the share of the first colour.
+/// Mixes two colours. `percent` is the share of the first colour in per cent.
 fn mixed(first: Rgb, second: Rgb, percent: u8) -> Rgb {
     let share = u32::from(percent);
     std::array::from_fn(|channel| {
@@ -195,10 +196,11 @@ fn mixed(first: Rgb, second: Rgb, percent: u8) -> Rgb {
     })
 }
 
-/// Returns kind and path of a character that is drawn as a shape; `None` for a letter.
+/// Returns the kind and the path of a character that is drawn as a shape; `None` for a character
+/// that is written as text.
 fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
-    /// Lines from the middle of the cell to the left, right, upper and lower edge, with the
-    /// characters that have each line.
+    /// The four lines from the middle of a cell to its left, right, upper and lower edge: for each
+    /// line, the characters that contain it, and its path.
     const ENDS: [(&str, &str); 4] = [
         ("─┐┘┤┬┴", "h-4"),
         ("─┌└├┬┴", "h4"),
@@ -226,7 +228,7 @@ fn shape(glyph: &Glyph<'_>) -> Option<(Kind, String)> {
             Some((Kind::Block, boxed(glyph, width)))
         }
         _ => {
-            // Bits row by row from the upper left, two across and four down.
+            // The bits describe the dots row by row from the upper left, two across and four down.
             let bits = dots(character)?;
             for bit in 0..8 {
                 if bits >> bit & 1 == 1 {
@@ -247,7 +249,7 @@ mod tests {
     use ratatui::layout::Rect;
     use ratatui::style::Style;
 
-    /// The elements within the margins of a screen of one row.
+    /// Draws a screen of one row and returns the elements within the margins.
     fn drawn(text: &str, style: Style) -> Vec<String> {
         let mut buffer = Buffer::empty(Rect::new(0, 0, 12, 1));
         buffer.set_string(1, 0, text, style);
@@ -299,7 +301,7 @@ mod tests {
         assert_eq!(drawn("a<b  漢c", Style::new()), words);
         let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
-        // Three fifths of the foreground over the background.
+        // 60 % of the foreground colour and 40 % of the background colour.
         assert_eq!(
             drawn("x", Style::new().dim()),
             [text(8, 1, r##""#8d9297""##, "x")]
@@ -348,7 +350,7 @@ mod tests {
     fn colours_can_be_read() {
         for palette in [Palette::DARK, Palette::LIGHT] {
             assert!(contrast(palette.foreground, palette.background) > 12.0);
-            // Black and white may be those of the ground.
+            // Black and white are left out, because one of them may be equal to the background.
             for colour in &palette.ansi[1..15] {
                 assert!(contrast(*colour, palette.background) > 4.5, "{colour:02x?}");
             }

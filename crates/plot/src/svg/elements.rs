@@ -1,4 +1,4 @@
-//! Elements of an SVG document, with lengths to a hundredth of a px.
+//! Elements of an SVG document. Lengths are rounded to a hundredth of a px.
 
 use crate::chart::Stroke;
 use crate::colour::{Palette, Rgb, hex};
@@ -8,13 +8,14 @@ use std::fmt::{Arguments, Write};
 pub(super) const TEXT: Rgb = Palette::LIGHT.foreground;
 pub(super) const QUIET: Rgb = [0x96, 0x9c, 0xa2];
 pub(super) const PAPER: Rgb = Palette::LIGHT.background;
-/// Fill of cells without a value: a grey that occurs in no colour scale.
+/// Colour of map cells without a value: a grey that occurs in no colour scale.
 pub(super) const EMPTY: Rgb = [0xc4, 0xc8, 0xcc];
 
-/// A position in a picture, px from the upper left corner.
+/// Position in a picture, in px from the upper left corner.
 pub(super) type Place = (f64, f64);
 
-/// Point of a label that is placed at a position, always in the middle of the height.
+/// Point of a label that lies at the given position. Vertically it is always the middle of the
+/// label.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
@@ -24,7 +25,7 @@ pub(super) enum Anchor {
     Upwards,
 }
 
-/// Colour, width in px and dashes of a line.
+/// Colour, width in px and pattern of a line.
 #[derive(Clone, Copy)]
 pub(super) struct Pen {
     pub colour: Rgb,
@@ -57,14 +58,14 @@ impl Pen {
     }
 }
 
-/// An SVG 1.1 document without references to other files, or a part of one.
+/// SVG 1.1 document that refers to no other files, or a part of such a document.
 #[derive(Default)]
 pub struct Svg {
     text: String,
 }
 
 impl Svg {
-    /// Begins a document of this width and height, in user units.
+    /// Begins a document with this width and height in px.
     pub fn new(width: f64, height: f64, title: &str) -> Svg {
         let width = px(width);
         let height = px(height);
@@ -94,7 +95,7 @@ impl Svg {
         self.text
     }
 
-    /// Adds the elements drawn by `draw` with common attributes.
+    /// Adds a group of the elements that `draw` draws. The group has the given attributes.
     pub(super) fn group(&mut self, attributes: &str, draw: impl FnOnce(&mut Svg)) {
         self.push(format_args!("<g {attributes}>"));
         draw(self);
@@ -127,7 +128,7 @@ impl Svg {
         ));
     }
 
-    /// Draws straight lines with round ends, each given by its two ends.
+    /// Draws straight lines with round caps. Each line is given by its two ends.
     pub(super) fn pieces(&mut self, pieces: &[[Place; 2]], pen: Pen) {
         let mut path = String::new();
         for [from, to] in pieces {
@@ -152,8 +153,8 @@ impl Svg {
         ));
     }
 
-    /// Fills boxes, each given by its upper left and lower right corner; each is at least half a
-    /// pixel wide and high. Boxes with a common edge meet without a seam.
+    /// Fills rectangles, each given by its upper left and its lower right corner. Each is drawn at
+    /// least 0.5 px wide and high. Rectangles with a common edge meet without a gap.
     pub(super) fn boxes(&mut self, boxes: impl Iterator<Item = (Place, Place)>, fill: Rgb) {
         let mut path = String::new();
         for (from, to) in boxes {
@@ -180,8 +181,8 @@ impl Svg {
         ));
     }
 
-    /// Writes labels below each other, the first at this position. Returns the height at which the
-    /// next one would be.
+    /// Writes labels one below the other, the first at the position `first`. Returns the height at
+    /// which the next label would be.
     pub(super) fn lines(
         &mut self,
         lines: &[Label],
@@ -210,7 +211,7 @@ impl Svg {
         } else {
             String::new()
         };
-        // The base line is half the height of a capital letter below the middle.
+        // The base line lies below the middle by half the height of a capital letter.
         let base = px(place.1 + 0.35 * size);
         let fill = hex(TEXT);
         let runs = runs(label, size);
@@ -222,7 +223,7 @@ impl Svg {
     }
 }
 
-/// Rounds a length in px to a hundredth, so that adjacent rectangles meet.
+/// Rounds a length in px to a hundredth. Adjacent rectangles then share the same edge.
 fn rounded(value: f64) -> f64 {
     (100.0 * value).round() / 100.0
 }
@@ -242,7 +243,7 @@ fn with_minus(text: &str) -> String {
     shown
 }
 
-/// Returns the parts of a label as elements within a text of this font size in px.
+/// Returns the parts of a label as SVG elements inside a text with this font size in px.
 fn runs(label: &Label, size: f64) -> String {
     let mut elements = String::new();
     let mut shift = 0.0;
@@ -250,8 +251,8 @@ fn runs(label: &Label, size: f64) -> String {
         let text = with_minus(text);
         let after = text.trim_start_matches(is_blank);
         let inner = after.trim_end_matches(is_blank);
-        // Some viewers drop blanks at the ends of an element. Therefore they are between elements,
-        // as no-break spaces.
+        // Some viewers drop blanks at the ends of an element. Therefore blanks are written between
+        // the elements, as no-break spaces.
         push_blanks(&mut elements, &text[..text.len() - after.len()]);
         if inner.is_empty() {
             continue;
@@ -299,7 +300,7 @@ fn points(places: &[Place]) -> String {
     texts.join(" ")
 }
 
-/// Writes a length in px, to a hundredth.
+/// Writes a length in px, rounded to a hundredth.
 fn px(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -310,7 +311,7 @@ fn px(value: f64) -> String {
     }
 }
 
-/// Escapes text for XML. Characters that are invalid in XML become U+FFFD.
+/// Escapes text for XML. Characters that are not allowed in XML become U+FFFD.
 pub fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,23 +1,23 @@
-//! Frame of a chart, which converts numbers to positions, and its axes.
+//! Frame of a chart, which converts numbers to positions in the picture, and its axes.
 
 use super::elements::{Anchor, Pen, Place, Svg, TEXT};
 use crate::axis::{Axes, Share};
 use crate::label::Label;
 use crate::ticks::Tick;
 
-/// Font size of the labels of axes, px.
+/// Font size in px of the labels of axes.
 pub(super) const LABEL: f64 = 13.0;
-/// Font size of the numbers at ticks, px.
+/// Font size in px of the numbers at ticks.
 pub(super) const NUMBER: f64 = 11.5;
-/// Approximate number of labelled ticks of an axis.
+/// Largest number of labelled ticks of a vertical axis, approximately.
 const TICKS: usize = 6;
 
 /// Rectangle of a chart in a picture, with its two axes.
 #[derive(Clone, Copy)]
 pub(super) struct Frame<'a> {
-    /// Upper left corner.
+    /// Upper left corner, in px.
     pub from: Place,
-    /// Lower right corner.
+    /// Lower right corner, in px.
     pub to: Place,
     pub axes: Axes<'a>,
 }
@@ -39,7 +39,7 @@ impl Frame<'_> {
         self.to.1 - self.from.1
     }
 
-    /// Returns the position in the picture of a position in shares of the axes.
+    /// Converts a position in the chart, with shares from 0 to 1, to a position in the picture.
     pub(super) fn at(&self, share: Share) -> Place {
         let (x, y) = share;
         (
@@ -52,7 +52,7 @@ impl Frame<'_> {
         shares.into_iter().map(|share| self.at(share)).collect()
     }
 
-    /// Returns the position in the picture of coordinates on the axes.
+    /// Converts coordinates on the two axes to a position in the picture.
     pub(super) fn place_of_coordinates(&self, x: f64, y: f64) -> Place {
         let Axes {
             x: x_axis,
@@ -118,7 +118,8 @@ impl Frame<'_> {
         }
     }
 
-    /// Returns the place in px of the edge of the frame on a side.
+    /// Returns the position in px of the edge of the frame on this side: y below, x on the left or
+    /// right.
     fn edge(&self, side: Side) -> f64 {
         match side {
             Side::Below => self.to.1,
@@ -129,7 +130,8 @@ impl Frame<'_> {
 
     /// Returns the approximate number of labelled ticks on a side.
     fn ticks(&self, side: Side) -> usize {
-        // Wide charts have more ticks, low ones fewer.
+        // A wide frame has more ticks on its horizontal axis, and a low frame has fewer on its
+        // vertical axis.
         let room = if side == Side::Below {
             self.width() / 55.0
         } else {
@@ -145,7 +147,8 @@ impl Frame<'_> {
     }
 }
 
-/// Returns the sign of the direction from a side of the frame outwards.
+/// Returns the sign of the direction that points out of the frame on this side: −1 on the left,
+/// otherwise 1.
 fn outwards(side: Side) -> f64 {
     match side {
         Side::Below | Side::Right => 1.0,
@@ -153,8 +156,8 @@ fn outwards(side: Side) -> f64 {
     }
 }
 
-/// Returns the distance in px from a vertical axis to the middle of its label, beyond its widest
-/// number.
+/// Returns the distance in px from a vertical axis to the middle of its label. The label lies
+/// beyond the widest number of the axis.
 fn beside(ticks: &[Tick]) -> f64 {
     let widest = ticks
         .iter()

@@ -9,12 +9,12 @@ use crate::contour::contour;
 use std::collections::BTreeMap;
 
 pub(super) const AREA_OPACITY: f64 = 0.25;
-/// Smallest distance of two signs on a map, px.
+/// Smallest distance in px between two class markers on a map.
 const SIGN_DISTANCE: f64 = 13.0;
-/// Half the size of a sign, px.
+/// Half the size of a marker in px.
 pub(super) const SIGN: f64 = 2.7;
 
-/// Draws the layers of a chart, areas below lines.
+/// Draws the layers of a chart into its frame: first areas, then lines.
 pub(super) fn draw(svg: &mut Svg, frame: &Frame<'_>, layers: &[Layer]) {
     for layer in layers.iter().filter(|layer| !is_line(layer)) {
         draw_layer(svg, frame, layer);
@@ -86,7 +86,7 @@ fn draw_layer(svg: &mut Svg, frame: &Frame<'_>, layer: &Layer) {
     }
 }
 
-/// Draws a line through at least two places.
+/// Draws a line through these positions, if there are at least two.
 fn line(svg: &mut Svg, places: &[Place], pen: Pen) {
     if places.len() > 1 {
         svg.line(places, pen);
@@ -106,8 +106,8 @@ pub(super) fn guide(ink: Ink) -> Pen {
     }
 }
 
-/// Returns half the size in px of the signs of a curve. Many points have smaller signs, so that
-/// neighbours do not touch.
+/// Returns half the size in px of the markers of a curve with this number of points. Markers are
+/// smaller if there are many points, so that neighbouring markers do not touch.
 fn radius(frame: &Frame<'_>, points: usize) -> f64 {
     SIGN.min(0.3 * frame.width() / points.max(1) as f64)
         .max(0.9)
@@ -140,8 +140,9 @@ fn band(svg: &mut Svg, frame: &Frame<'_>, points: &[(f64, f64, f64)], colour: Rg
     }
 }
 
-/// Returns the places of the lower and the upper end of a band at one x. An end without a
-/// coordinate is at the end of the axis; `None` where an end is not known.
+/// Returns the positions of the lower and the upper end of a band at one x. An end without a
+/// coordinate, such as 0 on a logarithmic axis, is drawn at the end of the axis. `None` if an end
+/// is NaN or infinite.
 fn ends_of_band(frame: &Frame<'_>, point: (f64, f64, f64)) -> Option<(Place, Place)> {
     let (x, low, high) = point;
     if !low.is_finite() || !high.is_finite() {
@@ -152,7 +153,7 @@ fn ends_of_band(frame: &Frame<'_>, point: (f64, f64, f64)) -> Option<(Place, Pla
     Some((frame.at(low), frame.at(high)))
 }
 
-/// Draws a sign with half the size `r`, px.
+/// Draws a marker. `r` is half its size in px.
 pub(super) fn draw_sign(svg: &mut Svg, sign: Sign, place: Place, r: f64, colour: Rgb) {
     let (x, y) = place;
     match sign {
@@ -229,8 +230,8 @@ fn draw_cells(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
         .iter()
         .map(|value| value.map(|value| map.shade(value)))
         .collect();
-    // One path for each shade: a figure has few lines, and changes of a few cells change few of
-    // them.
+    // One path for each colour keeps the figure short. If the values of a few cells change, only a
+    // few of its lines change.
     let mut boxes: BTreeMap<Option<usize>, Vec<(Place, Place)>> = BTreeMap::new();
     for (cells, up) in shades.chunks(map.columns.len().max(1)).zip(rows.windows(2)) {
         let mut column = 0;
@@ -247,7 +248,8 @@ fn draw_cells(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap) {
     }
 }
 
-/// Draws the signs of the classes of a map, in cells at the given coordinates.
+/// Draws the markers of the classes of a map. `columns` and `rows` are the coordinates of the
+/// middles of the cells.
 fn draw_classes(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap, columns: &[f64], rows: &[f64]) {
     let every_column = distance_of_signs(columns.len(), frame.width());
     let every_row = distance_of_signs(rows.len(), frame.height());
@@ -267,8 +269,8 @@ fn draw_classes(svg: &mut Svg, frame: &Frame<'_>, map: &HeatMap, columns: &[f64]
     }
 }
 
-/// Returns the number of cells from one sign to the next, if there are so many cells on this number
-/// of px.
+/// Returns the number of cells from one marker to the next, if `cells` cells cover a length of
+/// `pixels` px.
 fn distance_of_signs(cells: usize, pixels: f64) -> usize {
     ((SIGN_DISTANCE * cells as f64 / pixels).ceil() as usize).max(1)
 }

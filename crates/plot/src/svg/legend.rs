@@ -1,32 +1,32 @@
-//! Legend of a figure: rows of samples with names.
+//! Legend of a figure: rows of entries, each with samples and a name.
 
 use super::elements::{Anchor, EMPTY, Pen, Place, Svg};
 use super::layers::{AREA_OPACITY, SIGN, draw_sign, guide};
 use crate::chart::{Entry, Sample};
 use crate::label::Label;
 
-/// Font size of the names, px.
+/// Font size of the names in px.
 const SIZE: f64 = 11.5;
-/// Distance between two entries of a row, px.
+/// Distance in px between two entries of a row.
 const BETWEEN: f64 = 20.0;
-/// Height of a row, px.
+/// Height of a row in px.
 const ROW: f64 = 20.0;
 
-/// Entry with its width in px and the lines of its name.
+/// Entry of the legend, with its width in px and the lines of its name.
 struct PlacedEntry<'a> {
     entry: &'a Entry,
     width: f64,
     lines: Vec<Label>,
 }
 
-/// Entries side by side, and their width in px.
+/// Entries side by side, and their total width in px.
 struct Row<'a> {
     entries: Vec<PlacedEntry<'a>>,
     width: f64,
 }
 
-/// Draws the entries in rows centred on `middle` and no wider than `most` px. Returns the height of
-/// their lower end.
+/// Draws the entries in rows that are centred at x = `middle`, begin at y = `top` and are at most
+/// `most` px wide. Returns the y of the lower end of the legend.
 pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most: f64) -> f64 {
     let mut y = top;
     for row in rows(entries, most) {
@@ -47,7 +47,7 @@ pub(super) fn draw(svg: &mut Svg, entries: &[Entry], middle: f64, top: f64, most
     y
 }
 
-/// Divides the entries into rows of at most `most` px.
+/// Divides the entries into rows that are at most `most` px wide.
 fn rows(entries: &[Entry], most: f64) -> Vec<Row<'_>> {
     let mut rows: Vec<Row<'_>> = Vec::new();
     for entry in entries {
@@ -72,7 +72,7 @@ fn rows(entries: &[Entry], most: f64) -> Vec<Row<'_>> {
     rows
 }
 
-/// Returns the width of the samples of an entry in px.
+/// Returns the width in px of the samples of an entry.
 fn room(entry: &Entry) -> f64 {
     match entry.samples[..] {
         [(_, Sample::Guide)] => 16.0,

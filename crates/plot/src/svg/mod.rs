@@ -1,4 +1,4 @@
-//! Figures as SVG documents. Equal figures have equal bytes.
+//! Figures as SVG documents. Equal figures give equal bytes.
 
 pub(crate) mod elements;
 pub(crate) mod frame;
@@ -12,50 +12,50 @@ use super::label::Label;
 use elements::{Anchor, PAPER, Pen, Place, Svg, TEXT, escaped};
 use frame::{Frame, LABEL, Side};
 
-/// Fonts of figures, whose letters are nearly the same on all systems.
+/// Fonts of figures. The first available one is used; their letters have nearly the same widths.
 const FONTS: &str = "font-family=\"Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif\"";
-/// Room below a chart for its axis, px.
+/// Height in px below a chart for its horizontal axis.
 const BELOW: f64 = 50.0;
-/// Smallest room on the right of a chart, px.
+/// Smallest width in px on the right of a chart.
 const BESIDE: f64 = 22.0;
-/// Distance of the colour scale from its map, px.
+/// Distance in px between a map and its colour scale.
 const FROM_MAP: f64 = 14.0;
-/// Width of the colour scale, px.
+/// Width of the colour scale in px.
 const BAR: f64 = 13.0;
-/// Smallest distance of text from the border, px.
+/// Smallest distance in px of text from the border of the picture.
 const MARGIN: f64 = 6.0;
-/// Font size of the title, px.
+/// Font size of the title in px.
 const TITLE: f64 = 14.5;
-/// Font size of the text below title and legend, px.
+/// Font size in px of the text below the title and the legend.
 const TEXT_SIZE: f64 = LABEL - 1.0;
-/// Height of a line of the headings of charts, px.
+/// Height in px of a line in the heading of a chart.
 const HEADING: f64 = 18.0;
-/// Smallest width in px of frames side by side in a figure with a given width.
+/// Smallest width in px of a frame beside other frames, in a figure with a given width.
 const LEAST: f64 = 110.0;
-/// Largest width in px of a figure with several charts and without a given width.
+/// Largest width in px of a figure with several charts, if no width is given.
 const WIDEST: f64 = 1400.0;
 /// Width in px up to which a frame is at least as high as it is wide.
 const SQUARE: f64 = 150.0;
-/// Largest ratio of height to width for frames below each other.
+/// Largest ratio of height to width of frames that are one below the other.
 const LOW: f64 = 0.62;
-/// Largest height in px of a figure with a given width, which is 240 mm.
+/// Largest height in px (240 mm) of a figure with a given width.
 const PAGE: f64 = 907.0;
-/// Smallest height of a frame, px.
+/// Smallest height of a frame in px.
 const LOWEST: f64 = 60.0;
-/// Height of a name on an axis, px.
+/// Height in px of each name on an axis.
 const NAME: f64 = 14.0;
 
-/// Size of a figure and its frames.
+/// Width of a figure, and sizes of its frames.
 struct Layout {
-    /// Width of the picture, px.
+    /// Width of the picture in px.
     width: f64,
-    /// Width and height of the frames, px.
+    /// Width and height in px of the frames.
     size: (f64, f64),
-    /// Rooms of each column of charts.
+    /// Room beside the frames, for each column of charts.
     rooms: Vec<Rooms>,
 }
 
-/// Room beside the frame of a chart, px.
+/// Room in px on the left and right of the frame of a chart.
 #[derive(Clone, Copy, Default)]
 struct Rooms {
     left: f64,
@@ -68,7 +68,7 @@ impl Figure {
         let mut layout = self.layout();
         let (mut svg, mut height) = self.drawn(&layout);
         if let Some(wanted) = self.wanted_height(height) {
-            // Except for the frames, everything has the same height.
+            // Only the heights of the frames can change; the other elements keep their height.
             let rows = self.charts.len().div_ceil(layout.rooms.len()).max(1) as f64;
             layout.size.1 = (layout.size.1 - (height - wanted) / rows).max(LOWEST);
             (svg, height) = self.drawn(&layout);
@@ -84,8 +84,8 @@ impl Figure {
         document.finish()
     }
 
-    /// Returns the height in px that a picture of this height should have; `None` if it keeps its
-    /// height.
+    /// Returns the height in px that the picture should have, if its present height is `height`;
+    /// `None` if this height is right.
     fn wanted_height(&self, height: f64) -> Option<f64> {
         if self.height.is_some() {
             return self.height;
@@ -93,7 +93,7 @@ impl Figure {
         (self.width.is_some() && height > PAGE).then_some(PAGE)
     }
 
-    /// Draws all elements. Returns them with the height of the picture.
+    /// Draws all elements. Returns them, and the height of the picture in px.
     fn drawn(&self, layout: &Layout) -> (Svg, f64) {
         let mut svg = Svg::default();
         let width = layout.width;
@@ -134,7 +134,7 @@ impl Figure {
         (svg, y)
     }
 
-    /// Returns the layout of the charts in the fewest rows that fit the width.
+    /// Returns the layout with the fewest rows of charts at which the charts fit the width.
     fn layout(&self) -> Layout {
         let count = self.charts.len().max(1);
         for rows in 1..count {
@@ -154,13 +154,14 @@ impl Figure {
     fn layout_in_columns(&self, columns: usize) -> Layout {
         let mut size = self.size;
         if let Some(width) = self.width {
-            // The numbers at the ticks, and so the rooms, depend on the size.
+            // The room beside the frames depends on the numbers at the ticks, which depend on the
+            // size of the frames. Therefore the size is computed repeatedly.
             for _ in 0..2 {
                 size = self.size_in_columns(columns, width, &self.rooms(columns, size));
             }
         }
         let names = self.charts.iter().map(|chart| chart.y.names.len()).max();
-        // Each name on an axis has a line.
+        // On an axis with names, each name needs the height of a line.
         size.1 = size.1.max(NAME * names.unwrap_or(0) as f64);
         let rooms = self.rooms(columns, size);
         Layout {
@@ -170,7 +171,8 @@ impl Figure {
         }
     }
 
-    /// Returns the size in px of frames in columns that have a given width with these rooms.
+    /// Returns the width and height in px of the frames, if the charts in these columns have the
+    /// total width `width` and this room beside the frames.
     fn size_in_columns(&self, columns: usize, width: f64, rooms: &[Rooms]) -> (f64, f64) {
         let across = ((width - width_of(rooms, 0.0)) / columns as f64).max(MARGIN);
         let are_below_each_other = columns < self.charts.len().max(1);
@@ -179,7 +181,8 @@ impl Figure {
         (across, (across * ratio).max(across.min(SQUARE)))
     }
 
-    /// Returns the rooms of each column, which are those of its widest charts.
+    /// Returns the room beside the frames of each column, which is the largest room that a chart of
+    /// the column needs.
     fn rooms(&self, columns: usize, size: (f64, f64)) -> Vec<Rooms> {
         let mut all = vec![Rooms::default(); columns];
         for (index, chart) in self.charts.iter().enumerate() {
@@ -191,8 +194,8 @@ impl Figure {
         all
     }
 
-    /// Draws charts side by side from the height `y` down. The first chart has the index `first`.
-    /// Returns the height below the charts.
+    /// Draws charts side by side, with their upper end at `y`. `first` is the index of the first of
+    /// them in the figure. Returns the y below the charts.
     fn draw_row(
         &self,
         svg: &mut Svg,
@@ -227,7 +230,7 @@ impl Figure {
     }
 }
 
-/// Returns the width in px of charts side by side whose frames have this width.
+/// Returns the total width in px of charts side by side, if their frames have the width `frame`.
 fn width_of(rooms: &[Rooms], frame: f64) -> f64 {
     rooms
         .iter()
@@ -246,7 +249,7 @@ fn frame_of(chart: &Chart, from: Place, size: (f64, f64)) -> Frame<'_> {
     }
 }
 
-/// Returns the frame of the colour scale on the right of its map.
+/// Returns the frame of the colour scale, which is on the right of its map.
 fn frame_of_colours<'a>(map: &'a HeatMap, chart: Frame<'a>) -> Frame<'a> {
     let left = chart.to.0 + FROM_MAP;
     Frame {
@@ -303,7 +306,7 @@ mod tests {
         ChartAxis::new(scale, Span { low, high }, "", symbol, unit)
     }
 
-    /// A chart over d from 0 to 10 nm and F from 1 µN to 1 mN.
+    /// Creates a figure of one chart with d from 0 to 10 nm and F_n from 1 µN to 1 mN.
     fn small(layers: Vec<Layer>) -> Figure {
         let (d, force) = (
             axis(AxisScale::Linear, 0.0, 1e-8, "d", "m"),
@@ -349,7 +352,7 @@ mod tests {
             (400.0, 300.0)
         );
         let circles = elements(&svg, "circle");
-        // One for each point with coordinates, and one in the legend.
+        // Three circles belong to the points that have coordinates, and one to the legend.
         assert_eq!(circles.len(), 4);
         for (circle, (across, up)) in
             circles
@@ -366,7 +369,7 @@ mod tests {
                 "{circle} {place:?}"
             );
         }
-        // Ticks below: labels at 0, 2, … 10 nm.
+        // The ticks below have labels at 0, 2, … 10 nm.
         let below = corner.1 + 300.0;
         for (number, share) in [("0", 0.0), ("2", 0.2), ("10", 1.0)] {
             let x = corner.0 + 400.0 * share;
@@ -412,7 +415,7 @@ mod tests {
         let svg = figure.svg();
         let looks = |element: &String| element.split_once("fill=").unwrap().1.to_owned();
         let areas: Vec<String> = elements(&svg, "polygon").iter().map(looks).collect();
-        // Both bands, and a sample of each in the legend, of the same appearance.
+        // The figure has two bands, and the legend has a sample of each that looks the same.
         assert_eq!(areas.len(), 4);
         assert_eq!(areas[..2], areas[2..]);
         for ink in inks {
@@ -425,7 +428,7 @@ mod tests {
                 .count();
             assert_eq!(dashes, 2, "a line and its sample");
         }
-        // The end without a logarithm is at the bottom.
+        // The end of the band that has no logarithm is at the bottom of the chart.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(small(Vec::new()).svg().len() < svg.len());
     }
