@@ -224,9 +224,12 @@ impl Body {
                 .map_err(HalfSpaceError::from)?,
         };
         if let Some(form) = &self.form {
-            let at = |index: usize| ((index as f64 + 0.5) / cells as f64 - 0.5) * self.side;
+            let mut distances = Vec::with_capacity(cells);
+            for index in 0..cells {
+                distances.push(((index as f64 + 0.5) / cells as f64 - 0.5) * self.side);
+            }
             for (index, height) in heights.iter_mut().enumerate() {
-                let radius = at(index % cells).hypot(at(index / cells));
+                let radius = distances[index % cells].hypot(distances[index / cells]);
                 // Beside a punch the body is out of reach of any contact.
                 *height -= form.depth(radius).unwrap_or(self.side);
             }
