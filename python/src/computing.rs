@@ -69,17 +69,16 @@ pub fn computed<R: Send>(
     };
     let done = py.detach(|| {
         let (ended, end) = channel::<()>();
-        let working = || {
-            // Closed at the end, however it comes.
-            let _ended = ended;
-            work(&watch)
-        };
+        let watch = &watch;
         scope(|scope| {
-            let unstarted =
-                |error| PyRuntimeError::new_err(format!("could not start a thread: {error}"));
-            let worker = Builder::new()
-                .spawn_scoped(scope, working)
-                .map_err(unstarted)?;
+            let started = Builder::new().spawn_scoped(scope, move || {
+                // Closed at the end, however it comes.
+                let _ended = ended;
+                work(watch)
+            });
+            let worker = started.map_err(|error| {
+                PyRuntimeError::new_err(format!("could not start a thread: {error}"))
+            })?;
             while end.recv_timeout(Duration::from_millis(50)) == Err(RecvTimeoutError::Timeout) {
                 watch.keep(Python::attach(|py| py.check_signals()));
             }
@@ -166,7 +165,8 @@ impl Call {
             document,
             in_memory,
         } = scene.get();
-        let (document, in_memory) = (document.clone(), in_memory.clone());
+        let document = document.clone();
+        let in_memory = in_memory.clone();
         let profiles = profiles.unwrap_or_else(|| Ensemble::profiles_of(document.scene()));
         let jobs = jobs.unwrap_or_else(parallel::threads);
         computed(py, progress, move |watch| {

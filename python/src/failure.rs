@@ -16,19 +16,24 @@ use std::fmt::Display;
 use std::fs::File;
 use std::path::PathBuf;
 
+/// Creates an exception of this class of the package with its values.
+fn exception<'py>(
+    py: Python<'py>,
+    class: &str,
+    values: impl PyCallArgs<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("asperity._errors")?.getattr(class)?.call1(values)
+}
+
 /// Reason why a computation has no result, as the exception with its sentence.
 pub struct Failure(PyErr);
 
 impl Failure {
     /// An exception of this class of the package with its values.
     fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
-        Failure(Python::attach(|py| {
-            let class = py
-                .import("asperity._errors")
-                .and_then(|errors| errors.getattr(name));
-            class
-                .and_then(|class| class.call1(values))
-                .map_or_else(|error| error, PyErr::from_value)
+        Failure(Python::attach(|py| match exception(py, name, values) {
+            Ok(exception) => PyErr::from_value(exception),
+            Err(error) => error,
         }))
     }
 
@@ -53,13 +58,12 @@ impl Failure {
     /// The failure to read files if one of them does not open, otherwise the failure that their
     /// content explains.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
-        let is_missing = |path: &PathBuf| path.is_dir() || File::open(path).is_err();
-        let is_any_missing = files.iter().any(is_missing);
-        if is_any_missing {
-            Failure(PyOSError::new_err(sentence(&error.to_string())))
-        } else {
-            error.into()
+        for file in files {
+            if file.is_dir() || File::open(file).is_err() {
+                return Failure(PyOSError::new_err(sentence(&error.to_string())));
+            }
         }
+        error.into()
     }
 
     /// The failure of an error, with the arguments that help.
@@ -87,11 +91,14 @@ impl From<String> for Failure {
 
 impl From<SceneErrors> for Failure {
     fn from(errors: SceneErrors) -> Failure {
-        let line = |error: &SceneError| match error.origin {
-            Origin::Overrides(_) if !error.field.is_empty() => error.what(),
-            _ => error.to_string(),
-        };
-        let message = errors.iter().map(line).collect::<Vec<_>>().join("\n");
+        let mut lines = Vec::new();
+        for error in errors.iter() {
+            lines.push(match error.origin {
+                Origin::Overrides(_) if !error.field.is_empty() => error.what(),
+                _ => error.to_string(),
+            });
+        }
+        let message = lines.join("\n");
         let SceneError {
             field,
             value,

@@ -35,13 +35,13 @@ impl Curve {
 
 /// Returns an error if no curve was fitted, with the reason of the first one.
 fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> {
-    if rows.iter().any(|row| row.error.is_empty()) {
-        return Ok(());
+    let mut reason = "";
+    for row in rows.iter().rev() {
+        if row.error.is_empty() {
+            return Ok(());
+        }
+        reason = &row.error;
     }
-    let reason = rows
-        .first()
-        .map(|row| row.error.as_str())
-        .unwrap_or_default();
     let message = format!(
         "none of {} curves is fitted; the first one: {reason}",
         rows.len()
@@ -157,20 +157,18 @@ fn fit_each(
     let stop = || watch.stop();
     let done = AtomicU64::new(0);
     let all = curves.len() as u64;
-    let worker = || {
-        |number: u64| {
-            let given = &curves[number as usize];
-            let curve = given.read(reading).map_err(|failure| failure.message());
-            let control = Control::default().stopped_by(&stop);
-            let row = CurveRow::of(&given.0, curve, fit, control, argument);
-            watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
-            if stop() {
-                return Err("stopped".to_owned());
-            }
-            Ok(row)
+    let fit_number = |number: u64| {
+        let given = &curves[number as usize];
+        let curve = given.read(reading).map_err(|failure| failure.message());
+        let control = Control::default().stopped_by(&stop);
+        let row = CurveRow::of(&given.0, curve, fit, control, argument);
+        watch.report(1 + done.fetch_add(1, Ordering::Relaxed), all);
+        if stop() {
+            return Err("stopped".to_owned());
         }
+        Ok(row)
     };
-    let rows = on_threads(all, case.jobs, worker)?;
+    let rows = on_threads(all, case.jobs, || fit_number)?;
     check_any_fitted(curves, &rows)?;
     let mut parameters = Vec::new();
     for parameter in Parameter::ALL {

@@ -73,14 +73,16 @@ impl Profile {
 
     /// Positions, heights and gaps of the points, m.
     fn columns<'py>(&self, py: Python<'py>) -> [Array<'py, f64>; 3] {
-        let (profile, points) = (&self.profile, 0..self.profile.points());
-        let positions = points.map(|index| profile.position(index)).collect();
+        let profile = &self.profile;
+        let mut positions = Vec::with_capacity(profile.points());
+        for index in 0..profile.points() {
+            positions.push(profile.position(index));
+        }
         [
-            positions,
-            profile.heights().collect(),
-            profile.gaps().to_vec(),
+            array(py, positions),
+            array(py, profile.heights().collect()),
+            array(py, profile.gaps().to_vec()),
         ]
-        .map(|column| array(py, column))
     }
 
     /// Number of points, their distance, m, and the length of the profile, m.
@@ -145,13 +147,11 @@ impl Loop {
                 .before_stage(&mut proceed);
             let cycle = contact.load_with(&targets, options)?;
             let warnings = cycle.warnings();
-            let (stages, figures, title) =
-                (cycle.stages().to_vec(), cycle.figures(), String::new());
             Ok(Loop {
-                stages,
-                figures,
+                stages: cycle.stages().to_vec(),
+                figures: cycle.figures(),
                 stiffness,
-                title,
+                title: String::new(),
                 warnings,
                 outcome: None,
             })
@@ -163,23 +163,21 @@ impl Loop {
     fn of_scene(py: Python<'_>, scene: &Scene, progress: Progress) -> PyResult<Loop> {
         let mut simulation = scene.simulation().for_one_scene();
         computed(py, progress, |watch| {
-            let (scene, mut done) = (scene.document.scene(), 0);
+            let scene = scene.document.scene();
+            let mut done = 0;
             let outcome = simulation.run(scene, &|| watch.stop(), &mut |_, _, _| {
                 done += 1;
                 watch.report(done, scene.loading.len() as u64);
                 Ok(())
             })?;
             let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
-            let (stages, figures) = (outcome.history.legs.clone(), outcome.figures);
-            let warnings = outcome.warnings.clone();
-            let (title, outcome) = (scene.title.clone(), Some(Arc::new(outcome)));
             Ok(Loop {
-                stages,
-                figures,
+                stages: outcome.history.legs.clone(),
+                figures: outcome.figures,
                 stiffness,
-                title,
-                warnings,
-                outcome,
+                title: scene.title.clone(),
+                warnings: outcome.warnings.clone(),
+                outcome: Some(Arc::new(outcome)),
             })
         })
     }
@@ -187,27 +185,20 @@ impl Loop {
     /// Columns of the curve, whole numbers first, in the order of `asperity.Loop`, and the released
     /// energy of each stage.
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
-        let stages = self.stages.iter();
-        let points = || stages.clone().flat_map(|stage| &stage.curve);
-        let numbers = stages
-            .clone()
-            .zip(0_i64..)
-            .flat_map(|(stage, number)| vec![number; stage.curve.len()]);
-        let counts = [
-            numbers.collect(),
-            points().map(|point| point.fragments as i64).collect(),
-        ];
-        let columns = [
-            points().map(|point| point.indentation).collect(),
-            points().map(|point| point.force).collect(),
-            stages
-                .clone()
-                .flat_map(|stage| displacements(stage, self.stiffness))
-                .collect(),
-            points().map(|point| point.contact_length).collect(),
-            points().map(|point| point.stored_energy).collect(),
-            stages.map(|stage| stage.released_energy).collect(),
-        ];
+        let mut counts = [const { Vec::new() }; 2];
+        let mut columns = [const { Vec::new() }; 6];
+        for (number, stage) in self.stages.iter().enumerate() {
+            for point in &stage.curve {
+                counts[0].push(number as i64);
+                counts[1].push(point.fragments as i64);
+                columns[0].push(point.indentation);
+                columns[1].push(point.force);
+                columns[3].push(point.contact_length);
+                columns[4].push(point.stored_energy);
+            }
+            columns[2].extend(displacements(stage, self.stiffness));
+            columns[5].push(stage.released_energy);
+        }
         (
             counts.map(|column| array(py, column)),
             columns.map(|column| array(py, column)),
@@ -217,24 +208,27 @@ impl Loop {
     /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of
     /// ideal contact; the regime; and the marked points.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
-        let (of, outcome) = (&self.figures, self.outcome.as_ref());
-        let governing =
-            outcome.map(|of| [of.governing.kappa, of.tabor_number, of.adhesion_share()]);
-        let [kappa, tabor, share] = governing.unwrap_or_default();
-        let [pull_off, at] = [of.adhesion_force, of.pull_off_indentation];
-        let figures = [
-            pull_off,
-            at,
-            of.preload,
-            of.dissipated_energy,
-            kappa,
-            tabor,
-            share,
+        let mut figures = [
+            self.figures.adhesion_force,
+            self.figures.pull_off_indentation,
+            self.figures.preload,
+            self.figures.dissipated_energy,
+            None,
+            None,
+            None,
         ];
-        let regime = outcome.and_then(|outcome| Some(outcome.regime?.name()));
-        let named = Mark::all(&self.stages).into_iter();
-        let named = named.map(|(mark, point)| (mark.name(), (point.indentation, point.force)));
-        (figures, regime, named.collect())
+        let mut regime = None;
+        if let Some(outcome) = &self.outcome {
+            figures[4] = outcome.governing.kappa;
+            figures[5] = outcome.tabor_number;
+            figures[6] = outcome.adhesion_share();
+            regime = outcome.regime.map(|regime| regime.name());
+        }
+        let mut marks = Marks::new();
+        for (mark, point) in Mark::all(&self.stages) {
+            marks.insert(mark.name(), (point.indentation, point.force));
+        }
+        (figures, regime, marks)
     }
 
     /// Premises of the model that the loading does not meet, one sentence for each.

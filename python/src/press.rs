@@ -19,7 +19,8 @@ pub fn press<'py>(
     is_periodic: bool,
     residual: f64,
 ) -> PyResult<([Array<'py, f64>; 2], [f64; 5])> {
-    let (cells, heights) = (heights.shape()[0], heights.as_slice()?.to_vec());
+    let cells = heights.shape()[0];
+    let heights = heights.as_slice()?.to_vec();
     let (side, effective_modulus, force) = load;
     let found = computed(py, None, |watch| {
         let square = Square {
@@ -32,11 +33,11 @@ pub fn press<'py>(
         } else {
             Boundary::Free
         };
-        let stop = || watch.stop();
-        Ok(HalfSpace::new(cells, boundary)?.press(&square, Load::Force(force), residual, &stop)?)
+        let mut space = HalfSpace::new(cells, boundary)?;
+        Ok(space.press(&square, Load::Force(force), residual, &|| watch.stop())?)
     })?;
-    let is_finite = |map: &[f64]| map.iter().all(|number| number.is_finite());
-    if !(is_finite(&found.pressure) && is_finite(&found.gap) && found.indentation.is_finite()) {
+    let mut values = found.pressure.iter().chain(&found.gap);
+    if !(values.all(|value| value.is_finite()) && found.indentation.is_finite()) {
         let allowed = "a force whose indentation is not far larger than the heights of the map";
         return Err(Failure::field("force", &format_quantity(force, "N"), allowed).into());
     }

@@ -48,19 +48,15 @@ fn named<'a>(
 /// A report as bytes; tables and figures state its scene.
 pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
     let mut written = Vec::new();
-    let provenance = of
-        .filter(|_| matches!(format, Format::Csv | Format::Svg))
-        .map(|document| {
-            let (scene, folder) = (document.scene(), document.resolve(""));
-            scene_provenance("import asperity", scene, &folder, Path::new(""))
-                .map_err(io::Error::other)
-        });
-    asperity_report::write(
-        &mut written,
-        report,
-        format,
-        &provenance.transpose()?.unwrap_or_default(),
-    )?;
+    let mut provenance = String::new();
+    if let Some(document) = of
+        && matches!(format, Format::Csv | Format::Svg)
+    {
+        let folder = document.resolve("");
+        let lines = scene_provenance("import asperity", document.scene(), &folder, Path::new(""));
+        provenance = lines.map_err(io::Error::other)?;
+    }
+    asperity_report::write(&mut written, report, format, &provenance)?;
     Ok(written)
 }
 
@@ -68,27 +64,44 @@ pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> i
 impl Report {
     /// The result in a format: text, json, csv, npy, svg, png or pdf.
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<Vec<u8>> {
-        let known = Format::ALL
-            .into_iter()
-            .find(|one| one.name() == format || one.extension() == format);
-        let known = known.ok_or_else(|| {
+        let mut formats = Format::ALL.into_iter();
+        let Some(known) =
+            formats.find(|known| known.name() == format || known.extension() == format)
+        else {
             let names = Format::ALL.map(Format::extension).join(", ");
-            PyValueError::new_err(format!("format {format:?}; allowed: {names}"))
-        })?;
+            let message = format!("format {format:?}; allowed: {names}");
+            return Err(PyValueError::new_err(message));
+        };
         // A defect of the program is an exception like any other.
-        let write = || catch_unwind(AssertUnwindSafe(|| (self.0)(known)));
         let written = py
-            .detach(write)
+            .detach(|| catch_unwind(AssertUnwindSafe(|| (self.0)(known))))
             .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
         written.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 }
 
+fn done_of_ensemble(ensemble: &Ensemble) -> Option<u64> {
+    Some(ensemble.computed())
+}
+
+fn done_of_results(results: &Results) -> Option<u64> {
+    Some(results.profiles_done())
+}
+
+/// The number of finished parts of a short computation, which is not counted.
+fn unchanged<P>(_: &P) -> Option<u64> {
+    None
+}
+
+/// The number of finished parts of a computation that reports this number.
+fn done(parts: &u64) -> Option<u64> {
+    Some(*parts)
+}
+
 /// The results of a scene on its random profiles, with these further quantities.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let scene = case.document.scene();
-    let done = |ensemble: &Ensemble| Some(ensemble.computed());
-    case.watched(case.profiles, done, |control| {
+    case.watched(case.profiles, done_of_ensemble, |control| {
         Ensemble::of(
             scene,
             further,
@@ -112,7 +125,8 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         .clone()
         .ok_or_else(|| PyValueError::new_err("no scene"))?;
     call.computed(py, |case| {
-        let (scene, folder) = (case.document.scene(), case.document.resolve(""));
+        let scene = case.document.scene();
+        let folder = case.document.resolve("");
         let mut ensemble = None;
         let mut deviation = None;
         if case.profiles > 1 {
@@ -120,25 +134,18 @@ pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
         }
         let estimate = estimate(scene, &folder, &outcome, &|| case.watch.stop());
         if let Some(ensemble) = &ensemble {
-            deviation = case.watched(
-                case.profiles,
-                |_: &u64| None,
-                |control| {
-                    let profiles = ensemble.profiles();
-                    MeasuredAdhesion::quick_deviation(&case.document, profiles, control)
-                },
-            )?;
+            deviation = case.watched(case.profiles, unchanged, |control| {
+                MeasuredAdhesion::quick_deviation(&case.document, ensemble.profiles(), control)
+            })?;
         }
         Ok(Report::new(move |format| {
-            let (title, scene, outcome) = (case.document.title(), case.document.scene(), &*outcome);
-            let (estimate, ensemble) = (estimate.as_ref(), ensemble.as_ref());
             let report = RunReport {
-                title,
-                scene,
-                outcome,
+                title: case.document.title(),
+                scene: case.document.scene(),
+                outcome: &outcome,
                 choice: None,
-                estimate,
-                ensemble,
+                estimate: estimate.as_ref(),
+                ensemble: ensemble.as_ref(),
                 deviation,
                 wording: argument,
             };
@@ -168,7 +175,8 @@ pub fn find(
     range: Option<&str>,
 ) -> PyResult<Report> {
     call.computed(py, |case| {
-        let (scene, mut simulation) = (case.document.scene(), case.simulation());
+        let scene = case.document.scene();
+        let mut simulation = case.simulation();
         let mut question = Question::new(
             scene,
             field,
@@ -179,21 +187,16 @@ pub fn find(
         if let Some(range) = range {
             question.searched = Axis::parse_range(range, question.axis.unit)?;
         }
-        let done = |done: &u64| Some(*done);
         let found = case.watched(case.profiles, done, |control| {
             Found::of(question, &mut simulation, control)
         })?;
         Ok(Report::new(move |format| {
-            let (title, scene, found) = (case.document.title(), case.document.scene(), &found);
-            bytes(
-                named(&case.document, &case.in_memory),
-                &FindReport {
-                    title,
-                    scene,
-                    found,
-                },
-                format,
-            )
+            let report = FindReport {
+                title: case.document.title(),
+                scene: case.document.scene(),
+                found: &found,
+            };
+            bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
 }
@@ -205,13 +208,10 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
         let scene = case.document.scene();
         let axis = Axis::parse_preloads(preloads)?;
         let mut simulation = case.simulation();
-        let staircase = case.watched(
-            case.profiles,
-            |_: &Staircase| None,
-            |control| Staircase::of(scene, &axis, &mut simulation, control),
-        )?;
-        let done = |results: &Results| Some(results.profiles_done());
-        let results = case.watched(case.profiles, done, |control| {
+        let staircase = case.watched(case.profiles, unchanged, |control| {
+            Staircase::of(scene, &axis, &mut simulation, control)
+        })?;
+        let results = case.watched(case.profiles, done_of_results, |control| {
             Results::of_scene(
                 scene,
                 &Results::OF_PRELOADS,
@@ -222,12 +222,11 @@ pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> 
             )
         })?;
         Ok(Report::new(move |format| {
-            let (title, results, staircase) = (case.document.title(), &results, Some(&staircase));
             let report = PreloadReport {
-                title,
+                title: case.document.title(),
                 choice: None,
-                results,
-                staircase,
+                results: &results,
+                staircase: Some(&staircase),
                 curves: false,
             };
             bytes(named(&case.document, &case.in_memory), &report, format)
@@ -244,18 +243,18 @@ pub fn reversals(
     count: usize,
 ) -> PyResult<Report> {
     call.computed(py, |case| {
-        let ends = range
-            .map(|range| Axis::parse_range(range, "N"))
-            .transpose()?;
+        let mut ends = None;
+        if let Some(range) = range {
+            ends = Some(Axis::parse_range(range, "N")?);
+        }
         let mut simulation = case.simulation().for_one_scene();
         let map =
             simulation.reversal_map(case.document.scene(), ends, count, &|| case.watch.stop())?;
         let warnings = warnings_of_reversals(&map, case.document.scene(), &mut simulation)?;
         Ok(Report::new(move |format| {
-            let (title, scene) = (case.document.title(), case.document.scene());
             let report = ReversalReport {
-                title,
-                scene,
+                title: case.document.title(),
+                scene: case.document.scene(),
                 map: &map,
                 warnings: &warnings,
                 preloads: None,
@@ -290,17 +289,13 @@ pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) ->
             Reference::of(scene, options, &mut case.simulation(), control)
         })?;
         Ok(Report::new(move |format| {
-            let (title, scene, reference) = (case.document.title(), case.document.scene(), &found);
-            bytes(
-                named(&case.document, &case.in_memory),
-                &ReferenceReport {
-                    title,
-                    scene,
-                    reference,
-                    wording: argument,
-                },
-                format,
-            )
+            let report = ReferenceReport {
+                title: case.document.title(),
+                scene: case.document.scene(),
+                reference: &found,
+                wording: argument,
+            };
+            bytes(named(&case.document, &case.in_memory), &report, format)
         }))
     })
 }
@@ -350,20 +345,19 @@ pub fn study(
 ) -> PyResult<Report> {
     call.computed(py, |case| {
         case.check_files()?;
-        let record = record
-            .iter()
-            .map(|name| Quantity::named(name))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut quantities = Vec::with_capacity(record.len());
+        for name in &record {
+            quantities.push(Quantity::named(name)?);
+        }
         let mut read = Vec::new();
         for axis in &axes {
             read.push(read_axis(case.document.scene(), axis)?);
         }
-        let axes: Vec<_> = read
-            .iter()
-            .map(|(path, values)| (path.as_str(), values.as_slice()))
-            .collect();
-        let plan = Plan::new(&case.document, &axes, case.profiles, &record)?;
-        let done = |records: &u64| Some(*records);
+        let mut axes = Vec::with_capacity(read.len());
+        for (path, values) in &read {
+            axes.push((path.as_str(), values.as_slice()));
+        }
+        let plan = Plan::new(&case.document, &axes, case.profiles, &quantities)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
             compute(&plan, control)
         })?;

@@ -37,11 +37,13 @@ impl Scene {
         &self,
         document: &Document,
     ) -> Result<Option<Arc<MeasuredRoughness>>, Failure> {
-        let (Some(in_memory), Some(before), Some(after)) = (
-            &self.in_memory,
-            self.document.scene().measured(),
-            document.scene().measured(),
-        ) else {
+        let Some(in_memory) = &self.in_memory else {
+            return Ok(None);
+        };
+        let Some(before) = self.document.scene().measured() else {
+            return Ok(None);
+        };
+        let Some(after) = document.scene().measured() else {
             return Ok(None);
         };
         if before.file != after.file {
@@ -73,14 +75,14 @@ impl Scene {
     /// Opens a built-in scene by its name, or a scene file by its path.
     #[staticmethod]
     fn open(name: &str) -> Result<Scene, Failure> {
-        let document = open(name).map_err(|errors| match is_path(name) {
-            true => Failure::of_files(&[name.into()], errors),
-            false => errors.into(),
-        });
-        Ok(Scene {
-            document: document?,
-            in_memory: None,
-        })
+        match open(name) {
+            Ok(document) => Ok(Scene {
+                document,
+                in_memory: None,
+            }),
+            Err(errors) if is_path(name) => Err(Failure::of_files(&[name.into()], errors)),
+            Err(errors) => Err(errors.into()),
+        }
     }
 
     /// Reads the text of a scene. Files that the scene names are relative to the working folder.
@@ -101,10 +103,12 @@ impl Scene {
         if points < 2 {
             return Err(Failure::field("heights", "1 height", "at least 2 heights"));
         }
-        let (length, cell) = (profile.length(), profile.length() / points as f64);
-        let positions = (0..points)
-            .map(|index| (index as f64 + 0.5) * cell)
-            .collect();
+        let length = profile.length();
+        let cell = length / points as f64;
+        let mut positions = Vec::with_capacity(points);
+        for index in 0..points {
+            positions.push((index as f64 + 0.5) * cell);
+        }
         let heights = MeasuredProfile {
             positions,
             heights: profile.heights().collect(),

@@ -38,12 +38,7 @@ pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failur
 
 /// Returns the failure for an option that is unknown, or whose value is not allowed.
 fn refused(command: &str, error: &clap::Error) -> Failure {
-    let context = |kind: ContextKind| match error.get(kind) {
-        Some(ContextValue::String(text)) => Some(text.clone()),
-        Some(ContextValue::Strings(texts)) => Some(texts.join(", ")),
-        _ => None,
-    };
-    let Some(given) = context(ContextKind::InvalidArg) else {
+    let Some(given) = context(error, ContextKind::InvalidArg) else {
         return first_paragraph(error).into();
     };
     let name = given
@@ -53,8 +48,11 @@ fn refused(command: &str, error: &clap::Error) -> Failure {
         .unwrap_or_default()
         .replace('-', "_");
     let reason = error.source().map(|source| sentence(&source.to_string()));
-    let value = context(ContextKind::InvalidValue);
-    match (reason.or_else(|| context(ContextKind::ValidValue)), value) {
+    let value = context(error, ContextKind::InvalidValue);
+    match (
+        reason.or_else(|| context(error, ContextKind::ValidValue)),
+        value,
+    ) {
         (Some(allowed), Some(value)) => {
             let allowed = allowed.strip_prefix("allowed: ").unwrap_or(&allowed);
             Failure::field(&name, &value, allowed)
@@ -63,19 +61,26 @@ fn refused(command: &str, error: &clap::Error) -> Failure {
     }
 }
 
+fn context(error: &clap::Error, kind: ContextKind) -> Option<String> {
+    match error.get(kind)? {
+        ContextValue::String(text) => Some(text.clone()),
+        ContextValue::Strings(texts) => Some(texts.join(", ")),
+        _ => None,
+    }
+}
+
 fn names_of_options(command: &str) -> String {
     let program = Arguments::command();
-    let options = program
-        .find_subcommand(command)
-        .into_iter()
-        .flat_map(clap::Command::get_arguments);
-    let names = options
-        .filter_map(Arg::get_long)
-        .filter(|name| !NOT_IN_PYTHON.contains(name));
-    names
-        .map(|name| name.replace('-', "_"))
-        .collect::<Vec<_>>()
-        .join(", ")
+    let Some(command) = program.find_subcommand(command) else {
+        return String::new();
+    };
+    let mut names = Vec::new();
+    for name in command.get_arguments().filter_map(Arg::get_long) {
+        if !NOT_IN_PYTHON.contains(&name) {
+            names.push(name.replace('-', "_"));
+        }
+    }
+    names.join(", ")
 }
 
 /// Options of `asperity fit` that Python has in another form.
@@ -85,11 +90,13 @@ const NOT_IN_PYTHON: [&str; 8] = [
 
 fn first_paragraph(error: &clap::Error) -> String {
     let text = error.to_string();
-    let lines = text
-        .lines()
-        .map(|line| line.trim().trim_start_matches("error: "));
-    lines
-        .take_while(|line| !line.is_empty())
-        .collect::<Vec<_>>()
-        .join(" ")
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let line = line.trim().trim_start_matches("error: ");
+        if line.is_empty() {
+            break;
+        }
+        lines.push(line);
+    }
+    lines.join(" ")
 }

@@ -29,9 +29,8 @@ pub struct CheckArguments {
 
 impl CheckArguments {
     fn chosen(&self) -> Result<Vec<Check>, CliError> {
-        let has = |case: &Case, word: &String| case.name.contains(word.as_str());
         for word in &self.words {
-            if !Case::all().iter().any(|case| has(case, word)) {
+            if !Case::all().iter().any(|case| case.name.contains(&**word)) {
                 let allowed: Vec<&str> = Case::all().into_iter().map(|case| case.name).collect();
                 let none = format!(
                     "no case has this in its name; allowed: parts of {}",
@@ -40,9 +39,10 @@ impl CheckArguments {
                 return Err(CliError::named(word, none));
             }
         }
-        let is_meant =
-            |case: &Case| self.words.is_empty() || self.words.iter().any(|word| has(case, word));
-        Ok(Check::of(is_meant))
+        Ok(Check::of(|case| {
+            let mut words = self.words.iter();
+            self.words.is_empty() || words.any(|word| case.name.contains(&**word))
+        }))
     }
 }
 
@@ -64,21 +64,24 @@ fn judged(checks: Vec<Check>) -> Result<Vec<Verdict>, CliError> {
         threads: 1,
         begins: String::new(),
     };
-    let show = |begun: &Begun, line: &mut ProgressLine| {
-        line.show(&format!("{}/{count} {}", begun.number, begun.name), None);
-    };
-    watched(task, show, |mut control: Control<'_, Begun>| {
-        let mut verdicts = Vec::with_capacity(count);
-        for (number, check) in (1..).zip(checks) {
-            if control.is_stopped() {
-                break;
+    watched(
+        task,
+        |begun: &Begun, line: &mut ProgressLine| {
+            line.show(&format!("{}/{count} {}", begun.number, begun.name), None)
+        },
+        |mut control: Control<'_, Begun>| {
+            let mut verdicts = Vec::with_capacity(count);
+            for (number, check) in (1..).zip(checks) {
+                if control.is_stopped() {
+                    break;
+                }
+                let name = check.case.name;
+                control.report(Begun { number, name });
+                verdicts.push(Check::judge(check));
             }
-            let name = check.case.name;
-            control.report(Begun { number, name });
-            verdicts.push(Check::judge(check));
-        }
-        Ok::<_, CliError>(verdicts)
-    })
+            Ok::<_, CliError>(verdicts)
+        },
+    )
 }
 
 /// A check that begins: its number, counted from 1, and the name of its case.

@@ -40,8 +40,9 @@ pub struct CostArguments {
     pub output: OutputArguments,
 }
 
+const ALLOWED_TIMES: &str = "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min";
+
 fn budget(text: &str) -> Result<Duration, String> {
-    let allowed = || "allowed: a time from 1ms to 24h, such as 500ms, 30s or 2min".to_owned();
     let minutes = [("min", 60.0), ("h", 3600.0)]
         .into_iter()
         .find_map(|(unit, seconds)| {
@@ -49,11 +50,11 @@ fn budget(text: &str) -> Result<Duration, String> {
         });
     let seconds = minutes
         .or_else(|| parse_quantity(text, "s").ok())
-        .ok_or_else(allowed)?;
+        .ok_or(ALLOWED_TIMES)?;
     if (1e-3..=LONGEST).contains(&seconds) {
         Ok(Duration::from_secs_f64(seconds))
     } else {
-        Err(allowed())
+        Err(ALLOWED_TIMES.to_owned())
     }
 }
 

@@ -64,25 +64,24 @@ pub struct DemoArguments {
 }
 
 fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    let allowed = || format!("allowed: a number from {low} to {high}");
-    let value: f64 = text.parse().map_err(|_| allowed())?;
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(allowed())
+    match text.parse::<f64>() {
+        Ok(value) if (low..=high).contains(&value) => Ok(value),
+        _ => Err(format!("allowed: a number from {low} to {high}")),
     }
 }
 
 fn size(text: &str) -> Result<(u16, u16), String> {
-    let allowed = || "allowed: columns x rows, each from 1 to 1000, such as 120x40".to_owned();
-    let (columns, rows) = text.split_once(['x', '×']).ok_or_else(allowed)?;
-    let side = |text: &str| {
-        text.parse()
-            .ok()
-            .filter(|side| (1..=1000).contains(side))
-            .ok_or_else(allowed)
-    };
-    Ok((side(columns)?, side(rows)?))
+    let allowed = "allowed: columns x rows, each from 1 to 1000, such as 120x40";
+    let (columns, rows) = text.split_once(['x', '×']).ok_or(allowed)?;
+    let columns = side(columns).ok_or(allowed)?;
+    let rows = side(rows).ok_or(allowed)?;
+    Ok((columns, rows))
+}
+
+/// Reads a number of columns or rows; `None` for one that is not allowed.
+fn side(text: &str) -> Option<u16> {
+    let side = text.parse().ok()?;
+    (1..=1000).contains(&side).then_some(side)
 }
 
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {

@@ -3,12 +3,12 @@
 
 use super::advice::option;
 use super::error::CliError;
-use super::fits::{Curves, files_of};
+use super::fits::{Curves, files_of, show_curves};
 use super::output::Origin;
-use super::progress::{ProgressLine, Task, watched};
+use super::progress::{Task, watched};
 use super::scene::{open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{grouped, parse_quantity, path_name};
+use asperity_data::{parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
 use clap::Args;
@@ -100,26 +100,22 @@ pub(super) fn ensemble(
     }
     let document = arguments.overrides.apply(open_scene(arguments.scene)?)?;
     let reading = arguments.reading_for(&document);
-    let read = |path: &std::path::PathBuf| {
-        let name = path_name(path);
-        match MeasuredCurve::read(path, &reading) {
-            Ok(curve) => Ok((name, curve)),
-            Err(error) => Err(CliError::named(&name, no_curve(path, &error, option))),
+    let mut curves = Vec::new();
+    for path in files_of(arguments.paths, arguments.output.file())? {
+        let name = path_name(&path);
+        match MeasuredCurve::read(&path, &reading) {
+            Ok(curve) => curves.push((name, curve)),
+            Err(error) => {
+                return Err(CliError::named(&name, no_curve(&path, &error, option)));
+            }
         }
-    };
-    let curves = files_of(arguments.paths, arguments.output.file())?
-        .iter()
-        .map(read)
-        .collect::<Result<Vec<_>, _>>()?;
+    }
     let task = Task {
         name: Some(document.name()),
         threads: threads(arguments.jobs),
         begins: "0 curves computed".to_owned(),
     };
-    let show = |computed: &u64, line: &mut ProgressLine| {
-        line.show(&format!("{} curves computed", grouped(*computed)), None);
-    };
-    let found = watched(task, show, |control| {
+    let found = watched(task, show_curves, |control| {
         fit_ensemble(&curves, &document, &options, control)
     })?;
     let report = EnsembleFitReport {

@@ -64,7 +64,8 @@ impl Display for CliError {
 impl<E: Error + 'static> From<E> for CliError {
     fn from(error: E) -> CliError {
         let any: &(dyn Error + 'static) = &error;
-        let (of_file, of_output) = (any.downcast_ref(), any.downcast_ref::<io::Error>());
+        let of_file = any.downcast_ref();
+        let of_output = any.downcast_ref::<io::Error>();
         let message = match of_file {
             Some(WriteError::Exists(_)) => format!("{error}; --force overwrites it"),
             _ if of_output.is_some() => format!("standard output: cannot be written: {error}"),

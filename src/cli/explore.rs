@@ -98,10 +98,9 @@ impl LookArguments {
             },
             _ => (defaults(), None),
         };
-        let (theme, marker) = (self.theme, self.marker);
         Ok(Options {
-            theme,
-            marker,
+            theme: self.theme,
+            marker: self.marker,
             warning,
             ..Options::new(config)
         })

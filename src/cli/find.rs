@@ -79,12 +79,13 @@ pub(super) fn find(arguments: &FindArguments, stdout: &mut dyn Write) -> Result<
         threads: arguments.profiles.threads(),
         begins: format!("0 of {profiles} profiles"),
     };
-    let show = |done: &u64, line: &mut ProgressLine| {
-        line.show(&format!("{done} of {profiles} profiles"), None);
-    };
-    let found = watched(task, show, |control| {
-        Found::of(question, &mut simulation, control)
-    })?;
+    let found = watched(
+        task,
+        |done: &u64, line: &mut ProgressLine| {
+            line.show(&format!("{done} of {profiles} profiles"), None)
+        },
+        |control| Found::of(question, &mut simulation, control),
+    )?;
     let report = FindReport {
         title: document.title(),
         scene,

@@ -3,12 +3,12 @@
 use super::advice::option;
 use super::ensemble::{EnsembleArguments, ensemble};
 use super::error::CliError;
-use super::fits::{Curves, fit_all};
+use super::fits::{Curves, fit_all, show_curves};
 use super::output::{Origin, OutputArguments, check_file};
-use super::progress::{ProgressLine, Task, watched};
+use super::progress::{Task, watched};
 use super::scene::{Overrides, open_scene, threads};
 use crate::explorer::recognition::no_curve;
-use asperity_data::{grouped, path_name, write_new};
+use asperity_data::{path_name, write_new};
 use asperity_experiment::{CurveOptions, Fit, Free, MeasuredCurve};
 use asperity_report::{FitReport, Format, Report, named_from};
 use clap::Args;
@@ -139,10 +139,7 @@ fn fit_one(
         threads: threads(None),
         begins: "0 curves computed".to_owned(),
     };
-    let show = |computed: &u64, line: &mut ProgressLine| {
-        line.show(&format!("{} curves computed", grouped(*computed)), None);
-    };
-    let found = watched(task, show, |control| fit.run(&curve, control))?;
+    let found = watched(task, show_curves, |control| fit.run(&curve, control))?;
     if let Some(file) = &arguments.scene {
         let folder = file.parent().unwrap_or(Path::new(""));
         let fitted = found

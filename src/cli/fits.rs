@@ -48,18 +48,10 @@ pub(super) fn files_of(
             files.push(path.clone());
             continue;
         }
-        let unreadable =
-            |error| CliError::named(path_name(path), format!("cannot be read: {error}"));
-        let entries: io::Result<Vec<PathBuf>> =
-            read_dir(path).and_then(|all| all.map(|one| Ok(one?.path())).collect());
-        let mut entries = entries.map_err(unreadable)?;
-        let is_hidden = |path: &Path| {
-            path.file_name()
-                .is_some_and(|name| name.to_string_lossy().starts_with('.'))
-        };
-        let is_other =
-            |path: &Path| path.extension().is_some_and(|of| of == "ron") || Some(path) == output;
-        entries.retain(|path| path.is_file() && !is_hidden(path) && !is_other(path));
+        let mut entries = paths_in(path).map_err(|error| {
+            CliError::named(path_name(path), format!("cannot be read: {error}"))
+        })?;
+        entries.retain(|entry| may_be_curve(entry) && Some(&**entry) != output);
         entries.sort();
         if entries.is_empty() {
             return Err(CliError::named(
@@ -70,6 +62,27 @@ pub(super) fn files_of(
         files.extend(entries);
     }
     Ok(files)
+}
+
+fn paths_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut paths = Vec::new();
+    for entry in read_dir(folder)? {
+        paths.push(entry?.path());
+    }
+    Ok(paths)
+}
+
+/// Returns true for a file that is not hidden and no scene.
+fn may_be_curve(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default();
+    let is_hidden = name.to_string_lossy().starts_with('.');
+    let is_scene = path.extension().is_some_and(|end| end == "ron");
+    path.is_file() && !is_hidden && !is_scene
+}
+
+/// Shows the number of computed curves.
+pub(super) fn show_curves(computed: &u64, line: &mut ProgressLine) {
+    line.show(&format!("{} curves computed", grouped(*computed)), None);
 }
 
 /// Reason why the row of a curve is missing in the table.
@@ -137,9 +150,14 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         &document.resolve(""),
         output.folder(),
     );
-    let is_free = |one: &Parameter| curves.free.iter().any(|free| free.parameter == *one);
+    let mut free = Vec::new();
+    for parameter in Parameter::ALL {
+        if curves.free.iter().any(|free| free.parameter == parameter) {
+            free.push(parameter);
+        }
+    }
     let batch = Batch {
-        free: Parameter::ALL.into_iter().filter(is_free).collect(),
+        free,
         reading: curves.reading_for(&document),
         curves,
         provenance: provenance.map_err(CliError::message)?,
@@ -168,7 +186,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let failures = report.failures().count();
     if failures > 0 {
-        let [failures, all] = [failures, rows.len()].map(|count| grouped(count as u64));
+        let failures = grouped(failures as u64);
+        let all = grouped(rows.len() as u64);
         // The results are written even if standard error is closed.
         let _ = writeln!(
             io::stderr(),
@@ -217,12 +236,6 @@ impl Batch<'_> {
         let todo: Vec<usize> = (0..files.len())
             .filter(|index| !rows.contains_key(&names[*index]))
             .collect();
-        let unwritable = |error: io::Error| {
-            CliError::named(
-                table.map(path_name).unwrap_or_default(),
-                format!("cannot be written: {error}"),
-            )
-        };
         let table_path = table;
         let table = table.map(|path| self.begun(path, &rows)).transpose()?;
         let count = grouped(files.len() as u64);
@@ -263,7 +276,10 @@ impl Batch<'_> {
         progress.line.clear();
         let mut rows = progress.rows;
         written.map_err(|error| match error {
-            RowError::Unwritable(error) => unwritable(error),
+            RowError::Unwritable(error) => CliError::named(
+                table_path.map(path_name).unwrap_or_default(),
+                format!("cannot be written: {error}"),
+            ),
             RowError::Stopped => {
                 let done = grouped(rows.len() as u64);
                 let lost = match table_path {

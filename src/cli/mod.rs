@@ -112,7 +112,6 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
         .get(ContextKind::InvalidArg)
         .filter(|_| error.kind() == ErrorKind::UnknownArgument);
     let refused = refused.map(ToString::to_string);
-    let is_command = |word: &&Cow<'_, str>| names.iter().any(|name| name == *word);
     let Some(first) = words.first() else {
         return error;
     };
@@ -120,9 +119,10 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let second = error
         .get(ContextKind::InvalidSubcommand)
         .map(ToString::to_string);
-    let is_scene =
-        || asperity_scene::library::find_scene(first).is_some() || Path::new(&**first).exists();
-    let message = match (words.iter().find(is_command), &refused, &second) {
+    let command_word = words
+        .iter()
+        .find(|word| names.iter().any(|name| name == *word));
+    let message = match (command_word, &refused, &second) {
         (Some(misplaced), ..)
             if misplaced != first
                 && matches!(
@@ -132,14 +132,15 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
         {
             format!("the command '{misplaced}' comes first, its scene and options follow")
         }
-        (None, Some(option), _) if is_scene() => {
+        (None, Some(option), _) if is_scene(first) => {
             format!(
                 "unexpected argument '{option}'; a command comes first, such as asperity run {}",
                 quoted(&**first)
             )
         }
-        (None, None, Some(second)) if is_scene() => {
-            let [first, second] = [&**first, second.as_str()].map(quoted);
+        (None, None, Some(second)) if is_scene(first) => {
+            let first = quoted(&**first);
+            let second = quoted(second.as_str());
             format!(
                 "the explorer opens one scene; asperity {first} --compare {second} adds the curve of another"
             )
@@ -158,6 +159,11 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
         _ => return error,
     };
     command.error(ErrorKind::InvalidSubcommand, message)
+}
+
+/// Returns true for the name or the file of a scene.
+fn is_scene(word: &str) -> bool {
+    asperity_scene::library::find_scene(word).is_some() || Path::new(word).exists()
 }
 
 fn names(program: &clap::Command) -> Vec<String> {

@@ -299,14 +299,10 @@ pub(super) fn command_without(options: &[&str]) -> String {
     let typed = TYPED.get().into_iter().flatten();
     let mut typed = typed.skip(1).map(|word| word.to_string_lossy());
     while let Some(word) = typed.next() {
-        let is_further = |option: &&str| {
-            word.strip_prefix(option)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with('='))
-        };
         if ["-o", "--output", "--format"].contains(&&*word) {
             typed.next();
-        } else if let Some(option) = options.iter().copied().find(is_further) {
-            if word == option {
+        } else if let Some(option) = options.iter().find(|option| is_option(&word, option)) {
+            if word == *option {
                 typed.next();
             }
         } else if word != "--force"
@@ -318,6 +314,14 @@ pub(super) fn command_without(options: &[&str]) -> String {
         }
     }
     words.join(" ")
+}
+
+/// Returns true for an option alone, or with its value after `=`.
+fn is_option(word: &str, option: &str) -> bool {
+    match word.strip_prefix(option) {
+        Some(value) => value.is_empty() || value.starts_with('='),
+        None => false,
+    }
 }
 
 /// Width of figures as text without a terminal, columns.
@@ -335,12 +339,15 @@ fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     )
 }
 
+fn variable(name: &str) -> String {
+    std::env::var(name).unwrap_or_default()
+}
+
 /// Colours of the terminal, by the environment variables.
 fn colours() -> Colours {
-    let value = |name| std::env::var(name).unwrap_or_default();
-    if !value("NO_COLOR").is_empty() || value("TERM") == "dumb" {
+    if !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb" {
         Colours::None
-    } else if ["truecolor", "24bit"].contains(&value("COLORTERM").as_str()) {
+    } else if ["truecolor", "24bit"].contains(&variable("COLORTERM").as_str()) {
         Colours::All
     } else {
         Colours::Palette

@@ -31,7 +31,8 @@ pub struct PlanArguments {
 pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<(), CliError> {
     let document = arguments.scene.open()?;
     warn(&document, &document.scene().warnings());
-    let (scene, plan) = (document.scene(), Workload::of(document.scene()));
+    let scene = document.scene();
+    let plan = Workload::of(scene);
     arguments.format.write(
         stdout,
         || stages_text(&plan),

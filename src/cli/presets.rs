@@ -1,13 +1,15 @@
 //! `asperity presets`: lists and shows the built-in scenes and the user's own, and checks scene
 //! files.
 
+use super::advice::advised;
 use super::error::CliError;
 use super::output::AnswerFormat;
-use asperity_data::{Warning, object, printable, printable_lines};
+use asperity_data::{Warning, printable, printable_lines};
 use asperity_report::Sheet;
 use asperity_scene::library::Entry;
 use asperity_scene::{Document, Simulation};
 use clap::Subcommand;
+use serde::Serialize;
 use std::io;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -72,27 +74,46 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
         asperity_scene::library::own_folder().as_deref(),
         Path::new("."),
     );
-    let row = |entry: &Entry| {
-        [
-            entry.name.clone(),
-            entry.error().unwrap_or_else(|| entry.title().to_owned()),
-        ]
-    };
-    let text = || Sheet::of_table(&entries.iter().map(row).collect::<Vec<_>>());
-    let objects = entries.iter().map(|entry| {
-        object! {
-            "name": &entry.name,
-            "title": entry.title(),
-            "notice": entry.notice(),
-            "path"?: entry.path.as_ref().map(|path| path.display().to_string()),
-            "error"?: entry.error(),
+    let scenes = entries.iter().map(SceneEntry::of).collect();
+    format.write(stdout, || table(&entries), &SceneList { scenes })
+}
+
+/// Returns a table of names and titles; a scene with an error has the error in place of its title.
+fn table(entries: &[Entry]) -> String {
+    let mut rows = Vec::with_capacity(entries.len());
+    for entry in entries {
+        let title = entry.error().unwrap_or_else(|| entry.title().to_owned());
+        rows.push([entry.name.clone(), title]);
+    }
+    Sheet::of_table(&rows)
+}
+
+#[derive(Serialize)]
+struct SceneList<'a> {
+    scenes: Vec<SceneEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct SceneEntry<'a> {
+    name: &'a str,
+    title: &'a str,
+    notice: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+}
+
+impl SceneEntry<'_> {
+    fn of(entry: &Entry) -> SceneEntry<'_> {
+        SceneEntry {
+            name: &entry.name,
+            title: entry.title(),
+            notice: entry.notice(),
+            path: entry.path.as_ref().map(|path| path.display().to_string()),
+            error: entry.error(),
         }
-    });
-    format.write(
-        stdout,
-        text,
-        &object! { "scenes": objects.collect::<Vec<_>>() },
-    )
+    }
 }
 
 fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
@@ -134,5 +155,6 @@ fn profile_error(document: &Document) -> Option<String> {
         .make_line(scene)
         .err()?;
     let (line, column) = document.place("roughness.file");
+    let error = advised(&error);
     Some(format!("{}:{line}:{column}: {error}", document.name()))
 }

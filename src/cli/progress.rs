@@ -64,6 +64,9 @@ pub(super) struct Task<'a> {
     pub begins: String,
 }
 
+/// Shows no progress of a short computation, which a signal can still end.
+pub(super) fn show_nothing<P>(_: &P, _: &mut ProgressLine) {}
+
 /// Runs a computation. `show` shows its progress on a terminal, where the last text is removed at
 /// the end. A signal that asks the process to end ends the computation.
 ///

@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
-use super::progress::{ProgressLine, Task, watched};
+use super::progress::{Task, show_nothing, watched};
 use super::scene::{SceneArguments, holds_warnings, simulation_of, staircase_of, warn};
 use asperity_data::AxisScale;
 use asperity_report::{Format, ReversalReport};
@@ -46,10 +46,8 @@ fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     let (forces, count) = text
         .split_once(':')
         .map_or((text, None), |(forces, count)| (forces, Some(count)));
-    let (least, most) = (
-        ReversalMap::TURNING_POINTS.start(),
-        ReversalMap::TURNING_POINTS.end(),
-    );
+    let least = ReversalMap::TURNING_POINTS.start();
+    let most = ReversalMap::TURNING_POINTS.end();
     let allowed =
         || format!("allowed: after the colon a number of turning points from {least} to {most}");
     let count = count.map_or(Ok(USUAL), |count| {
@@ -125,8 +123,7 @@ fn map_of(
         threads: 1,
         begins: format!("{count} turning points"),
     };
-    let show = |(): &(), _: &mut ProgressLine| ();
-    watched(task, show, |control| {
+    watched(task, show_nothing::<()>, |control| {
         simulation.reversal_map(document.scene(), ends, count, &|| control.is_stopped())
     })
 }
@@ -138,9 +135,8 @@ fn adhesion_at(document: &Document, preloads: &Axis) -> Result<Results, CliError
         threads: 1,
         begins: format!("{} preloads", preloads.count()),
     };
-    let show = |_: &Results, _: &mut ProgressLine| ();
     let mut simulation = simulation_of(document);
-    watched(task, show, |control| {
+    watched(task, show_nothing, |control| {
         let record = &Results::OF_PRELOADS;
         let preloads = Some(preloads);
         Results::of_scene(

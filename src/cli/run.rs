@@ -108,6 +108,13 @@ struct Chosen<'a> {
     choice: Option<Choice>,
 }
 
+impl Chosen<'_> {
+    /// Returns the scene with its title.
+    fn titled(&self) -> (String, Scene) {
+        (self.document.title().to_owned(), Scene::clone(&self.scene))
+    }
+}
+
 impl RunArguments {
     /// Returns true for figures of profiles or patches.
     fn has_sections(&self) -> bool {
@@ -173,15 +180,19 @@ impl RunArguments {
             threads: threads(None),
             begins: String::new(),
         };
-        let show = |springs: &u64, line: &mut ProgressLine| {
-            line.show(&format!("trying {} springs", grouped(*springs)), None);
-        };
-        let choice = watched(task, show, |mut control| {
-            let folder = document.resolve("");
-            let stop = control.stop();
-            let mut report = |springs: u64| control.report(springs);
-            choose(document.scene(), &folder, tolerance, stop, &mut report)
-        })?;
+        let choice = watched(
+            task,
+            |springs: &u64, line: &mut ProgressLine| {
+                line.show(&format!("trying {} springs", grouped(*springs)), None)
+            },
+            |mut control| {
+                let folder = document.resolve("");
+                let stop = control.stop();
+                choose(document.scene(), &folder, tolerance, stop, &mut |springs| {
+                    control.report(springs)
+                })
+            },
+        )?;
         if format != Format::Text || !self.more.is_empty() {
             let _ = writeln!(
                 io::stderr(),
@@ -213,12 +224,13 @@ impl RunArguments {
             &[]
         };
         let mut simulation = Simulation::new(document.resolve(""));
-        let show = |ensemble: &Ensemble, line: &mut ProgressLine| {
-            line.show(&random_profiles(ensemble.computed(), count), None);
-        };
-        let ensemble = watched(self.profiles_task(document, count), show, |control| {
-            Ensemble::of(scene, further, count, &mut simulation, control)
-        })?;
+        let ensemble = watched(
+            self.profiles_task(document, count),
+            |ensemble: &Ensemble, line: &mut ProgressLine| {
+                line.show(&random_profiles(ensemble.computed(), count), None)
+            },
+            |control| Ensemble::of(scene, further, count, &mut simulation, control),
+        )?;
         Ok(Some(ensemble))
     }
 
@@ -239,12 +251,13 @@ impl RunArguments {
         ensemble: &Ensemble,
     ) -> Result<Option<f64>, CliError> {
         let count = ensemble.profiles();
-        let show = |computed: &u64, line: &mut ProgressLine| {
-            line.show(&random_profiles(*computed, count), None);
-        };
-        watched(self.profiles_task(document, count), show, |control| {
-            MeasuredAdhesion::quick_deviation(document, count, control)
-        })
+        watched(
+            self.profiles_task(document, count),
+            |computed: &u64, line: &mut ProgressLine| {
+                line.show(&random_profiles(*computed, count), None)
+            },
+            |control| MeasuredAdhesion::quick_deviation(document, count, control),
+        )
     }
 
     /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads
@@ -282,20 +295,23 @@ impl RunArguments {
         if count == 1 {
             simulation = simulation_of(document);
         }
-        let show = |results: &Results, line: &mut ProgressLine| {
-            line.show(&random_profiles(results.profiles_done(), count), None);
-        };
-        watched(self.profiles_task(document, count), show, |control| {
-            let record = &Results::OF_PRELOADS;
-            Results::of_scene(
-                scene,
-                record,
-                count,
-                Some(preloads),
-                &mut simulation,
-                control,
-            )
-        })
+        watched(
+            self.profiles_task(document, count),
+            |results: &Results, line: &mut ProgressLine| {
+                line.show(&random_profiles(results.profiles_done(), count), None)
+            },
+            |control| {
+                let record = &Results::OF_PRELOADS;
+                Results::of_scene(
+                    scene,
+                    record,
+                    count,
+                    Some(preloads),
+                    &mut simulation,
+                    control,
+                )
+            },
+        )
     }
 }
 
@@ -310,22 +326,19 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
         .iter()
         .map(|document| arguments.chosen(document, format));
     let chosen = chosen.collect::<Result<Vec<_>, CliError>>()?;
-    let mut write = |report: &dyn Report| {
-        let of = |one: &Chosen<'_>| (one.document.title().to_owned(), Scene::clone(&one.scene));
-        match &chosen[..] {
-            [
-                Chosen {
-                    document, scene, ..
-                },
-            ] => arguments
+    let mut write = |report: &dyn Report| match &chosen[..] {
+        [
+            Chosen {
+                document, scene, ..
+            },
+        ] => arguments
+            .output
+            .write(stdout, report, format, Origin::Scene(document, scene)),
+        several => {
+            let scenes: Vec<_> = several.iter().map(Chosen::titled).collect();
+            arguments
                 .output
-                .write(stdout, report, format, Origin::Scene(document, scene)),
-            several => {
-                let scenes: Vec<_> = several.iter().map(of).collect();
-                arguments
-                    .output
-                    .write(stdout, report, format, Origin::Scenes(&scenes))
-            }
+                .write(stdout, report, format, Origin::Scenes(&scenes))
         }
     };
     match &arguments.preloads {
@@ -435,11 +448,14 @@ fn estimated(
         threads: 1,
         begins: "estimating the error".to_owned(),
     };
-    let show = |(): &(), _: &mut ProgressLine| ();
-    watched(task, show, |control| {
-        let folder = document.resolve("");
-        Ok::<_, Infallible>(estimate(scene, &folder, outcome, control.stop()))
-    })
+    watched(
+        task,
+        |(): &(), _: &mut ProgressLine| (),
+        |control| {
+            let folder = document.resolve("");
+            Ok::<_, Infallible>(estimate(scene, &folder, outcome, control.stop()))
+        },
+    )
 }
 
 /// The warnings of a result: of an ensemble with the number of its profiles, of a single outcome as
@@ -458,33 +474,29 @@ fn run_preloads(
     format: Format,
     write: &mut WriteReport<'_>,
 ) -> Result<(), CliError> {
-    let report = |one: &Chosen<'_>, is_drawn| arguments.adhesion(one, preloads, is_drawn);
     if let [one] = chosen {
-        let (results, staircase) = report(one, format.is_picture())?;
+        let (results, staircase) = arguments.adhesion(one, preloads, format.is_picture())?;
         if !holds_warnings(format) {
             let warnings = counted_texts(&results.all_warnings(), results.plan().lines);
             warn(one.document, &warnings);
         }
-        let (title, choice) = (one.document.title(), one.choice.as_ref());
-        let (results, staircase, curves) = (&results, staircase.as_ref(), arguments.curves);
         return write(&PreloadReport {
-            title,
-            choice,
-            results,
-            staircase,
-            curves,
+            title: one.document.title(),
+            choice: one.choice.as_ref(),
+            results: &results,
+            staircase: staircase.as_ref(),
+            curves: arguments.curves,
         });
     }
     let mut figures = Vec::new();
     for one in chosen {
-        let (results, staircase) = report(one, true)?;
-        let (title, results, staircase) = (one.document.title(), &results, staircase.as_ref());
+        let (results, staircase) = arguments.adhesion(one, preloads, true)?;
         figures.extend(
             PreloadReport {
-                title,
+                title: one.document.title(),
                 choice: None,
-                results,
-                staircase,
+                results: &results,
+                staircase: staircase.as_ref(),
                 curves: false,
             }
             .drawn(false),
@@ -495,7 +507,8 @@ fn run_preloads(
 
 /// Figure of the profiles of the scenes with their contact, or of their contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
-    let (mut figures, has_patches) = (Vec::new(), arguments.draw == Some(Drawn::Patches));
+    let has_patches = arguments.draw == Some(Drawn::Patches);
+    let mut figures = Vec::new();
     for Chosen {
         document, scene, ..
     } in chosen

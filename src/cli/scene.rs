@@ -139,13 +139,16 @@ pub(super) fn compute_stages(
         threads: 1,
         begins: format!("0 of {stages} stages"),
     };
-    let show = |done: &usize, line: &mut ProgressLine| {
-        line.show(&format!("{done} of {stages} stages"), None);
-    };
-    watched(task, show, |mut control: Control<'_, usize>| {
-        let stop = control.stop();
-        run(stop, &mut |stage| control.report(stage + 1))
-    })
+    watched(
+        task,
+        |done: &usize, line: &mut ProgressLine| {
+            line.show(&format!("{done} of {stages} stages"), None)
+        },
+        |mut control: Control<'_, usize>| {
+            let stop = control.stop();
+            run(stop, &mut |stage| control.report(stage + 1))
+        },
+    )
 }
 
 /// Function that returns true if a computation is to end.
@@ -163,12 +166,13 @@ pub(super) fn staircase_of(
         threads: 1,
         begins: "0 preloads".to_owned(),
     };
-    let show = |staircase: &Staircase, line: &mut ProgressLine| {
-        line.show(&format!("{} preloads", staircase.forces.len()), None);
-    };
-    watched(task, show, |control| {
-        Staircase::of(scene, preloads, simulation, control)
-    })
+    watched(
+        task,
+        |staircase: &Staircase, line: &mut ProgressLine| {
+            line.show(&format!("{} preloads", staircase.forces.len()), None)
+        },
+        |control| Staircase::of(scene, preloads, simulation, control),
+    )
 }
 
 /// Number of threads that share the profiles: the requested number, or one for each core.

@@ -42,13 +42,14 @@ pub(super) fn sensitivity(
         threads: threads(arguments.jobs),
         begins: "0 profiles".to_owned(),
     };
-    let show = |found: &Sensitivity, line: &mut ProgressLine| {
-        line.show(&format!("{} profiles", found.profiles), None);
-    };
     let mut simulation = Simulation::new(document.resolve(""));
-    let found = watched(task, show, |control| {
-        Sensitivity::of(scene, &mut simulation, control)
-    })?;
+    let found = watched(
+        task,
+        |found: &Sensitivity, line: &mut ProgressLine| {
+            line.show(&format!("{} profiles", found.profiles), None)
+        },
+        |control| Sensitivity::of(scene, &mut simulation, control),
+    )?;
     let report = SensitivityReport {
         title: document.title(),
         scene,

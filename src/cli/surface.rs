@@ -136,8 +136,7 @@ impl SurfaceArguments {
                 "allowed: from 1e-15 to 10 m",
             ));
         }
-        let name = |file: &PathBuf| file.to_string_lossy().into_owned();
-        let mut files = self.files.iter().map(name);
+        let mut files = self.files.iter().map(in_unicode);
         let number = self
             .channel
             .as_ref()
@@ -147,7 +146,7 @@ impl SurfaceArguments {
             surface_name: self.channel.clone().filter(|_| number.is_none()),
             file: files.next().unwrap_or_default(),
             further_files: files.collect(),
-            opposite: self.opposite.as_ref().map(name),
+            opposite: self.opposite.as_ref().map(in_unicode),
             spacing: self.in_metres("--spacing", self.spacing)?,
             continue_to,
             ..self.measured.clone()
@@ -170,21 +169,24 @@ impl SurfaceArguments {
     /// Returns an error for an output file that is one of the measured files, even with `--force`:
     /// it could not be measured again.
     fn check_outputs(&self) -> Result<(), CliError> {
-        let place = |file: &Path| file.canonicalize().ok();
-        let outputs: Vec<PathBuf> = [self.output.file(), self.scene.as_deref()]
-            .into_iter()
-            .flatten()
-            .filter_map(place)
-            .collect();
-        let mut files = self.files.iter().chain(&self.opposite);
-        match files.find(|file| place(file).is_some_and(|file| outputs.contains(&file))) {
-            Some(file) => Err(CliError::named(
-                path_name(file),
-                "the output would replace this measured file; allowed: another name",
-            )),
-            None => Ok(()),
+        let mut outputs = Vec::new();
+        for output in [self.output.file(), self.scene.as_deref()] {
+            outputs.extend(output.and_then(|output| output.canonicalize().ok()));
         }
+        for file in self.files.iter().chain(&self.opposite) {
+            if let Ok(place) = file.canonicalize()
+                && outputs.contains(&place)
+            {
+                let fault = "the output would replace this measured file; allowed: another name";
+                return Err(CliError::named(path_name(file), fault));
+            }
+        }
+        Ok(())
     }
+}
+
+fn in_unicode(file: &PathBuf) -> String {
+    file.to_string_lossy().into_owned()
 }
 
 /// Task of analysing a measured surface, and of computing the adhesion of its equivalent line.
@@ -258,7 +260,8 @@ impl SurfaceTask {
     /// Reads and analyses the files of one face.
     fn face(&self, files: &[PathBuf]) -> Result<MeasuredFace, CliError> {
         let options = self.options();
-        let (mut surfaces, mut facts) = (Vec::new(), Vec::new());
+        let mut surfaces = Vec::new();
+        let mut facts = Vec::new();
         for file in files {
             let read = read(file, &options.reading);
             let read = read.map_err(|error| {
@@ -371,13 +374,14 @@ impl SurfaceTask {
             threads: self.jobs,
             begins: "reading and analysing the files".to_owned(),
         };
-        let show = |profiles: &ComputedProfiles, line: &mut ProgressLine| {
-            let ComputedProfiles { computed, all } = profiles;
-            line.show(&format!("{computed} of {all} random profiles"), None);
-        };
-        watched(task, show, |control| {
-            self.report(self.faces()?, computes_adhesion, control)
-        })
+        watched(
+            task,
+            |profiles: &ComputedProfiles, line: &mut ProgressLine| {
+                let ComputedProfiles { computed, all } = profiles;
+                line.show(&format!("{computed} of {all} random profiles"), None);
+            },
+            |control| self.report(self.faces()?, computes_adhesion, control),
+        )
     }
 }
 

@@ -9,7 +9,7 @@ use super::panes::row::{Exported, OPEN_COMMAND};
 use super::theme::Theme;
 use super::view;
 use crate::explorer::command_line::command_line;
-use asperity_data::{WriteError, object, write_new_file};
+use asperity_data::{Table, WriteError, write_new_file};
 use asperity_plot::{Figure, Palette, screen_svg, screen_text};
 use asperity_report::{Format, Json, Report, scene_provenance};
 use asperity_scene::Scene;
@@ -17,6 +17,7 @@ use asperity_scene::library::own_folder;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
+use serde::Serialize;
 use std::fs::create_dir_all;
 use std::io;
 use std::io::Write;
@@ -122,10 +123,18 @@ struct SceneTable<'a> {
 
 impl Report for SceneTable<'_> {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(
-            object! { "scene": self.scene, "rows": self.table.table()? },
-        ))
+        Some(Box::new(SceneRows {
+            scene: self.scene,
+            rows: self.table.table()?,
+        }))
     }
+}
+
+/// A scene and the rows of a table, in the order of the keys of the JSON.
+#[derive(Serialize)]
+struct SceneRows<'a> {
+    scene: &'a Scene,
+    rows: Table<'a>,
 }
 
 /// Returns the selected pane as a figure. If the list of parameters is selected, it is the force

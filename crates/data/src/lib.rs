@@ -12,8 +12,6 @@ mod json;
 pub mod memory;
 pub mod npy;
 mod numerics;
-#[cfg(feature = "files")]
-mod object;
 pub mod parallel;
 mod powers;
 mod quantity;
@@ -46,8 +44,6 @@ pub use numerics::{
     CompensatedSum, between, gauss_nodes_on_quarter_circle, mean, median, quantile, quartiles,
     root_mean_square, slope, standard_deviation, student_quantile,
 };
-#[cfg(feature = "files")]
-pub use object::{Object, ObjectEntry, Optional};
 pub use parallel::{in_parallel, on_this_thread, on_threads};
 pub use powers::{integral_of_power, sum_of_powers};
 pub use quantity::{

@@ -96,20 +96,25 @@ type Curve = Vec<(f64, Vec<f64>)>;
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
-    let share = |cell: u64, line: u64| study.value(cell, line, protocol);
-    let mut cells = Vec::new();
+    let mut rows: Vec<(f64, Vec<Option<f64>>)> = Vec::new();
     for (place, &value) in (0..).zip(&plan.axes[along].values) {
         let cell = first + place * step;
-        if (0..plan.lines).any(|line| share(cell, line).is_some()) {
-            cells.push((value, cell));
+        let lines = 0..plan.lines;
+        let shares: Vec<_> = lines
+            .map(|line| study.value(cell, line, protocol))
+            .collect();
+        if shares.iter().any(Option::is_some) {
+            rows.push((value, shares));
         }
     }
-    let is_common = |line: &u64| cells.iter().all(|(_, cell)| share(*cell, *line).is_some());
-    let lines: Vec<u64> = (0..plan.lines).filter(is_common).collect();
-    let mut curve = Curve::with_capacity(cells.len());
-    for (value, cell) in cells {
-        let shares = lines.iter().filter_map(|line| share(cell, *line));
-        curve.push((value, shares.collect()));
+    let mut curve: Curve = rows.iter().map(|(value, _)| (*value, Vec::new())).collect();
+    for line in 0..plan.lines as usize {
+        if rows.iter().any(|(_, shares)| shares[line].is_none()) {
+            continue;
+        }
+        for ((_, common), (_, shares)) in curve.iter_mut().zip(&rows) {
+            common.extend(shares[line]);
+        }
     }
     curve.sort_by(|one, other| one.0.total_cmp(&other.0));
     curve
@@ -238,31 +243,33 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     let count = curve.first().map_or(0, |(_, shares)| shares.len());
     let every: Vec<usize> = (0..count).collect();
     let (value, side) = crossing_of(curve, &every, level);
-    let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
-    let mut resample = || {
-        let chosen: Vec<usize> = every
-            .iter()
-            .map(|_| random.random_range(0..count))
-            .collect();
-        Some(crossing_of(curve, &chosen, level))
-            .filter(|(_, side)| side.is_eq())
-            .map(|(value, _)| value)
-    };
-    // An interval that reaches beyond the study is unknown.
-    let resampled: Option<Vec<f64>> = if side.is_eq() && count >= 2 {
-        (0..RESAMPLES).map(|_| resample()).collect()
-    } else {
-        None
-    };
-    let interval = resampled.and_then(|mut values| {
-        values.sort_by(f64::total_cmp);
-        quantile(&values, 0.025).zip(quantile(&values, 0.975))
-    });
+    let mut interval = None;
+    if side.is_eq() && count >= 2 {
+        interval = resampled_interval(curve, count, level);
+    }
     Crossing {
         value,
         side,
         interval,
     }
+}
+
+/// Returns the interval of 95 % of the crossing by resampling of the profiles; `None` if it reaches
+/// beyond the study.
+fn resampled_interval(curve: &Curve, count: usize, level: f64) -> Option<(f64, f64)> {
+    let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
+    let mut values = Vec::new();
+    for _ in 0..RESAMPLES {
+        let profiles = 0..count;
+        let chosen: Vec<usize> = profiles.map(|_| random.random_range(0..count)).collect();
+        let (value, side) = crossing_of(curve, &chosen, level);
+        if side.is_ne() {
+            return None;
+        }
+        values.push(value);
+    }
+    values.sort_by(f64::total_cmp);
+    quantile(&values, 0.025).zip(quantile(&values, 0.975))
 }
 
 /// Returns the κ above which the mean over the chosen profiles stays below a share, by linear

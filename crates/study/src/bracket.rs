@@ -59,11 +59,10 @@ pub(super) fn passage(
     if coordinates.is_discrete() {
         return between_whole(coordinates, passage, ends, value);
     }
-    let point = |tried: Tried| Point {
+    let [mut other, mut last] = ends.map(|tried| Point {
         place: coordinates.coordinate(tried.number),
         excess: passage.excess(tried.value),
-    };
-    let (mut other, mut last) = (point(ends[0]), point(ends[1]));
+    });
     let floor = LEAST * coordinates.length();
     let mut share: f64 = 0.5;
     loop {

@@ -48,23 +48,18 @@ impl Budget {
             .figures
             .adhesion_force
             .filter(|force| *force > 0.0)?;
-        let finite = |share: f64| Some(share).filter(|share| share.is_finite());
         forces.sort_by(f64::total_cmp);
         let median = quantile(&forces, 0.5).unwrap_or(force);
-        let grid =
-            estimate.and_then(|estimate| finite(estimate.of_adhesion_force(outcome)? / force));
-        let sample =
-            median_interval(&forces).and_then(|(low, high)| finite(0.5 * (high - low) / median));
-        let surface = deviation.and_then(|deviation| finite(2.0 * deviation / median));
-        let known = [("grid", grid), ("sample", sample), ("surface", surface)];
-        let known = known
-            .into_iter()
-            .filter_map(|(name, share)| Some((name, share?)));
-        let largest = known
-            .max_by(|one, other| one.1.total_cmp(&other.1))
-            .map(|(name, _)| name);
+        let error_of_grid = estimate.and_then(|estimate| estimate.of_adhesion_force(outcome));
+        let grid = finite(error_of_grid.map(|error| error / force));
+        let interval = median_interval(&forces);
+        let sample = finite(interval.map(|(low, high)| 0.5 * (high - low) / median));
+        let surface = finite(deviation.map(|deviation| 2.0 * deviation / median));
+        let mut largest = None;
         // A premise that does not hold may cause a larger error than all that are known.
-        let largest = largest.filter(|_| !outcome.warnings.iter().any(Warning::exceeds_errors));
+        if !outcome.warnings.iter().any(Warning::exceeds_errors) {
+            largest = largest_source([("grid", grid), ("sample", sample), ("surface", surface)]);
+        }
         Some(Budget {
             grid,
             sample,
@@ -92,6 +87,26 @@ impl Budget {
             ..self
         }
     }
+}
+
+/// Returns an error that is a number; `None` for one that is unknown or too large for a number.
+fn finite(error: Option<f64>) -> Option<f64> {
+    error.filter(|error| error.is_finite())
+}
+
+/// Returns the name of the largest known error, of equal ones the last.
+fn largest_source(errors: [(&'static str, Option<f64>); 3]) -> Option<&'static str> {
+    let mut largest = None;
+    let mut most = f64::NEG_INFINITY;
+    for (name, error) in errors {
+        if let Some(error) = error
+            && error.total_cmp(&most).is_ge()
+        {
+            most = error;
+            largest = Some(name);
+        }
+    }
+    largest
 }
 
 #[cfg(test)]

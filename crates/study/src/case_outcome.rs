@@ -90,22 +90,28 @@ impl ProfileRecord {
     /// Computes the statistics of the heights of a profile with these gaps in m. `deepest` is the
     /// largest gap.
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
-        let average = |of: &dyn Fn(f64) -> f64| {
-            gaps.iter().map(|gap| of(*gap)).sum::<f64>() / gaps.len() as f64
-        };
-        let mean = average(&|gap| gap);
+        let count = gaps.len() as f64;
+        let mean = gaps.iter().sum::<f64>() / count;
         // In units of the deepest gap, or of the rms height: powers of heights could leave the
         // range of numbers.
-        let square = average(&|gap| ((gap - mean) / deepest).powi(2));
+        let squares = gaps.iter().map(|gap| ((gap - mean) / deepest).powi(2));
+        let square = squares.sum::<f64>() / count;
         let rms = if deepest > 0.0 {
             square.sqrt() * deepest
         } else {
             0.0
         };
-        let unit = average(&|gap| (gap - mean).powi(2)).sqrt();
-        let z = |gap| (mean - gap) / unit;
-        let third = average(&|gap| z(gap) * z(gap) * z(gap));
-        let fourth = average(&|gap| z(gap) * z(gap) * z(gap) * z(gap));
+        let squares = gaps.iter().map(|gap| (gap - mean).powi(2));
+        let unit = (squares.sum::<f64>() / count).sqrt();
+        let mut third = -0.0;
+        let mut fourth = -0.0;
+        for gap in gaps {
+            let z = (mean - gap) / unit;
+            third += z * z * z;
+            fourth += z * z * z * z;
+        }
+        third /= count;
+        fourth /= count;
         let is_known = unit > 0.0 && third.is_finite() && fourth.is_finite();
         ProfileRecord {
             rms_height: Some(rms),

@@ -328,7 +328,7 @@ impl Comparison<'_> {
         };
         let group = (lines * passes / EVENTS_OF_PROFILES).max(1);
         let mut count = 0;
-        let mut receive = |()| {
+        on_threads_received(lines, self.threads, worker, &mut |()| {
             count += 1;
             if count % group == 0 {
                 control.report(ReferenceEvent::Profiles {
@@ -336,8 +336,7 @@ impl Comparison<'_> {
                     lines: lines * passes,
                 });
             }
-        };
-        on_threads_received(lines, self.threads, worker, &mut receive)
+        })
     }
 
     /// Returns the adhesion force of each profile, or its indentation at the preload.
@@ -371,8 +370,9 @@ impl Comparison<'_> {
                 Ok(square)
             }
         };
-        let mut receive = |event: ReferenceEvent| control.report(event);
-        on_threads_received(self.options.maps, threads, worker, &mut receive)
+        on_threads_received(self.options.maps, threads, worker, &mut |event| {
+            control.report(event)
+        })
     }
 
     fn square(
@@ -627,18 +627,19 @@ fn compared_loops(
     squares: &[SquareResult],
     figure: impl Fn(&Pulling) -> f64,
 ) -> Option<Compared> {
-    let figure_of = |loads: &Loads| loads.pulling.as_ref().map(&figure);
-    let coarse = squares
-        .iter()
-        .filter_map(|square| figure_of(square.coarse.as_ref()?));
-    let values = Values {
+    let mut values = Values {
         lines: lines.flatten().collect(),
-        squares: squares
-            .iter()
-            .filter_map(|square| figure_of(&square.fine))
-            .collect(),
-        coarse: coarse.collect(),
+        squares: Vec::new(),
+        coarse: Vec::new(),
     };
+    for square in squares {
+        values
+            .squares
+            .extend(square.fine.pulling.as_ref().map(&figure));
+        if let Some(coarse) = &square.coarse {
+            values.coarse.extend(coarse.pulling.as_ref().map(&figure));
+        }
+    }
     values.compared()
 }
 

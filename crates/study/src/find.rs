@@ -72,7 +72,6 @@ impl Found {
         let plan = &question.plan;
         let lines: Vec<u64> = (0..plan.lines).collect();
         let stop = control.stop();
-        let solve = |simulation: &mut Simulation, line| question.answer(simulation, line, stop);
         let mut answers = vec![Answer::default(); lines.len()];
         let mut reasons = vec![None; lines.len()];
         let mut finished = 0;
@@ -81,7 +80,7 @@ impl Found {
             &lines,
             simulation,
             control.threads(),
-            solve,
+            |simulation: &mut Simulation, line| question.answer(simulation, line, stop),
             &mut |line, (answer, reason)| {
                 answers[line as usize] = answer;
                 reasons[line as usize] = reason;

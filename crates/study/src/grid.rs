@@ -211,8 +211,11 @@ impl Grid {
     /// is true, a cell that is not computed yet has the regime of the cell that [`Grid::shown`]
     /// returns for it.
     pub fn regimes(&self, quantity: Quantity, whole: bool) -> Vec<Option<Regime>> {
-        let most = |cell: Option<&GridCell>| Some(cell?.regimes_of(quantity).most()?.0);
-        let regimes: Vec<_> = self.each(whole).map(most).collect();
+        let mut regimes = Vec::new();
+        for cell in self.each(whole) {
+            let most = cell.and_then(|cell| cell.regimes_of(quantity).most());
+            regimes.push(most.map(|(regime, _)| regime));
+        }
         if regimes.iter().all(Option::is_none) {
             Vec::new()
         } else {
@@ -279,14 +282,14 @@ fn nearest_index(index: f64, count: usize) -> usize {
 /// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ
 /// vertical. Among other free axes the first is horizontal. Returns `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
-    let path = |axis: usize| axes[axis].path.as_str();
     let mut up = None;
     let mut across = None;
     for &axis in free {
-        if up.is_none() && RoughnessParameter::named(path(axis)).is_some() {
+        let path = axes[axis].path.as_str();
+        if up.is_none() && RoughnessParameter::named(path).is_some() {
             up = Some(axis);
         }
-        if across.is_none() && path(axis) == "roughness.hurst" {
+        if across.is_none() && path == "roughness.hurst" {
             across = Some(axis);
         }
     }

@@ -42,6 +42,14 @@ impl Level {
         Level::ALL[3 - too_fine]
     }
 
+    /// Returns the indices of the values of axis `axis` of a plan; 0 alone if there is no such axis.
+    fn places_on(self, plan: &Plan, axis: usize) -> Vec<usize> {
+        match plan.axes.get(axis) {
+            Some(axis) => self.places(axis),
+            None => vec![0],
+        }
+    }
+
     /// Returns the indices of the values of an axis on this level at about equal distances. An axis
     /// with few values has all of them.
     fn places(self, axis: &Axis) -> Vec<usize> {
@@ -86,17 +94,14 @@ impl LiveMap {
     /// the same value of H.
     pub fn cells(&self, level: Level) -> Vec<Vec<u64>> {
         let plan = self.plan();
-        let places_on = |axis: usize| match plan.axes.get(axis) {
-            Some(axis) => level.places(axis),
-            None => vec![0],
-        };
-        let parameters = places_on(0);
+        let parameters = level.places_on(plan, 0);
         let mut rows = Vec::new();
-        for hurst in places_on(1) {
-            let cells = parameters
-                .iter()
-                .map(|&parameter| plan.cell_at(&[parameter, hurst]));
-            rows.push(cells.collect());
+        for hurst in level.places_on(plan, 1) {
+            let mut cells = Vec::with_capacity(parameters.len());
+            for &parameter in &parameters {
+                cells.push(plan.cell_at(&[parameter, hurst]));
+            }
+            rows.push(cells);
         }
         rows
     }

@@ -31,8 +31,25 @@ const HURSTS: u32 = 19;
 /// Returns the values of κ with three digits, so that a scene with a shown value is exactly the
 /// scene of the cell.
 fn kappas() -> Vec<f64> {
-    let exact = |index: u32| ((f64::from(index) - 12.0) / 4.0).exp2();
-    (0..KAPPAS).map(|index| round_to(exact(index), 3)).collect()
+    let mut kappas = Vec::new();
+    for index in 0..KAPPAS {
+        let exact = ((f64::from(index) - 12.0) / 4.0).exp2();
+        kappas.push(round_to(exact, 3));
+    }
+    kappas
+}
+
+fn hursts() -> Vec<f64> {
+    let mut hursts = Vec::new();
+    for index in 1..=HURSTS {
+        hursts.push(f64::from(index) * 5.0 / 100.0);
+    }
+    hursts
+}
+
+/// Returns the error of a scene that has no map.
+fn refused(found: &str, allowed: &str) -> StudyError {
+    StudyError::refused(Some("no map"), found, allowed)
 }
 
 impl Plan {
@@ -64,13 +81,10 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of_map(scene: &Scene) -> Result<Plan, StudyError> {
-        let refused = |found, allowed| StudyError::refused(Some("no map"), found, allowed);
-        let adhesion = scene.adhesion.ok_or_else(|| {
-            refused(
-                "the scene has no adhesion, so no κ",
-                "adhesion, which t in its row switches on",
-            )
-        })?;
+        let Some(adhesion) = scene.adhesion else {
+            let found = "the scene has no adhesion, so no κ";
+            return Err(refused(found, "adhesion, which t in its row switches on"));
+        };
         if adhesion.closing_work().is_some() {
             let found = "two works of adhesion, of which none defines κ";
             return Err(refused(found, "no adhesion.closing_work"));
@@ -106,20 +120,17 @@ impl Plan {
             edges: Edges::SubCell,
             ..scene.numerics
         };
-        let hursts = || {
-            (1..=HURSTS)
-                .map(|index| f64::from(index) * 5.0 / 100.0)
-                .collect()
-        };
-        let hursts = has_hurst.then(|| ("roughness.hurst", Spacing::Linear, hursts()));
-        let kappas = (Kappa.path(), Spacing::Logarithmic, kappas());
-        let axes = [kappas].into_iter().chain(hursts);
         // Both are quantities of a scene.
-        let axes = axes
-            .filter_map(|(path, spacing, values)| Axis::new(path, spacing, values, &scene).ok());
+        let mut axes = Vec::new();
+        let logarithmic = Spacing::Logarithmic;
+        axes.extend(Axis::new(Kappa.path(), logarithmic, kappas(), &scene));
+        if has_hurst {
+            let path = "roughness.hurst";
+            axes.extend(Axis::new(path, Spacing::Linear, hursts(), &scene));
+        }
         let lines = if has_hurst { Plan::PROFILES_OF_MAP } else { 1 };
         Ok(Plan {
-            axes: axes.collect(),
+            axes,
             ..Plan::of_scene(&scene, lines, &MAP_RECORD)
         })
     }

@@ -201,11 +201,10 @@ impl MeasuredAdhesion {
         };
         let threads = control.threads();
         let mut computed = 0;
-        let mut receive = |()| {
+        let profiles = on_threads_received(u64::from(count), threads, worker, &mut |()| {
             computed += 1;
             control.report(computed);
-        };
-        let profiles = on_threads_received(u64::from(count), threads, worker, &mut receive)?;
+        })?;
         Ok(MeasuredAdhesion { profiles })
     }
 

@@ -20,9 +20,13 @@ impl Plan {
     /// # Errors
     /// Returns an error if the study needs more memory than the system provides now.
     pub fn memory(&self, jobs: u64) -> Result<u64, StudyError> {
-        let of_cell = |cell| {
-            let scene = self.scene_of(cell).ok()?;
-            let spare = 16 * scene.numerics.samples * scene.loading.len() as u64;
+        let mut job = 0;
+        let mut spare = 0;
+        for cell in self.extremes(MOST_CHECKED) {
+            let Ok(scene) = self.scene_of(cell) else {
+                continue;
+            };
+            spare = spare.max(16 * scene.numerics.samples * scene.loading.len() as u64);
             let peak = asperity_scene::stages::Workload::of(&scene).peak_bytes;
             let points = scene.numerics.points;
             let kept = if points <= LONGEST_KEPT {
@@ -34,12 +38,8 @@ impl Plan {
             // itself.
             let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
-            Some((peak + kept + reversed, spare))
-        };
-        let cells = self.extremes(MOST_CHECKED).into_iter().filter_map(of_cell);
-        let (job, spare) = cells.fold((0, 0), |(job, spare), one| {
-            (job.max(one.0), spare.max(one.1))
-        });
+            job = job.max(peak + kept + reversed);
+        }
         // The axes, and one byte for each record.
         let values: u64 = self.axes.iter().map(Axis::count).sum();
         let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);

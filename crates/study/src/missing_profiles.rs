@@ -47,13 +47,12 @@ impl MissingProfiles {
         stop: &Stop<'_>,
         receive: &mut dyn FnMut(SolvedProfile),
     ) -> Result<(), StudyError> {
-        let solve = |simulation: &mut Simulation, line| self.solve_line(simulation, line, stop);
         on_profiles(
             &self.plan,
             &self.lines,
             simulation,
             threads,
-            solve,
+            |simulation: &mut Simulation, line| self.solve_line(simulation, line, stop),
             &mut |_, solved| receive(solved),
         )
     }

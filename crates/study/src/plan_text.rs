@@ -9,7 +9,7 @@ use asperity_scene::library::{is_file_name, is_path};
 use asperity_scene::text::{
     LONGEST_TEXT, did_you_mean, explain, line_column, read_ron, ron_float, ron_string, to_ron,
 };
-use asperity_scene::{Document, Preset, Scene, SceneErrors, built_in, open};
+use asperity_scene::{Document, Preset, Scene, built_in, open};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -178,11 +178,9 @@ impl Plan {
     /// Reads a plan and checks it without the scenes of its cells.
     pub(super) fn read(text: &str, name: &str, changes: &Changes) -> Result<Plan, StudyError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let refused = |what: String| StudyError::Plan(vec![format!("{name}: {what}")]);
         if text.len() > LONGEST_TEXT {
-            return Err(refused(format!(
-                "the plan is too long: at most {LONGEST_TEXT} bytes are read"
-            )));
+            let wrong = format!("the plan is too long: at most {LONGEST_TEXT} bytes are read");
+            return Err(in_plan(vec![wrong], name));
         }
         let read: PlanText = read_ron(text).map_err(|error| {
             let (offset, error) = explain(text, &error);
@@ -190,10 +188,11 @@ impl Plan {
             StudyError::Plan(vec![format!("{name}:{line}:{column}: {}", error.what())])
         })?;
         if read.version != PLAN_VERSION {
-            return Err(refused(format!(
+            let wrong = format!(
                 "version = {}: allowed: {PLAN_VERSION} (version of the plan file)",
                 read.version
-            )));
+            );
+            return Err(in_plan(vec![wrong], name));
         }
         let scene = resolved_scene(&read, name, &changes.set)?;
         Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
@@ -263,40 +262,37 @@ impl Plan {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn to_ron(&self) -> String {
-        let mut lines = vec![format!("    version: {PLAN_VERSION},\n")];
-        let mut line = |name: &str, value: String| lines.push(format!("    {name}: {value},\n"));
+        let mut lines = Vec::new();
         for (name, text) in [("title", &self.title), ("notice", &self.notice)] {
             if !text.is_empty() {
-                line(name, ron_string(text));
+                lines.push((name, ron_string(text)));
             }
         }
-        line(
-            "scene",
-            to_ron(&self.scene).trim_end().replace('\n', "\n    "),
-        );
+        let scene = to_ron(&self.scene).trim_end().replace('\n', "\n    ");
+        lines.push(("scene", scene));
         let axes: String = self
             .axes
             .iter()
             .map(|axis| format!("        {},\n", in_ron(axis)))
             .collect();
-        line("axes", format!("[\n{axes}    ]"));
-        line("profiles", self.lines.to_string());
-        line("seed", self.seed.to_string());
+        lines.push(("axes", format!("[\n{axes}    ]")));
+        lines.push(("profiles", self.lines.to_string()));
+        lines.push(("seed", self.seed.to_string()));
         let names: Vec<_> = self.record.iter().map(|quantity| quantity.name()).collect();
-        line("record", format!("[{}]", names.join(", ")));
+        lines.push(("record", format!("[{}]", names.join(", "))));
         let StiffnessRange { from, to, count } = self.stiffness;
-        line(
-            "stiffness",
-            format!(
-                "(from: {}, to: {}, count: {count})",
-                ron_float(from),
-                ron_float(to)
-            ),
-        );
+        let from = ron_float(from);
+        let to = ron_float(to);
+        let stiffness = format!("(from: {from}, to: {to}, count: {count})");
+        lines.push(("stiffness", stiffness));
         if let Some(hash) = &self.measured_sha256 {
-            line("measured_sha256", ron_string(hash));
+            lines.push(("measured_sha256", ron_string(hash)));
         }
-        format!("(\n{})\n", lines.concat())
+        let mut text = format!("(\n    version: {PLAN_VERSION},\n");
+        for (name, value) in lines {
+            text += &format!("    {name}: {value},\n");
+        }
+        text + ")\n"
     }
 }
 
@@ -319,12 +315,11 @@ fn in_ron(axis: &Axis) -> String {
 }
 
 fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
-    StudyError::Plan(
-        wrong
-            .into_iter()
-            .map(|wrong| format!("{name}: {wrong}"))
-            .collect(),
-    )
+    let mut lines = Vec::with_capacity(wrong.len());
+    for wrong in wrong {
+        lines.push(format!("{name}: {wrong}"));
+    }
+    StudyError::Plan(lines)
 }
 
 /// Returns the scene of a plan with all replaced fields and with absolute paths.
@@ -333,37 +328,31 @@ fn resolved_scene(
     name: &str,
     set: &[(String, String)],
 ) -> Result<Scene, StudyError> {
-    let in_scene = |errors: SceneErrors| {
-        in_plan(
-            errors.to_string().lines().map(str::to_owned).collect(),
-            name,
-        )
-    };
-    let one_of = |given: &str| {
-        Err(in_plan(
-            vec![format!("{given}; allowed: one of them")],
-            name,
-        ))
-    };
-    let document = match (&read.base, &read.scene) {
-        (Some(_), Some(_)) => return one_of("`base` and `scene` are given"),
-        (None, None) => return one_of("neither `base` nor `scene` is given"),
-        (None, Some(scene)) => Document::from_scene(scene, name).map_err(in_scene)?,
+    let opened = match (&read.base, &read.scene) {
+        (Some(_), Some(_)) => return Err(not_one("`base` and `scene` are given", name)),
+        (None, None) => return Err(not_one("neither `base` nor `scene` is given", name)),
+        (None, Some(scene)) => Document::from_scene(scene, name),
         (Some(base), None) => {
             let beside = Path::new(name).parent().unwrap_or(Path::new("")).join(base);
             let beside = beside.to_string_lossy();
             let is_file = is_path(base) || Path::new(&*beside).is_file();
-            open(if is_file { &beside } else { base }).map_err(in_scene)?
+            open(if is_file { &beside } else { base })
         }
     };
-    let set: Vec<_> = read
-        .set
-        .clone()
-        .into_iter()
-        .chain(set.iter().cloned())
-        .collect();
-    let document = document.set_all(&set).map_err(in_scene)?;
-    Ok(with_absolute_paths(&document))
+    let mut all_set: Vec<(String, String)> = read.set.clone().into_iter().collect();
+    all_set.extend_from_slice(set);
+    match opened.and_then(|document| document.set_all(&all_set)) {
+        Ok(document) => Ok(with_absolute_paths(&document)),
+        Err(errors) => {
+            let lines = errors.to_string();
+            Err(in_plan(lines.lines().map(str::to_owned).collect(), name))
+        }
+    }
+}
+
+/// Returns the error of a plan that states its scene twice or never.
+fn not_one(given: &str, name: &str) -> StudyError {
+    in_plan(vec![format!("{given}; allowed: one of them")], name)
 }
 
 /// Returns the scene of a document whose files are found from any folder.

@@ -7,7 +7,7 @@ use crate::preloads::Staircase;
 use crate::profiles::Stop;
 use crate::results::Results;
 use crate::statistics::Statistics;
-use asperity_contact::{Figures, Move, Reversal};
+use asperity_contact::{Figures, Move};
 use asperity_data::{AxisScale, Control};
 use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
@@ -169,11 +169,10 @@ fn force_at_touch(
     stop: &Stop<'_>,
 ) -> Result<f64, StudyError> {
     let mut force = 0.0;
-    let mut receive = |_, reversal: Reversal| {
+    simulation.reverse(scene, &[Move::ToTouch], &[], stop, &mut |_, reversal| {
         force = reversal.turn.force;
         Ok(())
-    };
-    simulation.reverse(scene, &[Move::ToTouch], &[], stop, &mut receive)?;
+    })?;
     Ok(force)
 }
 

@@ -7,7 +7,7 @@ use super::profiles::Stop;
 use super::quantity::Quantity;
 use super::results::Results;
 use super::statistics::Statistics;
-use asperity_contact::{Move, Reversal};
+use asperity_contact::Move;
 use asperity_data::{AxisScale, Control, parse_quantity};
 use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
@@ -82,11 +82,12 @@ impl Axis {
         let Some((from, to)) = text.split_once("..") else {
             return Err(StudyError::refused(None, format!("{text:?}"), allowed));
         };
-        let number = |text: &str| {
-            parse_quantity(text, unit)
-                .map_err(|error| StudyError::refused(None, error.to_string(), allowed))
-        };
-        Ok((number(from)?, number(to)?))
+        match (parse_quantity(from, unit), parse_quantity(to, unit)) {
+            (Ok(from), Ok(to)) => Ok((from, to)),
+            (Err(error), _) | (_, Err(error)) => {
+                Err(StudyError::refused(None, error.to_string(), allowed))
+            }
+        }
     }
 
     /// Creates an axis of `count` preloads in N, from the first to the second of two forces.
@@ -189,7 +190,8 @@ impl Staircase {
     ) -> Result<Staircase, StudyError> {
         let stop = control.stop();
         let turns = turns_at(scene, &[Move::ToTouch, Move::ToZeroForce], simulation, stop)?;
-        let [touched, at_zero_force] = [turns[0], turns[1]];
+        let touched = turns[0];
+        let at_zero_force = turns[1];
         let below_touch = preloads
             .values
             .first()
@@ -228,7 +230,7 @@ impl Staircase {
 
     /// Returns the middles of the intervals of preloads that contain a step and are still wide.
     fn halves(&self) -> Vec<f64> {
-        let (Some(first), Some(last)) = (self.forces.first(), self.forces.last()) else {
+        let [first, .., last] = &self.forces[..] else {
             return Vec::new();
         };
         let width = self.scale.coordinate(last.0) - self.scale.coordinate(first.0);
@@ -273,14 +275,13 @@ fn turns_at(
     stop: &Stop<'_>,
 ) -> Result<Vec<Turned>, RunError> {
     let mut turns = vec![Turned::default(); ends.len()];
-    let mut receive = |index: usize, reversal: Reversal| {
+    simulation.reverse(scene, ends, &[], stop, &mut |index, reversal| {
         turns[index] = Turned {
             force: reversal.turn.force,
             adhesion_force: reversal.adhesion_force().unwrap_or(0.0),
         };
         Ok(())
-    };
-    simulation.reverse(scene, ends, &[], &|| stop(), &mut receive)?;
+    })?;
     Ok(turns)
 }
 
@@ -315,9 +316,16 @@ impl Results {
     /// N after this preload on each computed profile. The axis of the study must have preloads in
     /// N; `None` if this axis has no values.
     pub fn forces_near(&self, preload: f64) -> Option<(f64, Vec<f64>)> {
-        let distance = |cell: &u64| (self.plan.value(*cell, 0) - preload).abs();
-        let nearest =
-            (0..self.plan.cells()).min_by(|one, other| distance(one).total_cmp(&distance(other)));
+        let mut nearest = None;
+        let mut least = f64::NAN;
+        for cell in 0..self.plan.cells() {
+            let distance = (self.plan.value(cell, 0) - preload).abs();
+            // Of equally near preloads the first counts.
+            if nearest.is_none() || distance.total_cmp(&least).is_lt() {
+                nearest = Some(cell);
+                least = distance;
+            }
+        }
         nearest.map(|cell| self.forces_in(cell))
     }
 

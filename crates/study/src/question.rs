@@ -119,16 +119,19 @@ impl Question {
     pub fn parse_condition(text: &str) -> Result<(Quantity, f64), StudyError> {
         // The symbol F_a(F=0) has the sign itself.
         let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
-        let refused = |found: String| StudyError::refused(None, found, example);
-        let (name, value) = text
-            .rsplit_once('=')
-            .ok_or_else(|| refused(format!("{text:?}")))?;
-        let quantity = Quantity::named(name).map_err(refused)?;
+        let Some((name, value)) = text.rsplit_once('=') else {
+            return Err(StudyError::refused(None, format!("{text:?}"), example));
+        };
+        let quantity =
+            Quantity::named(name).map_err(|found| StudyError::refused(None, found, example))?;
         if quantity.is_regime() {
-            return Err(refused(format!("{} is not a number", quantity.name())));
+            let found = format!("{} is not a number", quantity.name());
+            return Err(StudyError::refused(None, found, example));
         }
-        let target = parse_quantity(value, quantity.unit())
-            .map_err(|error| refused(format!("value of {}: {error}", quantity.symbol_or_name())))?;
+        let target = parse_quantity(value, quantity.unit()).map_err(|error| {
+            let found = format!("value of {}: {error}", quantity.symbol_or_name());
+            StudyError::refused(None, found, example)
+        })?;
         let (least, most) = quantity.bounds();
         if target < least || target > most {
             let [found, least, end] =

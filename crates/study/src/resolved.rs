@@ -201,10 +201,11 @@ fn rises_everywhere(gaps: &[f64]) -> bool {
     let summit = (0..gaps.len())
         .min_by(|one, other| gaps[*one].total_cmp(&gaps[*other]))
         .unwrap_or(0);
-    let rises = |inner: f64, outer: f64| outer >= inner - ROUNDING * deepest;
+    let rounding = ROUNDING * deepest;
     let mut right = gaps[summit..].windows(2);
     let mut left = gaps[..=summit].windows(2);
-    right.all(|pair| rises(pair[0], pair[1])) && left.all(|pair| rises(pair[1], pair[0]))
+    right.all(|pair| pair[1] >= pair[0] - rounding)
+        && left.all(|pair| pair[0] >= pair[1] - rounding)
 }
 
 /// Converts an error of the scene itself.

@@ -212,10 +212,10 @@ impl Results {
 
     /// Returns the profiles that are not computed yet.
     pub(super) fn missing(&self, failures: Failures) -> MissingProfiles {
-        let is_missing = |line: &u64| !self.has(0, *line);
+        let lines = 0..self.plan.lines;
         MissingProfiles {
             plan: self.plan.clone(),
-            lines: (0..self.plan.lines).filter(is_missing).collect(),
+            lines: lines.filter(|line| !self.has(0, *line)).collect(),
             failures,
         }
     }

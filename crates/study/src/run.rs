@@ -100,11 +100,10 @@ pub fn run_study(
     let (path, mut file) = folder.new_file(shard)?;
     let units: Vec<u64> = shard.units(cells.units()).collect();
     let missing = MissingRecords { plan, done: &done };
-    let is_missing = |streak: &Streak| missing.has_any_of(streak);
     let streaks = Streaks {
         cells: &cells,
         units: &units,
-        is_missing: &is_missing,
+        is_missing: &|streak| missing.has_any_of(streak),
         profile: profile.as_ref(),
     };
     let (sender, receiver) = sync_channel(WAITING);

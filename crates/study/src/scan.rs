@@ -30,6 +30,13 @@ pub(super) struct Tried {
     pub value: f64,
 }
 
+impl Tried {
+    /// Returns true if the quantity has a value here.
+    fn is_known(&self) -> bool {
+        !self.value.is_nan()
+    }
+}
+
 /// Function that computes the quantity at several ascending numbers.
 pub(super) type Compute<'c> = dyn FnMut(&[f64]) -> Result<Vec<f64>, RunError> + 'c;
 
@@ -83,9 +90,10 @@ impl Scan {
     /// Computes the quantity at all allowed numbers between those without a value at the ends of
     /// the range, if these are few.
     fn complete(&mut self, compute: &mut Compute<'_>) -> Result<(), RunError> {
-        let is_known = |tried: &Tried| !tried.value.is_nan();
-        let first = self.tried.iter().position(is_known).unwrap_or(0);
-        let last = self.tried.iter().rposition(is_known).unwrap_or(0);
+        let mut tried = self.tried.iter();
+        let first = tried.position(Tried::is_known).unwrap_or(0);
+        let mut tried = self.tried.iter();
+        let last = tried.rposition(Tried::is_known).unwrap_or(0);
         let ends = [
             first.saturating_sub(1),
             (last + 1).min(self.tried.len() - 1),
@@ -154,11 +162,14 @@ impl Scan {
     /// Returns true if a crossing may be missed: the quantity comes close to the target between two
     /// numbers.
     pub fn may_miss(&self) -> bool {
-        let may_hide = |index: usize| {
-            let ends = [self.tried[index].number, self.tried[index + 1].number];
-            self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
-        };
-        !self.is_complete && (0..self.tried.len().saturating_sub(1)).any(may_hide)
+        let mut intervals = 0..self.tried.len().saturating_sub(1);
+        !self.is_complete && intervals.any(|index| self.may_hide(index))
+    }
+
+    /// Returns true if interval `index` may hide a crossing and has a number in it to try.
+    fn may_hide(&self, index: usize) -> bool {
+        let ends = [self.tried[index].number, self.tried[index + 1].number];
+        self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
     }
 
     /// Returns true if all allowed numbers are tried, so that nothing is missed.
@@ -184,7 +195,8 @@ impl Scan {
 
     /// Returns a number above 1 if interval `index` may hide a crossing.
     fn urgency(&self, index: usize) -> f64 {
-        let [from, to] = [self.tried[index].value, self.tried[index + 1].value];
+        let from = self.tried[index].value;
+        let to = self.tried[index + 1].value;
         if from.is_nan() && to.is_nan() {
             return 0.0;
         }
@@ -215,8 +227,7 @@ impl Scan {
     /// Returns true if interval `index` has an end at which the quantity is closer to the target
     /// than at the numbers beside it, and on the same side.
     fn turns(&self, index: usize) -> bool {
-        let distance = |point: usize| (self.tried[point].value - self.target).abs();
-        let end = if distance(index) <= distance(index + 1) {
+        let end = if self.distance(index) <= self.distance(index + 1) {
             index
         } else {
             index + 1
@@ -228,19 +239,24 @@ impl Scan {
         beside.into_iter().flatten().all(|point| {
             let same_side =
                 side(self.tried[point], self.target) == side(self.tried[end], self.target);
-            same_side && distance(point) >= distance(end)
+            same_side && self.distance(point) >= self.distance(end)
         })
+    }
+
+    /// Returns the distance of the quantity from the target at number `point`.
+    fn distance(&self, point: usize) -> f64 {
+        (self.tried[point].value - self.target).abs()
     }
 
     /// Returns the difference of the largest and the smallest value of the quantity.
     fn spread(&self) -> f64 {
-        let values = || {
-            self.tried
-                .iter()
-                .map(|tried| tried.value)
-                .filter(|value| !value.is_nan())
-        };
-        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+        let mut most = f64::NEG_INFINITY;
+        let mut least = f64::INFINITY;
+        for tried in self.tried.iter().filter(|tried| tried.is_known()) {
+            most = most.max(tried.value);
+            least = least.min(tried.value);
+        }
+        most - least
     }
 
     /// Returns how far the quantity may deviate from a straight line in interval `index`: the
@@ -259,9 +275,9 @@ impl Scan {
     /// Returns the deviation of the quantity at number `point` from a straight line through the
     /// neighbours, extrapolated to an interval of this width if it is wider.
     fn deviation_at(&self, point: usize, width: f64) -> Option<f64> {
-        let [before, here, after] =
-            [point.checked_sub(1)?, point, point + 1].map(|point| self.tried.get(point));
-        let [before, here, after] = [before?, here?, after?];
+        let before = self.tried.get(point.checked_sub(1)?)?;
+        let here = self.tried.get(point)?;
+        let after = self.tried.get(point + 1)?;
         let widths = [self.width(point - 1), self.width(point)];
         let share = widths[0] / (widths[0] + widths[1]);
         let straight = before.value + share * (after.value - before.value);

@@ -103,13 +103,10 @@ impl Search<'_> {
         let (numbers, _) = coordinates.spread(1, 1);
         let records = self.compute(&numbers)?;
         answer.is_proven = true;
-        let touch = |values: &Vec<f64>| {
-            values
-                .get(1)
-                .is_some_and(|force| *force >= self.question.target)
-        };
         let has_touch = at_touch(&self.question.axis, self.question.quantity).is_some();
-        answer.at_touch = has_touch && records.first().is_some_and(touch);
+        let force_at_touch = records.first().and_then(|values| values.get(1));
+        answer.at_touch =
+            has_touch && force_at_touch.is_some_and(|force| *force >= self.question.target);
         let tried: Vec<Tried> = self.known.clone();
         let values: Vec<f64> = tried.iter().map(|tried| tried.value).collect();
         if values.iter().any(|value| value.is_nan()) && !values.iter().all(|value| value.is_nan()) {
@@ -223,7 +220,8 @@ impl Search<'_> {
         to: Tried,
     ) -> Result<f64, RunError> {
         let target = self.question.target;
-        let (mut from, mut end) = (from, to);
+        let mut from = from;
+        let mut end = to;
         let mut falls_onto = side(from, target) != Some(Ordering::Less) && end.value == target;
         loop {
             let way = Passage { target, falls_onto };
@@ -259,15 +257,16 @@ impl Search<'_> {
     /// never pulls.
     fn climb(&mut self, preloads: &[f64]) -> Result<Vec<Stair>, RunError> {
         let records = self.compute(preloads)?;
-        let stair = |(&preload, values): (&f64, &Vec<f64>)| {
+        let mut stairs = Vec::with_capacity(preloads.len());
+        for (&preload, values) in preloads.iter().zip(&records) {
             let force = values.last().copied().unwrap_or_default();
-            Stair {
+            stairs.push(Stair {
                 preload,
                 adhesion_force: force.max(0.0),
                 value: values[0],
-            }
-        };
-        Ok(preloads.iter().zip(&records).map(stair).collect())
+            });
+        }
+        Ok(stairs)
     }
 
     /// Computes the recorded quantities at each of several numbers; NaN for those that have no

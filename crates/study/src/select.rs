@@ -134,12 +134,11 @@ impl Selection {
         if scale.is_none() && are_shares && is_any_logarithmic {
             scale = Some(AxisScale::Logarithmic);
         }
-        let shown: Vec<GridLayer> = grid
-            .layers
-            .iter()
-            .map(|known| layer(known.quantity, scale))
-            .collect();
-        grid.layers = shown;
+        let mut layers = Vec::with_capacity(grid.layers.len());
+        for known in &grid.layers {
+            layers.push(layer(known.quantity, scale));
+        }
+        grid.layers = layers;
         Ok(Selected {
             grid,
             quantities,
@@ -246,10 +245,17 @@ fn name_axis(
 /// those may be typed, and mean the nearest value.
 fn place_of(text: &str, axis: &Axis) -> Option<usize> {
     let wanted = parse_quantity(text, axis.unit).ok()?;
-    let distance = |place: &usize| (axis.values[*place] - wanted).abs();
-    (0..axis.values.len())
-        .filter(|place| distance(place) <= 5e-4 * axis.values[*place].abs())
-        .min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    let mut nearest = None;
+    let mut least = f64::INFINITY;
+    for (place, value) in axis.values.iter().enumerate() {
+        let distance = (value - wanted).abs();
+        // Of equally near values the first counts.
+        if distance <= 5e-4 * value.abs() && distance < least {
+            nearest = Some(place);
+            least = distance;
+        }
+    }
+    nearest
 }
 
 /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the

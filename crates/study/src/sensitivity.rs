@@ -245,9 +245,8 @@ impl Sensitivity {
 
 impl Neighbourhood {
     fn of(scene: &CheckedScene, profiles: u64) -> Neighbourhood {
-        let plan_of = |scene: &Scene| Plan::of_scene(scene, profiles, &Sensitivity::RESULTS);
         let mut variants = vec![Variant {
-            plan: plan_of(scene),
+            plan: Plan::of_scene(scene, profiles, &Sensitivity::RESULTS),
             shapes: Shapes::Passes,
             is_changed: false,
         }];
@@ -260,7 +259,7 @@ impl Neighbourhood {
                     return (number, None);
                 };
                 variants.push(Variant {
-                    plan: plan_of(&neighbour),
+                    plan: Plan::of_scene(&neighbour, profiles, &Sensitivity::RESULTS),
                     shapes: axis.target.shapes(),
                     is_changed: true,
                 });

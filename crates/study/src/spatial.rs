@@ -224,10 +224,13 @@ impl Body {
                 .map_err(HalfSpaceError::from)?,
         };
         if let Some(form) = &self.form {
-            let at = |index: usize| ((index as f64 + 0.5) / cells as f64 - 0.5) * self.side;
+            let mut distances = Vec::with_capacity(cells);
+            for index in 0..cells {
+                distances.push(((index as f64 + 0.5) / cells as f64 - 0.5) * self.side);
+            }
             for (index, height) in heights.iter_mut().enumerate() {
-                let x = at(index % cells);
-                let y = at(index / cells);
+                let x = distances[index % cells];
+                let y = distances[index / cells];
                 // Beside a punch the body is out of reach of any contact.
                 *height -= form.depth_in_square(x, y, self.side).unwrap_or(self.side);
             }

@@ -54,16 +54,17 @@ enum Found {
 
 impl Flight {
     fn has_step(&self) -> bool {
-        let [low, high] = [self.low.adhesion_force, self.high.adhesion_force];
+        let low = self.low.adhesion_force;
+        let high = self.high.adhesion_force;
         high - low > SAME * high.abs()
     }
 
     /// Looks for preloads at which F_a is `ratio` times the preload. `depth` is the number of
     /// splits before, and `range` the length of the searched range in N.
     fn look(&self, ratio: f64, depth: usize, range: f64) -> Found {
-        let (low, high) = (self.low, self.high);
-        let excess = |stair: Stair| stair.adhesion_force - ratio * stair.preload;
-        let is_above = [excess(low) > 0.0, excess(high) > 0.0];
+        let low = self.low;
+        let high = self.high;
+        let is_above = [low, high].map(|stair| stair.adhesion_force - ratio * stair.preload > 0.0);
         let crossed = is_above[0] != is_above[1];
         if !self.has_step() {
             let crossing = (low.adhesion_force / ratio).clamp(low.preload, high.preload);
@@ -189,7 +190,8 @@ pub(super) fn step_crossings(
         })
         .collect();
     let mut crossed = Vec::new();
-    let (mut computed, mut may_miss) = (0, false);
+    let mut computed = 0;
+    let mut may_miss = false;
     while !flights.is_empty() {
         let mut splits = Vec::new();
         let mut open = Vec::new();

@@ -68,7 +68,9 @@ impl Status {
     /// Returns an error if a file of the folder cannot be read or belongs to another plan.
     pub fn of(folder: &Folder) -> Result<Status, StudyError> {
         let total = folder.plan().records_in_all();
-        let (mut done, mut damaged, mut failed) = (vec![false; total as usize], 0, 0);
+        let mut done = vec![false; total as usize];
+        let mut damaged = 0;
+        let mut failed = 0;
         let mut attempts: BTreeMap<Shard, Vec<Attempt>> = BTreeMap::new();
         for file in folder.files()? {
             let mut records = 0;
@@ -100,16 +102,16 @@ impl Status {
             });
         }
         let cells = Cells::of(folder.plan());
-        let of_shard = |(shard, attempts): (Shard, Vec<Attempt>)| {
+        let mut shards = Vec::with_capacity(attempts.len());
+        for (shard, attempts) in attempts {
             let (total, there) = count(folder, &cells, &done, shard);
-            ShardStatus {
+            shards.push(ShardStatus {
                 shard: shard.to_string(),
                 total,
                 done: there,
                 attempts,
-            }
-        };
-        let shards = attempts.into_iter().map(of_shard).collect();
+            });
+        }
         let found = done.iter().filter(|done| **done).count() as u64;
         Ok(Status {
             done: found,
@@ -130,7 +132,8 @@ pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
 /// Returns the number of all records of a shard, and the number of existing ones. Counting all
 /// shards together takes as long as counting the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
-    let (mut total, mut there) = (0, 0);
+    let mut total = 0;
+    let mut there = 0;
     for Streak { cells, line } in shard
         .units(cells.units())
         .flat_map(|unit| cells.streaks(unit))

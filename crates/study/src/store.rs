@@ -190,7 +190,8 @@ impl Folder {
             .duration_since(UNIX_EPOCH)
             .unwrap_or_default();
         let started = begun.as_secs();
-        let (host, process) = (host(), std::process::id());
+        let host = host();
+        let process = std::process::id();
         let header = ShardHeader {
             format: STORE_VERSION,
             plan: self.checksum(),
@@ -204,18 +205,22 @@ impl Folder {
         let Shard { number, count } = shard;
         let name = format!("{number}-of-{count}-{host}-{process}-{started}-{random:08x}.{ENDING}");
         let path = self.path.join(SHARDS).join(name);
-        let write = || -> io::Result<File> {
-            let mut text = String::new();
-            seal(&serde_json::to_string(&header)?, &mut text);
-            let mut file = File::create_new(&path)?;
-            file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            // The name in the folder has to be durable as well.
-            sync_folder(&self.path.join(SHARDS))?;
-            Ok(file)
-        };
-        let file = write().map_err(StudyError::unwritable(&path))?;
+        let file = self
+            .begun_file(&path, &header)
+            .map_err(StudyError::unwritable(&path))?;
         Ok((path, file))
+    }
+
+    /// Creates a file with its header, of which neither a crash nor a power cut leaves a part.
+    fn begun_file(&self, path: &Path, header: &ShardHeader) -> io::Result<File> {
+        let mut text = String::new();
+        seal(&serde_json::to_string(header)?, &mut text);
+        let mut file = File::create_new(path)?;
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        // The name in the folder has to be durable as well.
+        sync_folder(&self.path.join(SHARDS))?;
+        Ok(file)
     }
 
     /// Returns the files with the results of all processes, sorted by name.
@@ -257,16 +262,18 @@ impl Folder {
             size.clamp(1 << 10, 1 << 18) as usize,
             opened,
         ));
-        let record = |line: &str| {
-            let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
-            let profile = seed.wrapping_sub(self.plan.seed);
-            let is_of_plan = cell < self.plan.cells() && profile < self.plan.lines;
-            is_of_plan.then_some((cell * self.plan.lines + profile, record))
-        };
         Ok(lines.skip(1).map(move |line| {
             let line = line.map_err(StudyError::unreadable(&file.path))?;
-            Ok(line.and_then(|line| record(&line)))
+            Ok(line.and_then(|line| self.read_record(&line)))
         }))
+    }
+
+    /// Reads a line of a file; `None` if it is no record of this plan.
+    fn read_record(&self, line: &str) -> Option<Record> {
+        let (cell, seed, record) = decode(unseal(line)?, self.plan.record.len())?;
+        let profile = seed.wrapping_sub(self.plan.seed);
+        let is_of_plan = cell < self.plan.cells() && profile < self.plan.lines;
+        is_of_plan.then_some((cell * self.plan.lines + profile, record))
     }
 
     /// Returns which records exist, by index, after all files are synced to the disk. Otherwise a
@@ -357,8 +364,8 @@ pub(super) fn seal(payload: &str, into: &mut String) {
 /// Returns the payload of a line without its line break; `None` if it does not agree with the
 /// checksum.
 pub(super) fn unseal(line: &str) -> Option<&str> {
-    let (checksum, payload) = (line.get(..CHECKSUM)?, line.get(CHECKSUM..)?);
-    let checksum = checksum.strip_suffix(',')?;
+    let payload = line.get(CHECKSUM..)?;
+    let checksum = line.get(..CHECKSUM)?.strip_suffix(',')?;
     // One way of writing, so that equal records are equal text.
     let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
     is_ours.then_some(payload)
@@ -394,15 +401,16 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
         ));
     }
     let mut columns = payload.split(',');
-    let (cell, seed) = (columns.next()?.parse().ok()?, columns.next()?.parse().ok()?);
-    let value = |text: &str| {
-        if text.is_empty() {
-            Some(f64::NAN)
+    let cell = columns.next()?.parse().ok()?;
+    let seed = columns.next()?.parse().ok()?;
+    let mut values = Vec::with_capacity(count);
+    for text in columns {
+        values.push(if text.is_empty() {
+            f64::NAN
         } else {
-            text.parse().ok()
-        }
-    };
-    let values: Vec<f64> = columns.map(value).collect::<Option<_>>()?;
+            text.parse().ok()?
+        });
+    }
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
@@ -415,12 +423,20 @@ pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<O
             .by_ref()
             .take(LONGEST_LINE)
             .read_until(b'\n', &mut line);
-        let whole = |mut line: Vec<u8>| line.pop().filter(|last| *last == b'\n').map(|_| line);
         match read {
             Ok(0) => None,
-            read => Some(read.map(|_| String::from_utf8(whole(line)?).ok())),
+            Ok(_) => Some(Ok(whole_line(line))),
+            Err(error) => Some(Err(error)),
         }
     })
+}
+
+/// Returns a line without its line break; `None` for one that is incomplete or not text.
+fn whole_line(mut line: Vec<u8>) -> Option<String> {
+    if line.pop() != Some(b'\n') {
+        return None;
+    }
+    String::from_utf8(line).ok()
 }
 
 fn text_of(file: &Path) -> Result<String, StudyError> {
@@ -449,21 +465,26 @@ fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
 }
 
 fn difference(there: &str, asked: &str) -> String {
-    let pairs = there.lines().map(Some).chain(std::iter::repeat(None));
-    let asked = asked.lines().map(Some).chain(std::iter::repeat(None));
-    let first = pairs
-        .zip(asked)
-        .take_while(|pair| *pair != (None, None))
-        .find(|(a, b)| a != b);
-    let shown = |line: Option<&str>| {
-        line.map_or_else(
-            || "nothing".into(),
-            |line| printable(line.trim()).into_owned(),
-        )
-    };
-    first.map_or_else(String::new, |(a, b)| {
-        format!("there: {}\nhere:  {}", shown(a), shown(b))
-    })
+    let mut there = there.lines();
+    let mut asked = asked.lines();
+    loop {
+        match (there.next(), asked.next()) {
+            (None, None) => return String::new(),
+            (there, here) if there != here => {
+                let there = line_in_words(there);
+                let here = line_in_words(here);
+                return format!("there: {there}\nhere:  {here}");
+            }
+            _ => {}
+        }
+    }
+}
+
+fn line_in_words(line: Option<&str>) -> String {
+    match line {
+        Some(line) => printable(line.trim()).into_owned(),
+        None => "nothing".to_owned(),
+    }
 }
 
 /// Returns the name of this machine in letters allowed in a file name.

@@ -6,7 +6,7 @@ use super::grid::{Grid, GridLayer, across_and_up};
 use super::place::{governing, press, scene_with};
 use super::plan::Plan;
 use super::results::Results;
-use asperity_scene::{Adhesion, Document, Roughness, RoughnessParameter, Scene, SceneErrors};
+use asperity_scene::{Adhesion, Document, Roughness, Scene, SceneErrors};
 use std::path::{Path, PathBuf};
 
 /// Results of a study as maps over two of its axes, one map for each combination of values on the
@@ -130,15 +130,13 @@ impl StudyMap {
         if scene.title.is_empty() {
             (scene.title, scene.notice) = (plan.title.clone(), plan.notice.clone());
         }
-        if let (None, Some(axis)) = (
-            scene.adhesion,
-            self.over().find(|axis| axis.target.parameter().is_some()),
-        ) {
-            let parameter = axis.target.parameter().unwrap_or(RoughnessParameter::Kappa);
-            scene.adhesion = Some(Adhesion::by_parameter(
-                parameter,
-                axis.values[axis.values.len() / 2],
-            ));
+        if scene.adhesion.is_none() {
+            let mut axes = self.over();
+            scene.adhesion = axes.find_map(|axis| {
+                let parameter = axis.target.parameter()?;
+                let middle = axis.values[axis.values.len() / 2];
+                Some(Adhesion::by_parameter(parameter, middle))
+            });
         }
         scene.set_seed(plan.seed);
         let at = self
@@ -213,9 +211,15 @@ fn place(scene: &Scene) -> Option<(f64, f64)> {
 
 /// Returns true if κ and H are equal except for rounding. Unknown values are not compared.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
-    let is_close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs().max(b.abs());
-    one.zip(other)
-        .is_none_or(|((a, b), (c, d))| is_close(a, c) && is_close(b, d))
+    let (Some((kappa, hurst)), Some((other_kappa, other_hurst))) = (one, other) else {
+        return true;
+    };
+    is_equal(kappa, other_kappa) && is_equal(hurst, other_hurst)
+}
+
+/// Returns true if two numbers are equal except for rounding.
+fn is_equal(one: f64, other: f64) -> bool {
+    (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
 }
 
 #[cfg(test)]
@@ -226,7 +230,7 @@ mod tests {
     use crate::store::Folder;
     use asperity_contact::Move;
     use asperity_data::AxisScale;
-    use asperity_scene::Regime;
+    use asperity_scene::{Regime, RoughnessParameter};
 
     /// A plan with κ not in ascending order and before H, two preloads, another axis and five
     /// profiles.

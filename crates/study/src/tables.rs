@@ -1,7 +1,7 @@
 //! Tables of a study: all recorded values, their statistics over the profiles, and a description of
 //! the columns.
 
-use super::axis::Axis;
+use super::axis::Spacing;
 use super::error::StudyError;
 use super::grid::GridCell;
 use super::plan::Plan;
@@ -10,10 +10,10 @@ use super::results::{Merged, Results};
 use super::statistics::{CONFIDENCE, Statistics};
 use super::store::{Folder, lines};
 use asperity_data::{
-    Kind, ReadError, Table, TableOf, object, open_regular, read_regular_text, remove_abandoned,
-    sha256_of, write_json, write_new_file,
+    Kind, ReadError, Table, TableOf, open_regular, read_regular_text, remove_abandoned, sha256_of,
+    write_json, write_new_file,
 };
-use asperity_scene::Regime;
+use asperity_scene::{Regime, Scene};
 use serde::Serialize;
 use std::io;
 use std::io::BufReader;
@@ -61,44 +61,101 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     Ok(merged)
 }
 
-/// Returns the description of the columns, with the plan and what a merge found.
-fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> impl Serialize + 'a {
-    let axis = |axis: &'a Axis| {
-        object! {
-            "path": &axis.path, "symbol": axis.symbol, "unit": axis.unit, "scale": axis.spacing,
-            "values": &axis.values,
-        }
-    };
-    let quantity = |quantity: &Quantity| {
-        object! {
-            "name": quantity.name(),
-            "symbol": quantity.symbol(),
-            "unit": quantity.unit(),
-            "meaning": quantity.meaning(),
-        }
-    };
-    object! {
-        "format": RESULTS_VERSION,
-        "program": format!("{} {}", "asperity", env!("CARGO_PKG_VERSION")),
-        "plan": object! {
-            "title": &plan.title, "notice": &plan.notice, "scene": &plan.scene, "text": plan.to_ron(),
+/// Description of the columns, with the plan and what a merge found. JSON has the keys in this
+/// order.
+#[derive(Serialize)]
+struct Sidecar<'a> {
+    format: u32,
+    program: &'static str,
+    plan: PlanJson<'a>,
+    axes: Vec<AxisJson<'a>>,
+    preloads: Option<&'a [f64]>,
+    preload_symbol: Option<&'static str>,
+    quantities: Vec<QuantityJson>,
+    cells: u64,
+    lines: u64,
+    first_seed: u64,
+    confidence: f64,
+    records: u64,
+    total: u64,
+    failed: u64,
+    first_failed: &'a [(u64, u64, String)],
+    missing_cells: u64,
+    first_missing: &'a [u64],
+    programs: &'a [String],
+    results_sha256: &'a str,
+}
+
+#[derive(Serialize)]
+struct PlanJson<'a> {
+    title: &'a str,
+    notice: &'a str,
+    scene: &'a Scene,
+    text: String,
+}
+
+#[derive(Serialize)]
+struct AxisJson<'a> {
+    path: &'a str,
+    symbol: &'a str,
+    unit: &'a str,
+    scale: Spacing,
+    values: &'a [f64],
+}
+
+#[derive(Serialize)]
+struct QuantityJson {
+    name: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+}
+
+fn sidecar<'a>(plan: &'a Plan, merged: &'a Merged, hash: &'a str) -> Sidecar<'a> {
+    let mut axes = Vec::new();
+    for axis in plan.scene_axes() {
+        axes.push(AxisJson {
+            path: &axis.path,
+            symbol: axis.symbol,
+            unit: axis.unit,
+            scale: axis.spacing,
+            values: &axis.values,
+        });
+    }
+    let mut quantities = Vec::with_capacity(plan.record.len());
+    for quantity in &plan.record {
+        quantities.push(QuantityJson {
+            name: quantity.name(),
+            symbol: quantity.symbol(),
+            unit: quantity.unit(),
+            meaning: quantity.meaning(),
+        });
+    }
+    Sidecar {
+        format: RESULTS_VERSION,
+        program: concat!("asperity ", env!("CARGO_PKG_VERSION")),
+        plan: PlanJson {
+            title: &plan.title,
+            notice: &plan.notice,
+            scene: &plan.scene,
+            text: plan.to_ron(),
         },
-        "axes": plan.scene_axes().iter().map(axis).collect::<Vec<_>>(),
-        "preloads": plan.preloads().map(|axis| &axis.values),
-        "preload_symbol": plan.preloads().map(|axis| axis.symbol),
-        "quantities": plan.record.iter().map(quantity).collect::<Vec<_>>(),
-        "cells": plan.cells(),
-        "lines": plan.lines,
-        "first_seed": plan.seed,
-        "confidence": CONFIDENCE,
-        "records": merged.records,
-        "total": merged.total,
-        "failed": merged.failed,
-        "first_failed": &merged.first_failed,
-        "missing_cells": merged.missing_cells,
-        "first_missing": &merged.first_missing,
-        "programs": &merged.programs,
-        "results_sha256": hash,
+        axes,
+        preloads: plan.preloads().map(|axis| &axis.values[..]),
+        preload_symbol: plan.preloads().map(|axis| axis.symbol),
+        quantities,
+        cells: plan.cells(),
+        lines: plan.lines,
+        first_seed: plan.seed,
+        confidence: CONFIDENCE,
+        records: merged.records,
+        total: merged.total,
+        failed: merged.failed,
+        first_failed: &merged.first_failed,
+        missing_cells: merged.missing_cells,
+        first_missing: &merged.first_missing,
+        programs: &merged.programs,
+        results_sha256: hash,
     }
 }
 
@@ -160,8 +217,8 @@ impl Results {
     /// computed. Its columns are the values on the axes, the seed of the profile, and the recorded
     /// quantities.
     pub fn table(&self) -> Table<'_> {
-        let rows = || (0..self.plan.cells()).flat_map(|cell| self.rows_of(cell));
-        let mut table = with_cell(&self.plan, Table::of(rows), |row: &RecordRow<'_>| row.cell);
+        let rows = Table::of(|| (0..self.plan.cells()).flat_map(|cell| self.rows_of(cell)));
+        let mut table = with_cell(&self.plan, rows, |row: &RecordRow<'_>| row.cell);
         table = table.whole("seed", |row| self.plan.seed_of(row.line));
         for (column, quantity) in self.plan.record.iter().enumerate() {
             let name = quantity.name();
@@ -226,8 +283,8 @@ impl Results {
     /// mean, standard deviation and confidence interval.
     fn summary(&self) -> Table<'_> {
         let record = &self.plan.record;
-        let rows = || (0..self.plan.cells()).filter_map(|cell| self.summary_row(cell));
-        let mut table = with_cell(&self.plan, Table::of(rows), |row: &SummaryRow<'_>| row.cell);
+        let rows = Table::of(|| (0..self.plan.cells()).filter_map(|cell| self.summary_row(cell)));
+        let mut table = with_cell(&self.plan, rows, |row: &SummaryRow<'_>| row.cell);
         table = table.whole("lines", |row| row.results.regimes[0].profiles() as u64);
         for (place, quantity) in record.iter().enumerate() {
             if quantity.is_regime() {

@@ -2,10 +2,10 @@
 
 use crate::cli::error::CliError;
 use crate::cli::output::AnswerFormat;
-use asperity_data::object;
 use asperity_report::Sheet;
 use asperity_study::{Changes, Plan};
 use clap::Args;
+use serde::Serialize;
 use std::io::Write;
 
 const EXAMPLES: &str = "\
@@ -27,28 +27,41 @@ pub(super) fn plans(arguments: &PlansArguments, stdout: &mut dyn Write) -> Resul
     if let Some(name) = &arguments.name {
         return Ok(stdout.write_all(Plan::built_in(name)?.text.as_bytes())?);
     }
-    let open = |name| -> Result<_, CliError> { Ok((name, Plan::open(name, &Changes::default())?)) };
-    let plans = Plan::BUILT_IN
-        .iter()
-        .map(|plan| open(plan.name))
-        .collect::<Result<Vec<_>, _>>()?;
-    let row = |(name, plan): &(&str, Plan)| {
-        let size = format!("{} cells × {} profiles", plan.cells(), plan.lines);
-        [(*name).to_owned(), size, plan.title.clone()]
-    };
-    let text = || Sheet::of_table(&plans.iter().map(row).collect::<Vec<_>>());
-    let objects = plans.iter().map(|(name, plan)| {
-        object! {
-            "name": name,
-            "title": &plan.title,
-            "notice": &plan.notice,
-            "cells": plan.cells(),
-            "lines": plan.lines,
-        }
-    });
-    arguments.format.write(
-        stdout,
-        text,
-        &object! { "plans": objects.collect::<Vec<_>>() },
-    )
+    let mut plans = Vec::new();
+    for built_in in Plan::BUILT_IN {
+        let plan = Plan::open(built_in.name, &Changes::default())?;
+        plans.push(PlanEntry {
+            name: built_in.name,
+            title: plan.title.clone(),
+            notice: plan.notice.clone(),
+            cells: plan.cells(),
+            lines: plan.lines,
+        });
+    }
+    let list = PlanList { plans };
+    let format = arguments.format;
+    format.write(stdout, || table(&list.plans), &list)
+}
+
+fn table(plans: &[PlanEntry]) -> String {
+    let mut rows = Vec::with_capacity(plans.len());
+    for plan in plans {
+        let size = format!("{} cells × {} profiles", plan.cells, plan.lines);
+        rows.push([plan.name.to_owned(), size, plan.title.clone()]);
+    }
+    Sheet::of_table(&rows)
+}
+
+#[derive(Serialize)]
+struct PlanList {
+    plans: Vec<PlanEntry>,
+}
+
+#[derive(Serialize)]
+struct PlanEntry {
+    name: &'static str,
+    title: String,
+    notice: String,
+    cells: u64,
+    lines: u64,
 }

@@ -62,14 +62,13 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     } else {
         2
     };
-    let charts = |quantity| match study_map(&grid, quantity, false).filter(|_| !curves) {
-        Some(map) => vec![map],
-        None => study_curves(&grid, quantity)
-            .into_iter()
-            .take(scales)
-            .collect(),
-    };
-    let charts: Vec<_> = quantities.into_iter().flat_map(charts).collect();
+    let mut charts = Vec::new();
+    for quantity in quantities {
+        match study_map(&grid, quantity, false) {
+            Some(map) if !curves => charts.push(map),
+            _ => charts.extend(study_curves(&grid, quantity).into_iter().take(scales)),
+        }
+    }
     let figure = study_figure(&study.plan().title, &grid, charts);
     // The numbers that vary differ in the first and in the last cell.
     let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));

@@ -90,18 +90,8 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
 /// The job script, with absolute paths on the nodes. Its directives are defaults: variables
 /// `SBATCH_…` and options of sbatch override them.
 fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
-    // Slurm ends directives at a backslash and reads double quotes.
-    let allowed = "allowed: UTF-8 without backslashes, double quotes and control characters";
-    let text_of = |path: &Path| {
-        let text = path
-            .to_str()
-            .filter(|text| !text.contains(|c| c == '\\' || c == '"' || is_control(c)));
-        text.map(str::to_owned).ok_or_else(|| {
-            let refused = format!("a script of Slurm cannot contain this path; {allowed}");
-            CliError::named(path_name(path), refused)
-        })
-    };
-    let (program, folder) = (text_of(program)?, text_of(folder)?);
+    let program = path_in_script(program)?;
+    let folder = path_in_script(folder)?;
     Ok(format!(
         r#"#!/bin/sh
 #SBATCH --job-name=asperity
@@ -124,17 +114,26 @@ while :; do
 done
 "#,
         log = folder.replace('%', "%%"),
-        program = quoted(&program),
-        folder = quoted(&folder),
+        program = quoted(program),
+        folder = quoted(folder),
         shards = arguments.jobs,
     ))
 }
 
-/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why
-/// it refused.
-fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
-    let not_run = |error: io::Error| {
-        match error.kind() {
+/// Returns a path as text. Slurm ends directives at a backslash and reads double quotes.
+fn path_in_script(path: &Path) -> Result<&str, CliError> {
+    match path.to_str() {
+        Some(text) if !text.contains(|c| c == '\\' || c == '"' || is_control(c)) => Ok(text),
+        _ => {
+            let refused = "a script of Slurm cannot contain this path; allowed: UTF-8 without backslashes, double quotes and \
+                           control characters";
+            Err(CliError::named(path_name(path), refused))
+        }
+    }
+}
+
+fn not_run(error: io::Error) -> String {
+    match error.kind() {
         io::ErrorKind::NotFound => {
             "sbatch was not found; run this command on a login node of a Slurm cluster, or see asperity sweep submit \
              --help for hosts without a scheduler"
@@ -142,7 +141,11 @@ fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String
         }
         _ => format!("sbatch could not be run: {error}"),
     }
-    };
+}
+
+/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why
+/// it refused.
+fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
     let mut command = Command::new("sbatch");
     command
         .args(options)

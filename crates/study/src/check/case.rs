@@ -165,10 +165,12 @@ impl Body {
 
     /// Returns the height difference between the lowest and the highest point of the profile, m.
     pub fn depth(&self) -> f64 {
-        let (least, most) = self.heights.iter().fold(
-            (f64::INFINITY, f64::NEG_INFINITY),
-            |(least, most), height| (height.min(least), height.max(most)),
-        );
+        let mut least = f64::INFINITY;
+        let mut most = f64::NEG_INFINITY;
+        for height in &self.heights {
+            least = height.min(least);
+            most = height.max(most);
+        }
         most - least
     }
 
@@ -185,10 +187,8 @@ impl Body {
     /// Returns irregular indentations in m, from just before separation to full contact, as turning
     /// points.
     pub fn turns<const COUNT: usize>(&self, seed: u64) -> [f64; COUNT] {
-        let (low, high) = (
-            -0.9 * self.stretch(),
-            1.1 * self.depth() + 1e-3 * self.stretch(),
-        );
+        let low = -0.9 * self.stretch();
+        let high = 1.1 * self.depth() + 1e-3 * self.stretch();
         let mut turns = phases(seed, 1).map(|phase| low + (high - low) * phase / TAU);
         std::array::from_fn(|_| turns.next().unwrap_or(low))
     }

@@ -55,7 +55,8 @@ fn power_law(scene: &CheckedScene) -> Measured<ClosedForm> {
 }
 
 fn hertz(scene: &CheckedScene) -> Measured {
-    let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
+    let closed = power_law(scene)?;
+    let outcome = outcome(scene)?;
     let force = |d: f64| closed.force((d / closed.line_coefficient).powf(closed.exponent.recip()));
     let leg = &outcome.history.legs[0];
     let errors = leg
@@ -66,7 +67,8 @@ fn hertz(scene: &CheckedScene) -> Measured {
 }
 
 fn pull_off(scene: &CheckedScene) -> Measured {
-    let (closed, outcome) = (power_law(scene)?, outcome(scene)?);
+    let closed = power_law(scene)?;
+    let outcome = outcome(scene)?;
     let unloading = &outcome.history.legs[1];
     let place = closed.indentation(closed.displacement_controlled_pull_off().0);
     let force = closed.force_controlled_pull_off().1;

@@ -51,16 +51,17 @@ fn near_ties(body: &Body) -> Measured {
         });
         let far = [1.037, 100.0].map(|share| share * (body.depth() + body.stretch()));
         let turns = [&far[..], &body.turns::<8>(16)].concat();
-        let (exact, near) = (one.load(&turns, false, 2)?, other.load(&turns, false, 2)?);
-        largest(exact.stages().iter().zip(near.stages()).map(|(a, b)| {
-            let [a, b] = [a, b].map(|leg| end(leg).force);
-            Ok((a - b).abs() / (body.force_unit() + a.abs()))
+        let exact = one.load(&turns, false, 2)?;
+        let near = other.load(&turns, false, 2)?;
+        let stages = exact.stages().iter().zip(near.stages());
+        largest(stages.map(|(exact, near)| {
+            let force = end(exact).force;
+            Ok((force - end(near).force).abs() / (body.force_unit() + force.abs()))
         }))
     }))
 }
 
 fn heights_of_any_size(body: &Body) -> Measured {
-    let of = |powers: [i32; 4]| powers.map(|power| [0, power, 0]);
     // A modulus of 1 Pa keeps γ within its range.
     only_scales(
         &Body {
@@ -68,41 +69,46 @@ fn heights_of_any_size(body: &Body) -> Measured {
             work: 0.5e-6 * body.work,
             ..body.clone()
         },
-        &of([-400, -200, 10, 23]),
+        &[-400, -200, 10, 23].map(|power| [0, power, 0]),
     )?;
     only_scales(
         &Body {
             work: 0.0,
             ..body.clone()
         },
-        &of([-850, -500, 20, 39]),
+        &[-850, -500, 20, 39].map(|power| [0, power, 0]),
     )
 }
 
 /// Presses a scene to large indentations and to the forces found there. Returns the largest error
 /// of a force, in units of its change by one rounding of the indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
-    let (depth, bare) = (
-        outcome(scene)?.line.deepest,
-        with(scene, "adhesion.work", 0.0)?,
-    );
-    largest(
-        (0..=20)
-            .flat_map(|power| [scene, &bare].map(|scene| (scene, 10.0_f64.powi(power) * depth)))
-            .map(|(scene, load)| {
-                let pressed = |target| outcome(&scene.with(|scene| scene.loading = vec![target])?);
-                let there = pressed(Move::ToIndentation(load))?;
-                let (expected, there) = (full_contact(&there, load), end(&there.history.legs[0]));
-                let again = end(&pressed(Move::ToForce(there.force))?.history.legs[0]);
-                let is_whole =
-                    relative_error(there.contact_length, scene.length) <= 2.0 * f64::EPSILON;
-                ensure(is_whole, || {
-                    format!("{:e} m in contact at {load:e} m", there.contact_length)
-                })?;
-                let stiffness = scene.material.effective_modulus() * scene.length;
-                let rounding = stiffness * (load - load.next_down()) + f64::EPSILON * there.force;
-                let errors = [there.force - expected, again.force - there.force];
-                largest(errors.map(|error| Ok(error.abs() / rounding)))
-            }),
-    )
+    let depth = outcome(scene)?.line.deepest;
+    let bare = with(scene, "adhesion.work", 0.0)?;
+    let mut errors = Vec::new();
+    for power in 0..=20 {
+        let load = 10.0_f64.powi(power) * depth;
+        errors.push(far_load(scene, load));
+        errors.push(far_load(&bare, load));
+    }
+    largest(errors)
+}
+
+fn far_load(scene: &CheckedScene, load: f64) -> Measured {
+    let outcome = pressed(scene, Move::ToIndentation(load))?;
+    let expected = full_contact(&outcome, load);
+    let there = end(&outcome.history.legs[0]);
+    let again = end(&pressed(scene, Move::ToForce(there.force))?.history.legs[0]);
+    let is_whole = relative_error(there.contact_length, scene.length) <= 2.0 * f64::EPSILON;
+    ensure(is_whole, || {
+        format!("{:e} m in contact at {load:e} m", there.contact_length)
+    })?;
+    let stiffness = scene.material.effective_modulus() * scene.length;
+    let rounding = stiffness * (load - load.next_down()) + f64::EPSILON * there.force;
+    let errors = [there.force - expected, again.force - there.force];
+    largest(errors.map(|error| Ok(error.abs() / rounding)))
+}
+
+fn pressed(scene: &CheckedScene, target: Move) -> Measured<Outcome> {
+    outcome(&scene.with(|scene| scene.loading = vec![target])?)
 }

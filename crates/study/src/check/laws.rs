@@ -56,10 +56,10 @@ fn no_adhesion(body: &Body) -> Measured {
             .iter()
             .zip(unloading.curve.iter().rev())
             .map(|(one, other)| {
-                let place = |point: &CurvePoint| {
-                    (point.indentation.to_bits(), point.springs, point.fragments)
-                };
-                ensure(place(one) == place(other), || {
+                let is_same = one.indentation.to_bits() == other.indentation.to_bits()
+                    && one.springs == other.springs
+                    && one.fragments == other.fragments;
+                ensure(is_same, || {
                     format!("at {:e} m another contact", one.indentation)
                 })?;
                 Ok((one.force - other.force).abs() / loading.largest.force)
@@ -80,37 +80,48 @@ fn memory(body: &Body) -> Measured {
         ),
     ];
     largest(pairs.map(|(short, long)| {
-        let (one, other) = (body.load(short, false, 2)?, body.load(long, false, 2)?);
+        let one = body.load(short, false, 2)?;
+        let other = body.load(long, false, 2)?;
         ensure(one.patches() == other.patches(), || {
             format!("{long:?} leaves another contact")
         })?;
-        let force = |legs: &[LegRecord]| legs.last().map_or(f64::NAN, |leg| end(leg).force);
-        Ok((force(one.stages()) - force(other.stages())).abs() / body.force_unit())
+        Ok((last_force(&one) - last_force(&other)).abs() / body.force_unit())
     }))
+}
+
+/// Returns the force at the end of a loading in N.
+fn last_force(cycle: &Cycle) -> f64 {
+    match cycle.stages().last() {
+        Some(leg) => end(leg).force,
+        None => f64::NAN,
+    }
+}
+
+/// Returns the energy that stages release in J.
+fn released(stages: &[LegRecord]) -> f64 {
+    stages.iter().map(|leg| leg.released_energy).sum()
 }
 
 fn energy(body: &Body) -> Measured {
     let scale = body.force_unit() * (body.depth() + body.stretch());
     let [a, b] = body.turns(12);
-    let (low, high) = (a.min(b), a.max(b).max(0.0));
-    let lost = |legs: &[LegRecord]| legs.iter().map(|leg| leg.released_energy).sum::<f64>();
-    let of_loop = lost(&body.load(&[high, low, high], false, 2)?.stages()[1..]);
+    let low = a.min(b);
+    let high = a.max(b).max(0.0);
+    let of_loop = released(&body.load(&[high, low, high], false, 2)?.stages()[1..]);
     ensure(of_loop >= -1e-14 * scale, || {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
     let cycle = body.load(&[high, low, high], true, 20_000)?;
     // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with
     // their number.
-    let trapezium = |pair: &[CurvePoint]| {
-        0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
-    };
-    let done: f64 = cycle
-        .stages()
-        .iter()
-        .flat_map(|leg| leg.curve.windows(2))
-        .map(trapezium)
-        .sum();
-    Ok((lost(cycle.stages()) - done).abs() / scale)
+    let mut done = -0.0;
+    for leg in cycle.stages() {
+        for pair in leg.curve.windows(2) {
+            let [before, after] = [pair[0], pair[1]];
+            done += 0.5 * (before.force + after.force) * (after.indentation - before.indentation);
+        }
+    }
+    Ok((released(cycle.stages()) - done).abs() / scale)
 }
 
 /// Scales lengths along the profile, heights and stresses by these powers of two, which must not
@@ -118,23 +129,6 @@ fn energy(body: &Body) -> Measured {
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
-    // The sum with 0 makes −0 the same as 0.
-    let bits = |cycle: &Cycle, height: f64, force: f64| -> Vec<_> {
-        let points = cycle.points().map(|point| {
-            (
-                [point.indentation * height, point.force * force],
-                point.springs,
-            )
-        });
-        let lost = cycle
-            .stages()
-            .iter()
-            .map(|leg| ([leg.released_energy * force * height, 0.0], leg.detached));
-        points
-            .chain(lost)
-            .map(|(values, springs)| (values.map(|value| (value + 0.0).to_bits()), springs))
-            .collect()
-    };
     for factors in powers {
         let [length, height, stress] = factors.map(|power| 2.0_f64.powi(power));
         let other = Body {
@@ -153,6 +147,21 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
         })?;
     }
     Ok(0.0)
+}
+
+/// Returns the bits of points and released energies in other units, and their springs. The sum with
+/// 0 makes −0 the same as 0.
+fn bits(cycle: &Cycle, height: f64, force: f64) -> Vec<([u64; 2], u64)> {
+    let mut bits = Vec::new();
+    for point in cycle.points() {
+        let values = [point.indentation * height, point.force * force];
+        bits.push((values.map(|value| (value + 0.0).to_bits()), point.springs));
+    }
+    for leg in cycle.stages() {
+        let energy = leg.released_energy * force * height;
+        bits.push(([(energy + 0.0).to_bits(), 0], leg.detached));
+    }
+    bits
 }
 
 fn units(body: &Body) -> Measured {

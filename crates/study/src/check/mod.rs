@@ -42,21 +42,22 @@ impl Check {
     /// assert!(verdicts.iter().all(|verdict| verdict.passes()));
     /// ```
     pub fn of(choose: impl Fn(&Case) -> bool) -> Vec<Check> {
-        let of = |case: Case| {
-            case.bounds
-                .iter()
-                .map(move |&(edges, bound)| Check { case, edges, bound })
-        };
-        Case::all()
-            .into_iter()
-            .filter(|case| choose(case))
-            .flat_map(of)
-            .collect()
+        let mut checks = Vec::new();
+        for case in Case::all() {
+            if !choose(&case) {
+                continue;
+            }
+            for &(edges, bound) in case.bounds {
+                checks.push(Check { case, edges, bound });
+            }
+        }
+        checks
     }
 
     /// Computes the case, and the error of the quantity that [`Case::error_of`] names.
     pub fn judge(self) -> Verdict {
-        let (clock, edges) = (Instant::now(), self.edges);
+        let clock = Instant::now();
+        let edges = self.edges;
         let error = match self.case.subject {
             Subject::Scene(text, measure) => scene(text, edges).and_then(|scene| measure(&scene)),
             Subject::Bodies(measure) => {
