@@ -15,6 +15,9 @@ use std::sync::Arc;
 /// Share of the squared height that the longest waves of a measured spectrum carry together.
 const LONG_WAVES: f64 = 0.1;
 
+/// Number of waves on a scan up to which they count as long.
+const LONG_WAVES_PER_SCAN: f64 = 4.0;
+
 /// Everything that determines the heights of a roughness.
 #[derive(Clone, PartialEq)]
 pub(super) struct RoughnessKey {
@@ -168,8 +171,16 @@ impl RoughnessMaker {
         )?;
         self.phases_drawn += modes.last + 1 - modes.first;
         let amplitude = line.amplitude_of_modes(length, modes);
+        let scan = TAU / line.range()[0];
         let facts = MeasuredFacts {
-            scan: TAU / line.range()[0],
+            scan,
+            long_wave_share: long_wave_share(
+                line,
+                length,
+                modes,
+                amplitude.rms_height,
+                LONG_WAVES_PER_SCAN * length / scan,
+            ),
             rms_heights: [line.moments().rms_height.value, amplitude.rms_height],
             long_waves: Some(long_waves(line, length, modes, amplitude.rms_height)),
         };
@@ -225,6 +236,8 @@ fn cut_profile(
     let facts = MeasuredFacts {
         scan: profile.length(),
         rms_heights: [amplitude.rms_height, root_mean_square_about_mean(&heights)],
+        // A profile is never longer than the heights that are used as it.
+        long_wave_share: 0.0,
         long_waves: None,
     };
     Ok(Rough {
@@ -245,6 +258,24 @@ pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)
         .next_power_of_two()
         .clamp(1024, MOST_POINTS)
+}
+
+/// Returns the share of the modes up to `most` in the squared height of a profile of this length in
+/// m, with these modes and this rms height in m.
+fn long_wave_share(
+    line: &EquivalentLine,
+    length: f64,
+    modes: ModeRange,
+    rms_height: f64,
+    most: f64,
+) -> f64 {
+    let last = modes.last.min(most as u64);
+    if last < modes.first {
+        return 0.0;
+    }
+    let first = modes.first;
+    let longest = line.amplitude_of_modes(length, ModeRange { first, last });
+    (longest.rms_height / rms_height).powi(2)
 }
 
 /// Returns the mode whose wave and all longer waves carry a tenth of the squared height of a
