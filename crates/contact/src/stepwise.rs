@@ -357,7 +357,8 @@ impl<'a> Stepwise<'a> {
         let after = self.point();
         let low = origin.min(after.indentation);
         let high = origin.max(after.indentation);
-        let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        let mut curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        curve.reserve_exact(LegRecord::FURTHER_POINTS);
         // The sum counts detachments.
         let squared_stretch = match self.direction {
             Direction::Loading => -self.squared_stretch,
