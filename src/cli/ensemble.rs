@@ -5,11 +5,12 @@ use super::error::CliError;
 use super::fits::{Curves, files_of};
 use super::output::Origin;
 use super::progress::{ProgressLine, Task, watched};
-use super::scene::{open_scene, threads};
+use super::scene::{holds_warnings, open_scene, threads, warn};
 use crate::explorer::recognition::no_curve;
 use asperity_data::{grouped, parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
+use asperity_scene::Simulation;
 use clap::Args;
 use std::io::Write;
 
@@ -118,8 +119,9 @@ pub(super) fn ensemble(
     let show = |computed: &u64, line: &mut ProgressLine| {
         line.show(&format!("{} curves computed", grouped(*computed)), None);
     };
+    let simulation = Simulation::new(document.resolve(""));
     let found = watched(task, show, |control| {
-        fit_ensemble(&curves, &document, &options, control)
+        fit_ensemble(&curves, &document, &options, &simulation, control)
     })?;
     let report = EnsembleFitReport {
         title: document.title(),
@@ -131,5 +133,9 @@ pub(super) fn ensemble(
         &report,
         format,
         Origin::Scene(&document, document.scene()),
-    )
+    )?;
+    if !holds_warnings(format) {
+        warn(&document, &report.warning_texts());
+    }
+    Ok(())
 }

@@ -2,12 +2,14 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::warnings::{counted_section, counted_texts};
 use crate::words::{plural, whole_percent};
 use asperity_data::{
     AxisScale, Kind, Table, format_quantity, format_range, format_rounded, grouped, per_cent,
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use serde::Serialize;
 
 /// Relative change of the rms height whose effect is reported.
 const HEIGHT_CHANGE: f64 = 0.05;
@@ -40,9 +42,6 @@ impl Report for EnsembleFitReport<'_> {
         if let Some(sentence) = self.not_described() {
             sheet.paragraph(&sentence);
         }
-        if let Some(reason) = &fit.unsuitable_profile {
-            sheet.paragraph(&reason.to_string());
-        }
         sheet.heading(&format!("Many random profiles of {}", self.title));
         if let Some(sentence) = &fit.instrument {
             sheet.paragraph(sentence);
@@ -59,11 +58,15 @@ impl Report for EnsembleFitReport<'_> {
         }
         let computed = grouped(fit.computed as u64);
         sheet.paragraph(&format!("{computed} curves were computed. {INDEPENDENT}"));
+        counted_section(&mut sheet, &fit.warnings, EnsembleFit::EXAMINED);
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(self.fit))
+        Some(Box::new(EnsembleFitJson {
+            fit: self.fit,
+            warnings: self.warning_texts(),
+        }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
@@ -111,7 +114,22 @@ impl Report for EnsembleFitReport<'_> {
     }
 }
 
+/// JSON object of an [`EnsembleFit`] in SI units.
+#[derive(Serialize)]
+struct EnsembleFitJson<'a> {
+    #[serde(flatten)]
+    fit: &'a EnsembleFit,
+    /// Premises of the model that random profiles with the found values do not meet.
+    warnings: Vec<String>,
+}
+
 impl EnsembleFitReport<'_> {
+    /// Returns the premises of the model that random profiles with the found values do not meet,
+    /// one text for each.
+    pub fn warning_texts(&self) -> Vec<String> {
+        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
+    }
+
     /// Adds the work of adhesion and the modulus, with the curves and profiles that gave them.
     fn add_values(&self, sheet: &mut Sheet) {
         let fit = self.fit;
