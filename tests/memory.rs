@@ -334,3 +334,84 @@ fn preloads_of_a_line_of_events_take_what_a_study_counts() {
         held / springs
     );
 }
+
+/// Most memory that a run of a scene holds, bytes.
+fn held_by_run(document: &Document) -> usize {
+    let before = allocations::held();
+    let mut simulation = Simulation::default();
+    // The second run has the room of the first one, so that it reserves none to see whether there
+    // is enough. Another seed makes another profile.
+    let former = document.set("roughness.seed", "77");
+    let former = former.unwrap_or_else(|_| document.clone());
+    kept_after(&mut simulation, &former, before);
+    let kept = allocations::held() - before;
+    let mut run = || kept_after(&mut simulation, document, before);
+    kept + allocations::most_held(&mut run).1
+}
+
+/// Returns a loading of so many stages that goes back and forth, and is pulled off at its end.
+fn back_and_forth(stages: usize) -> String {
+    let loops = (stages - 2) / 2;
+    format!("100 µN, {loops} loops 20 µN to 50 µN, separation")
+}
+
+/// Returns a loading that is pulled off so many times.
+fn pulled_off(times: usize) -> String {
+    format!("[{}]", "ToForce(1.0e-4), ToSeparation, ".repeat(times))
+}
+
+/// The memory that is checked before a run is at least what the run holds, with few and with many
+/// stages, samples and patches, with and without an instrument.
+#[test]
+fn a_run_holds_at_most_the_memory_that_is_stated() {
+    let _alone = ALONE.lock();
+    let loadings = [
+        ("[ToForce(1.0e-4)]".to_owned(), 2),
+        ("[ToForce(1.0e-4)]".to_owned(), 512),
+        (pulled_off(1), 20_000),
+        (pulled_off(100), 2),
+        (pulled_off(100), 512),
+        (back_and_forth(4), 2),
+        (back_and_forth(4), 512),
+        (back_and_forth(100), 64),
+        (back_and_forth(100), 2000),
+        (back_and_forth(2000), 2),
+        (back_and_forth(2000), 512),
+    ];
+    let mut wrong = Vec::new();
+    for (name, points, adhesion) in [
+        ("pressure-sensitive", "1024", "(kappa: 8)"),
+        ("pressure-sensitive", "16384", "(kappa: 8)"),
+        ("pressure-sensitive", "16384", "(kappa: 40)"),
+        ("pressure-sensitive", "16384", "None"),
+        ("jkr-sphere", "1024", "(work: 0.05)"),
+        ("rough-sphere", "4096", "(work: 0.05)"),
+    ] {
+        for (loading, samples) in &loadings {
+            for instrument in ["None", "1000.0"] {
+                let fields = [
+                    ("numerics.points", points.to_owned()),
+                    ("numerics.samples", samples.to_string()),
+                    ("adhesion", adhesion.to_owned()),
+                    ("loading", loading.clone()),
+                    ("loading_stiffness", instrument.to_owned()),
+                ];
+                let fields = fields.map(|(path, value)| (path.to_owned(), value));
+                let document = open(name).unwrap().set_all(&fields).unwrap();
+                let stages = document.scene().loading.len();
+                let stated = Workload::of(document.scene()).peak_bytes as usize;
+                let held = held_by_run(&document);
+                let row = format!(
+                    "{name} {points} {adhesion}, {stages} stages of {samples}, instrument \
+                     {instrument}: {held} held, {stated} stated, {:.2}",
+                    held as f64 / stated as f64
+                );
+                println!("{row}");
+                if held > stated {
+                    wrong.push(row);
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}

@@ -144,8 +144,8 @@ def _scene_of_profile(profile: Profile, has_modulus: bool, takes_heights: bool) 
     if takes_heights:
         return Scene.of_profile(profile._native, 1e6)
     allowed = (
-        "asperity.load, asperity.preloads and asperity.reversals; for other functions a profile of a form and a roughness, or "
-        "numpy.save('line.npy', numpy.c_[profile.x, profile.heights]) and asperity.measured('line.npy', as_line=True)"
+        "asperity.load, asperity.preloads, asperity.reversals, asperity.study and asperity.fit; for other functions a profile "
+        "of a form and a roughness, or numpy.save('line.npy', numpy.c_[profile.x, profile.heights]) and asperity.measured('line.npy', as_line=True)"
     )
     raise refusal("scene", "a profile of given heights, whose form and roughness are not known", allowed)
 
@@ -585,14 +585,17 @@ def study(
     """Computes a scene for all combinations of values, such as `{"adhesion.kappa": [2, 6, 20]}`, on random profiles for each.
 
     A value is a number in SI units or a text with a unit. `record` names the quantities to record; `docs/studies.md` lists them.
+    The fields of a measured roughness in memory are no axes, since its array has no file to be read again.
     """
     if not isinstance(axes, Mapping):
         raise refused_type("axes", axes, "a dictionary of paths and values, such as {'adhesion.kappa': [2, 6, 20]}")
     names = [record] if isinstance(record, str) else list(record)
     for name in names:
         text(name, "record", "names of quantities")
-    call = _call(scene, fields, profiles, jobs, progress)
-    return Study(_native.study(call, [_axis(name, values) for name, values in axes.items()], names))
+    call = _call(scene, fields, profiles, jobs, progress, takes_heights=True)
+    found = Study(_native.study(call, [_axis(name, values) for name, values in axes.items()], names))
+    warn_of(found._premises())
+    return found
 
 
 def _axis(name: str, values: Any) -> tuple[str, list[float | str]]:
@@ -706,13 +709,15 @@ def fit(
             raise refusal("options", name, "options of reading the curves; free, profiles, jobs and fields are arguments of fit")
     count = None if profiles is None else whole(profiles, "profiles", 1, 1_000_000)
     words = [f"--free={name}" for name in named] + in_words({"profiles": count, **(options or {})})
-    call = _call(scene, fields, None, jobs, progress)
+    call = _call(scene, fields, None, jobs, progress, takes_heights=True)
     report = _native.fit(call, (all_curves, is_single), [*words, "curves", "scene"])
+    found: Fit | Fits | EnsembleFit
     if count is not None:
-        return EnsembleFit(report)
-    if not is_single:
-        return Fits(report)
-    found = Fit(report)
+        found = EnsembleFit(report)
+    elif is_single:
+        found = Fit(report)
+    else:
+        found = Fits(report)
     warn_of(found._premises())
     return found
 

@@ -136,21 +136,6 @@ impl Case<'_> {
             .reporting_to(&mut report);
         work(control).map_err(Into::into)
     }
-
-    /// Returns an error for a scene whose roughness is in memory, for a computation that reads the
-    /// files of a scene.
-    pub fn check_files(&self) -> Result<(), Failure> {
-        if self.in_memory.is_none() {
-            return Ok(());
-        }
-        let allowed = "a surface in a file: numpy.save('map.npy', heights) and \
-                       asperity.surface('map.npy', unit='m', spacing=...)";
-        Err(Failure::field(
-            "scene",
-            "a scene with a surface in memory",
-            allowed,
-        ))
-    }
 }
 
 impl Call {

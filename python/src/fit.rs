@@ -3,16 +3,17 @@
 use crate::advice::argument;
 use crate::computing::{Call, Case};
 use crate::failure::Failure;
-use crate::results::{Report, bytes};
+use crate::results::{Report, bytes, named};
 use crate::words::command;
 use asperity::cli::arguments::Command;
 use asperity::data::{Control, Remedied, on_threads, path_name};
 use asperity::experiment::{
     CurveOptions, EnsembleOptions, Fit, Free, MeasuredCurve, Parameter, fit_ensemble,
 };
-use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport};
+use asperity_report::{CurveRow, EnsembleFitReport, FitReport, FitsReport, counted};
 use pyo3::prelude::*;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A measured curve: its name, and displacements, m, and forces, N, unless the name is that of a
@@ -43,8 +44,8 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
         reason = &row.error;
     }
     let message = format!(
-        "none of {} curves is fitted; the first one: {reason}",
-        rows.len()
+        "none of {} is fitted; the first one: {reason}",
+        counted(rows.len() as u64, "curve")
     );
     let mut files = Vec::new();
     for curve in curves {
@@ -66,7 +67,6 @@ pub fn fit(
 ) -> PyResult<Report> {
     let (curves, is_one) = curves;
     call.computed(py, |case| {
-        case.check_files()?;
         let Some(Command::Fit(arguments)) = command("fit", words)? else {
             return Err("fit: no options of a fit".to_owned().into());
         };
@@ -82,6 +82,9 @@ pub fn fit(
             return fit_together(&case, &curves, &reading, &options);
         }
         let mut fit = Fit::of(&case.document);
+        if let Some(measured) = &case.in_memory {
+            fit = fit.with_measured(Arc::clone(measured));
+        }
         for parameter in &arguments.free {
             fit = fit.free(*parameter);
         }
@@ -109,10 +112,12 @@ fn fit_together(
         named.push((curve.0.clone(), curve.read(reading)?));
     }
     let document = case.document.clone();
+    let simulation = case.simulation();
     let fit = case.watched(0, computed_curves, |control| {
-        fit_ensemble(&named, &document, options, control)
+        fit_ensemble(&named, &document, options, &simulation, control)
     })?;
     let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
+    let in_memory = case.in_memory.clone();
     Ok(Report::new(move |format| {
         let report = EnsembleFitReport {
             title: document.title(),
@@ -120,7 +125,7 @@ fn fit_together(
             has_roughness_errors,
             wording: argument,
         };
-        bytes(Some(&document), &report, format)
+        bytes(named(&document, &in_memory), &report, format)
     }))
 }
 
@@ -134,6 +139,7 @@ fn fit_single(
     let title = curve.0.clone();
     let curve = curve.read(reading)?;
     let result = case.watched(0, computed_curves, |control| fit.run(&curve, control))?;
+    let in_memory = case.in_memory.clone();
     Ok(Report::new(move |format| {
         let report = FitReport {
             title: &title,
@@ -141,7 +147,7 @@ fn fit_single(
             fit: &result,
             wording: argument,
         };
-        bytes(Some(&result.document), &report, format)
+        bytes(named(&result.document, &in_memory), &report, format)
     }))
 }
 
@@ -177,6 +183,7 @@ fn fit_each(
         }
     }
     let document = case.document.clone();
+    let in_memory = case.in_memory.clone();
     Ok(Report::new(move |format| {
         let report = FitsReport {
             scene: document.scene(),
@@ -184,6 +191,6 @@ fn fit_each(
             rows: &rows,
             wording: argument,
         };
-        bytes(Some(&document), &report, format)
+        bytes(named(&document, &in_memory), &report, format)
     }))
 }

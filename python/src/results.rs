@@ -11,6 +11,7 @@ use asperity::study::half_space::{Reference, ReferenceEvent, ReferenceOptions};
 use asperity::study::trust::{MeasuredAdhesion, warnings_of_reversals};
 use asperity::study::{
     Axis, Ensemble, Found, Plan, Quantity, Question, Results, Spacing, Staircase, compute,
+    compute_with_measured,
 };
 use asperity::surface::lines::MeasuredRoughness;
 use asperity_report::{
@@ -38,7 +39,7 @@ impl Report {
 
 /// Returns the document that tables and figures state; `None` for a scene with a roughness in
 /// memory, which no text holds.
-fn named<'a>(
+pub fn named<'a>(
     document: &'a Document,
     in_memory: &Option<Arc<MeasuredRoughness>>,
 ) -> Option<&'a Document> {
@@ -344,7 +345,6 @@ pub fn study(
     record: Vec<String>,
 ) -> PyResult<Report> {
     call.computed(py, |case| {
-        case.check_files()?;
         let mut quantities = Vec::with_capacity(record.len());
         for name in &record {
             quantities.push(Quantity::named(name)?);
@@ -359,7 +359,10 @@ pub fn study(
         }
         let plan = Plan::new(&case.document, &axes, case.profiles, &quantities)?;
         let results = case.watched(plan.records_in_all(), done, |control| {
-            compute(&plan, control)
+            match &case.in_memory {
+                Some(measured) => compute_with_measured(&plan, Arc::clone(measured), control),
+                None => compute(&plan, control),
+            }
         })?;
         Ok(Report::new(move |format| {
             bytes(named(&case.document, &case.in_memory), &results, format)

@@ -115,7 +115,33 @@ class EquivalentLines(InFolder):
         body = bodies[0]
         self.assertNotEqual(asp.scene(body, roughness__seed=9, modulus=1e6).text, asp.scene(body, modulus=1e6).text)
         self.refused(asp.run, body, roughness__detrend="Mean", field="roughness", says="another seed alone", **contact)
-        self.refused(asp.study, body, {"adhesion.work": [1e-3]}, modulus=1e6, field="scene", says="surface in a file")
+
+    def test_studies_of_surfaces_and_heights_in_memory_are_those_of_loops(self):
+        works = [1e-3, 2e-3]
+        surface = asp.surface(rough_map(), spacing="0.1 µm").profile("6 µm", 512, form=asp.sphere("1 mm"), seed=3)
+        heights = asp.Profile(surface.heights, surface.spacing)
+        contact = {"modulus": MODULUS, "stages": "1 µN, separation"}
+        for body in [surface, heights]:
+            found = asp.study(body, {"adhesion.work": works}, profiles=1, work=1e-3, **contact).to_pandas()
+            for work, force in zip(works, found.adhesion_force, strict=True):
+                loop = asp.load(body, work=work, **contact)
+                self.assertAlmostEqual(force / loop.pull_off, 1, delta=1e-9)
+        self.refused(asp.study, surface, {"roughness.rows": [1]}, profiles=1, work=1e-3, **contact)
+
+    def test_surfaces_and_heights_in_memory_are_fitted(self):
+        surface = asp.surface(rough_map(), spacing="0.1 µm").profile("6 µm", 512, form=asp.sphere("1 mm"), seed=3)
+        heights = asp.Profile(surface.heights, surface.spacing)
+        contact = {"modulus": MODULUS, "stages": "1 µN, separation"}
+        loop = asp.load(surface, work=2e-3, **contact)
+        free = np.linspace(-1e-7, -1e-9, 100)
+        displacement, force = np.r_[free, loop.d], np.r_[np.zeros(100), loop.F]
+        options = {"noise": "1 nN"}
+        found = [
+            asp.fit((displacement, force), body, ["work"], work=1e-3, options=options, **contact).work.value
+            for body in (surface, heights)
+        ]
+        self.assertAlmostEqual(found[0] / 2e-3, 1, delta=0.1)
+        self.assertAlmostEqual(found[1] / found[0], 1, delta=1e-6)
 
 
 class Contacts(InFolder):

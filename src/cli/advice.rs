@@ -13,9 +13,7 @@ pub fn option(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "--channel with its name, in a scene roughness.surface_name",
         Remedy::NoSurfaceName => "no --channel, in a scene no roughness.surface_name",
-        Remedy::Channel => {
-            "--channel, in a scene roughness.channel or roughness.surface_name"
-        }
+        Remedy::Channel => "--channel, in a scene roughness.channel or roughness.surface_name",
         Remedy::Unit(unit) => return format!("--unit {unit}, in a scene roughness.unit"),
         Remedy::HeightUnit(unit) => {
             return format!("--height-unit {unit}, in a scene roughness.height_unit");

@@ -6,11 +6,12 @@ use super::error::CliError;
 use super::fits::{Curves, files_of, show_curves};
 use super::output::Origin;
 use super::progress::{Task, watched};
-use super::scene::{open_scene, threads};
+use super::scene::{holds_warnings, open_scene, threads, warn};
 use crate::explorer::recognition::no_curve;
 use asperity_data::{parse_quantity, path_name};
 use asperity_experiment::{EnsembleOptions, Free, MeasuredCurve, Parameter, fit_ensemble};
 use asperity_report::{EnsembleFitReport, Format};
+use asperity_scene::Simulation;
 use clap::Args;
 use std::io::Write;
 
@@ -115,8 +116,9 @@ pub(super) fn ensemble(
         threads: threads(arguments.jobs),
         begins: "0 curves computed".to_owned(),
     };
+    let simulation = Simulation::new(document.resolve(""));
     let found = watched(task, show_curves, |control| {
-        fit_ensemble(&curves, &document, &options, control)
+        fit_ensemble(&curves, &document, &options, &simulation, control)
     })?;
     let report = EnsembleFitReport {
         wording: option,
@@ -129,5 +131,9 @@ pub(super) fn ensemble(
         &report,
         format,
         Origin::Scene(&document, document.scene()),
-    )
+    )?;
+    if !holds_warnings(format) {
+        warn(&document, &report.warning_texts());
+    }
+    Ok(())
 }

@@ -5,7 +5,7 @@ use super::advice::option;
 use super::error::CliError;
 use super::output::{Origin, OutputArguments, command_without};
 use super::progress::{ProgressLine, SignalWatch};
-use super::scene::{Overrides, threads};
+use super::scene::{Overrides, holds_warnings, threads, warn};
 use asperity_data::Remedied;
 use asperity_data::{
     Control, check_writable, grouped, on_threads, path_name, printable, read_regular_text,
@@ -181,6 +181,9 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
         )?,
     }
     stdout.flush()?;
+    if !holds_warnings(format) {
+        warn(&batch.document, &report.warning_texts());
+    }
     if let Some(failure) = report.failure() {
         return Err(CliError::message(failure));
     }

@@ -64,7 +64,7 @@ fn study(plan: &Plan) -> (TempDir, Folder) {
 
 fn compute(folder: &Folder, jobs: usize, shard: Shard) {
     let ended = run_study(folder, shard, Control::default().on_threads(jobs)).unwrap();
-    assert!(ended.is_complete());
+    assert!(ended.progress.is_complete());
 }
 
 /// A study with the tables of all its cells.

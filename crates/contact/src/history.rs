@@ -76,6 +76,10 @@ pub(super) struct Extremes {
 }
 
 impl LegRecord {
+    /// Largest number of points of [`LegRecord::curve`] besides its samples: those of the smallest
+    /// force, of the lost contact of an instrument, and at both sides of a jump at an end.
+    pub const FURTHER_POINTS: usize = 4;
+
     /// Creates the record of a motion that ends where it begins.
     pub fn still(target: Move, here: CurvePoint) -> Self {
         LegRecord {

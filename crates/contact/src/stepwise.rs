@@ -362,7 +362,8 @@ impl<'a> Stepwise<'a> {
         let after = self.point();
         let low = origin.min(after.indentation);
         let high = origin.max(after.indentation);
-        let curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        let mut curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
+        curve.reserve_exact(LegRecord::FURTHER_POINTS);
         // The sum for a leg is positive for attachments on loading and for detachments on
         // unloading.
         let squared_stretch = match self.direction {

@@ -5,6 +5,7 @@
 mod axis_scale;
 mod cholesky;
 mod control;
+mod counted_warning;
 #[cfg(feature = "files")]
 mod hash;
 #[cfg(feature = "files")]
@@ -34,6 +35,7 @@ mod write;
 pub use axis_scale::AxisScale;
 pub use cholesky::Cholesky;
 pub use control::Control;
+pub use counted_warning::CountedWarning;
 #[cfg(feature = "files")]
 pub use hash::{hexadecimal, sha256_of};
 #[cfg(feature = "files")]

@@ -66,6 +66,12 @@ pub enum Warning {
         /// True for a measured surface, whose units may be wrong.
         is_measured: bool,
     },
+    /// The slope of the form of the body at the edge of the contact exceeds
+    /// [`Warning::LARGEST_GRADIENT`].
+    SteepForm {
+        /// Slope of the form at the edge of the contact.
+        slope: f64,
+    },
     /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of JKR nor the
     /// rule of Hess applies.
     LongRangedAttraction {
@@ -96,6 +102,16 @@ pub enum Warning {
         length: f64,
         /// Rms heights in m of the surface and of the profile.
         rms_heights: [f64; 2],
+    },
+    /// A measured surface is shorter than the profile, which therefore lacks the longest waves, and
+    /// long waves carry more than [`Warning::MANY_LONG_WAVES`] of the squared height.
+    ScanShorterThanLength {
+        /// Length of the scan in m.
+        scan: f64,
+        /// Length of the profile in m.
+        length: f64,
+        /// Share of the waves longer than a quarter of the scan in the squared height.
+        share: f64,
     },
     /// The waves of a wavy sphere are so steep that the rule of Hess differs from the theory of
     /// JKR.
@@ -182,12 +198,16 @@ impl Warning {
     /// without a warning.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
+    /// Largest length of a profile in units of the scan at which the waves that the scan does not
+    /// have are few.
+    pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.5;
+
     /// Smallest number of the longest waves on the length of a nominally flat body at which random
     /// profiles scatter little (docs/learn.md).
     pub const LEAST_LONG_WAVES: f64 = 4.0;
 
-    /// Largest rms gradient of the roughness for which slopes are small, as linear elasticity
-    /// assumes.
+    /// Largest rms gradient of the roughness, and largest slope of the form of the body, for which
+    /// slopes are small, as linear elasticity assumes.
     pub const LARGEST_GRADIENT: f64 = 1.0;
 
     /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the
@@ -257,6 +277,11 @@ impl Warning {
         })
     }
 
+    /// Returns a warning if the form of a body is steep at the edge of the contact.
+    pub fn of_slope_of_form(slope: f64) -> Option<Warning> {
+        (slope > Self::LARGEST_GRADIENT).then_some(Warning::SteepForm { slope })
+    }
+
     /// Returns a warning if attraction of this Tabor number has too long a range for the model.
     pub fn of_tabor_number(tabor_number: f64) -> Option<Warning> {
         if tabor_number < Self::LEAST_TABOR_NUMBER {
@@ -277,6 +302,18 @@ impl Warning {
             scan,
             length,
             rms_heights,
+        })
+    }
+
+    /// Returns a warning if a profile is longer than the scan of its surface and long waves matter.
+    /// `share` is that of waves longer than a quarter of the scan in the squared height.
+    pub fn of_short_scan(scan: f64, length: f64, share: f64) -> Option<Warning> {
+        let is_shorter = length > Self::LONGEST_PROFILE_OF_SCAN * scan;
+        let lacks_waves = is_shorter && share > Self::MANY_LONG_WAVES;
+        lacks_waves.then_some(Warning::ScanShorterThanLength {
+            scan,
+            length,
+            share,
         })
     }
 
@@ -320,6 +357,7 @@ impl Warning {
             self,
             Warning::ContactAtEnds { .. }
                 | Warning::SteepRoughness { .. }
+                | Warning::SteepForm { .. }
                 | Warning::LongRangedAttraction { .. }
                 | Warning::HeightsAsProfile
                 | Warning::CutLikeHeights { .. }
@@ -342,11 +380,13 @@ impl Warning {
             Warning::RoundedWaves { .. } => "rounded_waves",
             Warning::FewLongWaves { .. } => "few_long_waves",
             Warning::SteepRoughness { .. } => "steep_roughness",
+            Warning::SteepForm { .. } => "steep_form",
             Warning::LongRangedAttraction { .. } => "long_ranged_attraction",
             Warning::FiniteRangedAttraction { .. } => "finite_ranged_attraction",
             Warning::HeightsAsProfile => "heights_as_profile",
             Warning::CutLikeHeights { .. } => "cut_like_heights",
             Warning::ScanLongerThanLength { .. } => "scan_longer_than_length",
+            Warning::ScanShorterThanLength { .. } => "scan_shorter_than_length",
             Warning::SteepWaves { .. } => "steep_waves",
             Warning::FallingProfile { .. } => "falling_profile",
             Warning::MeasuredFile { .. } => "measured_file",
@@ -428,6 +468,13 @@ impl Warning {
                 format_quantity(*rms_gradient, "1"),
                 Self::LARGEST_GRADIENT
             ),
+            Warning::SteepForm { slope } => format!(
+                "The slope of the form at the edge of the contact is {}, above {}: the contact is \
+                 about as wide as the body is round, so the theory of small slopes does not hold, \
+                 and neither do forces and energies that follow from it.",
+                format_rounded(*slope, 2, "1"),
+                Self::LARGEST_GRADIENT
+            ),
             Warning::LongRangedAttraction { tabor_number } => format!(
                 "JKR theory and the rule of Hess do not apply: the Tabor number {} is below {}, so \
                  that the attraction reaches beyond the contact. DMT theory applies, by which a \
@@ -464,6 +511,18 @@ impl Warning {
                 metres(*length),
                 format_rounded(*profile, 3, "m"),
                 format_rounded(*surface, 3, "m")
+            ),
+            Warning::ScanShorterThanLength {
+                scan,
+                length,
+                share,
+            } => format!(
+                "The profile of {} is longer than the scan of {}, which has no waves longer than \
+                 itself, although waves longer than a quarter of it carry {:.0} % of the squared \
+                 height: the profile is likely to lack the highest waves of the surface.",
+                metres(*length),
+                metres(*scan),
+                100.0 * share
             ),
             Warning::SteepWaves { ratio, jkr_factor } => format!(
                 "The waves of the sphere are steep, λ²/(AR) = {}, below {}: by the rule of Hess \
@@ -574,6 +633,9 @@ impl Warning {
                 "If the unit of positions or of heights is wrong, roughness.unit and \
                  roughness.height_unit state it."
             }
+            Warning::SteepForm { .. } => {
+                "A smaller load, a larger radius or a flatter form has a smaller slope there."
+            }
             Warning::LongRangedAttraction { .. } => {
                 "Of the results only the force of contact without adhesion is left; a shorter \
                  adhesion.range raises the number."
@@ -592,6 +654,10 @@ impl Warning {
             Warning::ScanLongerThanLength { .. } => {
                 "A length of at least the scan has all waves; a shorter one is right only if the \
                  contact is that small."
+            }
+            Warning::ScanShorterThanLength { .. } => {
+                "A scan as long as the profile has these waves; a length of the scan is right only \
+                 if the contact is that small."
             }
             Warning::SteepWaves { .. } => {
                 "A smaller form.amplitude, or a longer form.wavelength, has waves that are not \

@@ -200,6 +200,8 @@ struct ResultsJson<'a> {
     /// Values on each axis of the study, by the path of its field.
     axes: BTreeMap<&'a str, &'a [f64]>,
     profiles: u64,
+    /// Premises of the model that some of the profiles do not meet in any cell.
+    warnings: Vec<String>,
     records: Table<'a>,
 }
 
@@ -216,6 +218,7 @@ impl Report for Results {
             scene: &plan.scene,
             axes,
             profiles: plan.lines,
+            warnings: counted_texts(&self.all_warnings(), plan.lines),
             records: Results::table(self),
         }))
     }

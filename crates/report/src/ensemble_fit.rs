@@ -2,6 +2,7 @@
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::warnings::{counted_section, counted_texts};
 use crate::words::{plural, whole_percent};
 use asperity_data::{
     AxisScale, Kind, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded,
@@ -9,6 +10,7 @@ use asperity_data::{
 };
 use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, SummaryDeviation};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
+use serde::Serialize;
 
 /// Relative change of the rms height whose effect is reported.
 const HEIGHT_CHANGE: f64 = 0.05;
@@ -43,9 +45,6 @@ impl Report for EnsembleFitReport<'_> {
         if let Some(sentence) = self.not_described() {
             sheet.paragraph(&sentence);
         }
-        if let Some(reason) = &fit.unsuitable_profile {
-            sheet.paragraph(&reason.note().in_words(self.wording));
-        }
         sheet.heading(&format!("Many random profiles of {}", self.title));
         if let Some(sentence) = &fit.instrument {
             sheet.paragraph(sentence);
@@ -62,11 +61,15 @@ impl Report for EnsembleFitReport<'_> {
         }
         let computed = grouped(fit.computed as u64);
         sheet.paragraph(&format!("{computed} curves were computed. {INDEPENDENT}"));
+        counted_section(&mut sheet, &fit.warnings, EnsembleFit::EXAMINED);
         Some(sheet.into_text())
     }
 
     fn json(&self) -> Option<Box<dyn Json + '_>> {
-        Some(Box::new(self.fit))
+        Some(Box::new(EnsembleFitJson {
+            fit: self.fit,
+            warnings: self.warning_texts(),
+        }))
     }
 
     fn table(&self) -> Option<Table<'_>> {
@@ -114,7 +117,22 @@ impl Report for EnsembleFitReport<'_> {
     }
 }
 
+/// JSON object of an [`EnsembleFit`] in SI units.
+#[derive(Serialize)]
+struct EnsembleFitJson<'a> {
+    #[serde(flatten)]
+    fit: &'a EnsembleFit,
+    /// Premises of the model that random profiles with the found values do not meet.
+    warnings: Vec<String>,
+}
+
 impl EnsembleFitReport<'_> {
+    /// Returns the premises of the model that random profiles with the found values do not meet,
+    /// one text for each.
+    pub fn warning_texts(&self) -> Vec<String> {
+        counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
+    }
+
     /// Adds the work of adhesion and the modulus, with the curves and profiles that gave them.
     fn add_values(&self, sheet: &mut Sheet) {
         let fit = self.fit;

@@ -4,8 +4,9 @@
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
+use crate::warnings::{sentences_section, with_share};
 use crate::words::counted;
-use asperity_data::{AxisScale, Control, Kind, Note, Remedied, Remedy, Table, Wording};
+use asperity_data::{AxisScale, Control, Kind, Note, Remedied, Remedy, Table, Warning, Wording};
 use asperity_data::{
     format_quantity, format_range, format_within, grouped, one_unit, printable, quartiles,
 };
@@ -42,8 +43,56 @@ pub struct CurveRow {
     pub described: Option<bool>,
     /// Reason why the model does not describe the curve; empty if there is none.
     pub reason: String,
+    /// Premises of the model that the scene with the fitted values does not meet.
+    pub warnings: Vec<RowWarning>,
     /// Reason why the curve was not read or not fitted; empty if the curve was fitted.
     pub error: String,
+}
+
+/// A premise of the model that the scene fitted to one curve does not meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowWarning {
+    /// [Name](asperity_data::Warning::name) of the premise.
+    pub name: String,
+    /// [`asperity_data::Warning`] as text.
+    pub text: String,
+}
+
+impl RowWarning {
+    /// Text between the warnings in a cell of a table.
+    const SEPARATOR: &'static str = " | ";
+
+    fn of(warning: &Warning) -> Self {
+        RowWarning {
+            name: warning.name().to_owned(),
+            text: warning.to_string(),
+        }
+    }
+
+    /// Returns the cell of a table that has these warnings: `name: text | name: text`.
+    fn cell(warnings: &[RowWarning]) -> String {
+        let texts: Vec<String> = warnings
+            .iter()
+            .map(|warning| format!("{}: {}", warning.name, warning.text))
+            .collect();
+        texts.join(Self::SEPARATOR)
+    }
+
+    /// Reads the warnings in a cell of a table; `None` if it has something else.
+    fn in_cell(cell: &str) -> Option<Vec<RowWarning>> {
+        let mut warnings = Vec::new();
+        if cell.is_empty() {
+            return Some(warnings);
+        }
+        for warning in cell.split(Self::SEPARATOR) {
+            let (name, text) = warning.split_once(": ")?;
+            warnings.push(RowWarning {
+                name: name.to_owned(),
+                text: text.to_owned(),
+            });
+        }
+        Some(warnings)
+    }
 }
 
 /// Names of the columns after the parameters.
@@ -124,6 +173,7 @@ impl CurveRow {
             points: Some(curve.points as u64),
             described: Some(fit.describes()),
             reason,
+            warnings: fit.warnings.iter().map(RowWarning::of).collect(),
             error: String::new(),
         }
     }
@@ -133,12 +183,12 @@ impl CurveRow {
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, cells) = cells.split_first()?;
-        if cells.len() != ENDINGS.len() * parameters + FACTS.len() + 4 {
+        if cells.len() != ENDINGS.len() * parameters + FACTS.len() + 5 {
             return None;
         }
         let (values, cells) = cells.split_at(ENDINGS.len() * parameters);
         let (facts, cells) = cells.split_at(FACTS.len());
-        let [points, described, reason, error] = cells else {
+        let [points, described, reason, warnings, error] = cells else {
             return None;
         };
         // A curve that was not fitted has no values.
@@ -154,6 +204,7 @@ impl CurveRow {
             points: points.parse().ok(),
             described: described.parse().ok(),
             reason: reason.clone(),
+            warnings: RowWarning::in_cell(warnings)?,
             error: error.clone(),
         })
     }
@@ -311,6 +362,38 @@ impl FitsReport<'_> {
         sentences
     }
 
+    /// Returns the premises of the model that the scenes fitted to some of the curves do not meet,
+    /// one text for each with the number of these curves. The values in a text are those of the
+    /// first such curve.
+    pub fn warning_texts(&self) -> Vec<String> {
+        let mut first_of_kind: Vec<&RowWarning> = Vec::new();
+        let mut counts: Vec<u64> = Vec::new();
+        let mut fitted = 0;
+        for row in self.rows {
+            if !row.error.is_empty() {
+                continue;
+            }
+            fitted += 1;
+            for warning in &row.warnings {
+                let known = first_of_kind
+                    .iter()
+                    .position(|known| known.name == warning.name);
+                match known {
+                    Some(kind) => counts[kind] += 1,
+                    None => {
+                        first_of_kind.push(warning);
+                        counts.push(1);
+                    }
+                }
+            }
+        }
+        let mut texts = Vec::with_capacity(counts.len());
+        for (warning, count) in first_of_kind.iter().zip(counts) {
+            texts.push(with_share(&warning.text, count, fitted, "curves"));
+        }
+        texts
+    }
+
     fn first_parameter(&self) -> FirstParameter {
         let mut values = FirstParameter {
             described: Vec::new(),
@@ -406,6 +489,7 @@ impl Report for FitsReport<'_> {
                 sheet.paragraph(sentence);
             }
         }
+        sentences_section(&mut sheet, &self.warning_texts());
         Some(sheet.into_text())
     }
 
@@ -415,6 +499,7 @@ impl Report for FitsReport<'_> {
             parameter: self.free.first().map(|parameter| parameter.name()),
             all: DistributionJson::new(values.all()),
             described: DistributionJson::new(values.described),
+            warnings: self.warning_texts(),
             curves: self.table(),
             scene: self.scene,
         }))
@@ -438,6 +523,9 @@ impl Report for FitsReport<'_> {
             .with("points_used", Kind::Whole, |row| row.points)
             .with("described", Kind::Text(0), |row| row.described)
             .with("reason", Kind::Text(0), |row| row.reason.clone())
+            .with("warnings", Kind::Text(0), |row| {
+                RowWarning::cell(&row.warnings)
+            })
             .with("error", Kind::Text(0), |row| row.error.clone());
         Some(table.done())
     }
@@ -467,7 +555,7 @@ impl Report for FitsReport<'_> {
         }
         let notes = self.summary();
         Some(Figure {
-            title: format!("{} curves", grouped(self.rows.len() as u64)),
+            title: counted(self.rows.len() as u64, "curve"),
             notes: notes
                 .iter()
                 .map(|sentence| Label::plain(sentence))
@@ -543,6 +631,8 @@ struct FitsJson<'a> {
     /// Distribution over the curves that the model describes.
     described: Option<DistributionJson>,
     all: Option<DistributionJson>,
+    /// Premises of the model that the scenes fitted to some of the curves do not meet.
+    warnings: Vec<String>,
     curves: Option<Table<'a>>,
     scene: &'a Scene,
 }
@@ -582,6 +672,18 @@ mod tests {
                 String::new()
             } else {
                 "The force, \"drifts\".".to_owned()
+            },
+            warnings: if described {
+                Vec::new()
+            } else {
+                let springs = (1e6 * work) as u64 % 20;
+                [
+                    Warning::ContactAtEnds { length: work },
+                    Warning::FewSpringsInContact { springs },
+                ]
+                .iter()
+                .map(RowWarning::of)
+                .collect()
             },
             error: String::new(),
         }
@@ -668,6 +770,57 @@ mod tests {
             let is_named =
                 |row: &CurveRow| failure.contains(&format!("{}: {}", row.file, row.error));
             assert!(fitted > 0 || rows.iter().all(is_named), "{failure}");
+        }
+    }
+
+    /// Each premise is said once, with the number of fitted curves and the values of the first one.
+    #[test]
+    fn premises_are_counted_over_the_fitted_curves() {
+        let failed = CurveRow {
+            error: "no".into(),
+            ..CurveRow::default()
+        };
+        let all = [
+            row("a", 0.05, true),
+            row("b", 0.2, false),
+            row("c", 0.1, false),
+            failed,
+        ];
+        let document = open("jkr-sphere").unwrap();
+        let texts = |rows: &[CurveRow]| {
+            let report = FitsReport {
+                scene: document.scene(),
+                free: &[Parameter::Work],
+                rows,
+            };
+            let warnings = report.warning_texts();
+            let text = report.text().unwrap().replace('\n', " ");
+            let json = serde_json::to_value(report.json().unwrap()).unwrap();
+            assert_eq!(text.contains("Warnings"), !warnings.is_empty());
+            assert_eq!(json["warnings"], serde_json::json!(warnings));
+            warnings
+        };
+        let of_all = texts(&all);
+        let ends = Warning::ContactAtEnds { length: 0.2 };
+        assert_eq!(of_all.len(), 2);
+        assert_eq!(of_all[0], format!("On 2 of 3 curves: {ends}"));
+        assert_eq!(texts(&all[1..2])[0], ends.to_string());
+        assert_eq!(texts(&all[..1]), [""; 0]);
+        assert_eq!(texts(&all[3..]), [""; 0]);
+        assert_eq!(texts(&[]), [""; 0]);
+    }
+
+    #[test]
+    fn the_title_of_a_figure_counts_its_curves() {
+        let document = open("jkr-sphere").unwrap();
+        let rows = [row("a", 0.05, true), row("b", 0.06, true)];
+        for (count, title) in [(1, "1 curve"), (2, "2 curves")] {
+            let report = FitsReport {
+                scene: document.scene(),
+                free: &[Parameter::Work, Parameter::Modulus],
+                rows: &rows[..count],
+            };
+            assert_eq!(report.figure().unwrap().title, title);
         }
     }
 

@@ -42,7 +42,7 @@ pub use ensemble_fit::EnsembleFitReport;
 pub use event::event;
 pub use find::{FindReport, found_in_words};
 pub use fit::FitReport;
-pub use fits::{CurveRow, FitsReport};
+pub use fits::{CurveRow, FitsReport, RowWarning};
 pub use loop_chart::{ForceLoop, LoopQuantities, LoopUnits, force_figure, loop_chart, sign};
 pub use measured_face::{MeasuredFace, SurfaceFile};
 pub use parameters::parameter_lines;
@@ -68,6 +68,8 @@ pub use study_figure::{study_curves, study_figure, study_map};
 pub use summary::brief_summary;
 pub use surface::{SurfaceReport, measured_adhesion_text};
 pub use trust::{error_rows, theory_rows};
-pub use warnings::{counted_section, counted_texts, warning_texts, warnings_section};
+pub use warnings::{
+    counted_record_texts, counted_section, counted_texts, warning_texts, warnings_section,
+};
 pub use words::{counted, letter, percent};
 pub use work_precision::work_precision;

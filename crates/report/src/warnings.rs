@@ -1,8 +1,7 @@
 //! Warnings in reports: the same words in text and in JSON.
 
 use crate::sheet::Sheet;
-use asperity_data::{Warning, grouped};
-use asperity_study::trust::CountedWarning;
+use asperity_data::{CountedWarning, Warning, grouped};
 
 /// Adds a section with the premises that a result does not meet. Without warnings it adds nothing.
 pub fn warnings_section(sheet: &mut Sheet, warnings: &[Warning]) {
@@ -19,18 +18,31 @@ pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles:
 /// `On 12 of 16 profiles: ` and the warning. The count is left out if the premise does not hold on
 /// any profile.
 pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
+    texts_with_shares(warnings, profiles, "profiles")
+}
+
+/// Returns the premises that do not hold for some of `records` records of a study:
+/// `On 12 of 16 records: ` and the warning, as [`counted_texts`] does for profiles.
+pub fn counted_record_texts(warnings: &[CountedWarning], records: u64) -> Vec<String> {
+    texts_with_shares(warnings, records, "records")
+}
+
+fn texts_with_shares(warnings: &[CountedWarning], all: u64, things: &str) -> Vec<String> {
     let mut texts = Vec::with_capacity(warnings.len());
     for counted in warnings {
         let text = counted.warning.to_string();
-        let is_everywhere = counted.profiles == profiles;
-        let share = format!(
-            "On {} of {} profiles: ",
-            grouped(counted.profiles),
-            grouped(profiles)
-        );
-        texts.push(if is_everywhere { text } else { share + &text });
+        texts.push(with_share(&text, counted.profiles, all, things));
     }
     texts
+}
+
+/// Puts the share of the things on which a premise does not hold before its text:
+/// `On 12 of 16 profiles: `. The share is left out if the premise holds on none of them.
+pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> String {
+    if count == all {
+        return text.to_owned();
+    }
+    format!("On {} of {} {things}: {text}", grouped(count), grouped(all))
 }
 
 /// Adds a section with warnings that are already sentences. Without sentences it adds nothing.

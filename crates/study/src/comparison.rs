@@ -712,86 +712,151 @@ mod tests {
             .collect()
     }
 
-    /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100
-    /// samples of a few of them.
-    #[test]
-    #[ignore = "computes 128 squares, minutes"]
-    fn the_interval_of_a_ratio_holds_the_ratio() {
-        let spectra = [
-            [
-                ("roughness.hurst", "0.55"),
-                ("roughness.modes", "(1, 4)"),
-                ("adhesion.elastic_energy_ratio", "1.5"),
-            ],
-            [
-                ("roughness.hurst", "0.2"),
-                ("roughness.modes", "(2, 4)"),
-                ("adhesion.elastic_energy_ratio", "0.5"),
-            ],
+    /// Values of one quantity on all lines and on all squares of a population.
+    struct Population {
+        quantity: &'static str,
+        lines: Vec<f64>,
+        squares: Vec<f64>,
+    }
+
+    /// Returns the values of the quantities that a comparison states: those of the loops, if the
+    /// body adheres, and the indentation without adhesion at the preload.
+    fn populations(fields: &[(&str, &str)], maps: u64, count: u64) -> Vec<Population> {
+        let (lines, squares) = population(fields, maps, count);
+        let of_lines = |figure: fn(&LineLoop) -> Option<f64>| -> Vec<f64> {
+            lines.loops.iter().filter_map(figure).collect()
+        };
+        let of_squares = |figure: fn(&Pulling) -> f64| -> Vec<f64> {
+            let pullings = squares
+                .iter()
+                .filter_map(|square| square.fine.pulling.as_ref());
+            pullings.map(figure).collect()
+        };
+        let mut all = vec![
+            Population {
+                quantity: "F_a",
+                lines: of_lines(|line| line.adhesion_force),
+                squares: of_squares(|pulling| pulling.adhesion_force),
+            },
+            Population {
+                quantity: "touch",
+                lines: of_lines(|line| line.first_touch_adhesion_force),
+                squares: of_squares(|pulling| pulling.at_touch),
+            },
+            Population {
+                quantity: "energy",
+                lines: of_lines(|line| line.dissipated_energy),
+                squares: of_squares(|pulling| pulling.dissipated_energy),
+            },
         ];
-        let mut random = ChaCha8Rng::seed_from_u64(5);
+        all.retain(|population| !population.squares.is_empty());
+        let last = SHARES.len() - 1;
+        let pressed = lines.pressed.iter();
+        let pressings = squares.iter().map(|square| &square.fine.pressings[last]);
+        all.push(Population {
+            quantity: "indentation",
+            lines: pressed.map(|states| states[last].indentation).collect(),
+            squares: pressings.map(|pressing| pressing.indentation).collect(),
+        });
+        all
+    }
+
+    impl Population {
+        /// Returns the share of intervals that hold the ratio of this population, in samples of
+        /// `count` squares and of 16 lines for each.
+        fn held(&self, count: usize, random: &mut ChaCha8Rng) -> f64 {
+            let truth = mean(&self.lines) / mean(&self.squares);
+            let repeats = 2000;
+            let mut held = 0;
+            for _ in 0..repeats {
+                let values = Values {
+                    lines: drawn(&self.lines, 16 * count, random),
+                    squares: drawn(&self.squares, count, random),
+                    coarse: Vec::new(),
+                };
+                let compared = values.compared().unwrap();
+                let error = compared.error.unwrap();
+                held += i32::from((compared.ratio - truth).abs() <= error);
+            }
+            f64::from(held) / f64::from(repeats)
+        }
+    }
+
+    /// Returns the least share of intervals that hold the ratio, over the quantities of some
+    /// spectra and 3, 6 and 12 squares.
+    fn least_held(spectra: &[&[(&str, &str)]], seed: u64) -> f64 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut least = 1.0_f64;
         for fields in spectra {
-            let (lines, squares) = population(&fields, 64, 1024);
-            let pulling = |figure: fn(&Pulling) -> f64| {
-                squares
-                    .iter()
-                    .filter_map(|square| square.fine.pulling.as_ref().map(figure))
-                    .collect::<Vec<_>>()
-            };
-            let last = SHARES.len() - 1;
-            let adhesion = lines
-                .loops
-                .iter()
-                .filter_map(|line| line.adhesion_force)
-                .collect::<Vec<_>>();
-            let touch = lines
-                .loops
-                .iter()
-                .filter_map(|line| line.first_touch_adhesion_force);
-            let energy = lines.loops.iter().filter_map(|line| line.dissipated_energy);
-            let indentation = lines.pressed.iter().map(|states| states[last].indentation);
-            let pressed = squares
-                .iter()
-                .map(|square| square.fine.pressings[last].indentation);
-            let quantities = [
-                ("F_a", adhesion, pulling(|pulling| pulling.adhesion_force)),
-                (
-                    "touch",
-                    touch.collect(),
-                    pulling(|pulling| pulling.at_touch),
-                ),
-                (
-                    "energy",
-                    energy.collect(),
-                    pulling(|pulling| pulling.dissipated_energy),
-                ),
-                ("indentation", indentation.collect(), pressed.collect()),
-            ];
-            for (name, lines, squares) in quantities {
-                let truth = mean(&lines) / mean(&squares);
+            let populations = populations(fields, 64, 1024);
+            assert!(!populations.is_empty());
+            for population in populations {
                 for count in [3, 6, 12] {
-                    let repeats = 2000;
-                    let mut held = 0;
-                    for _ in 0..repeats {
-                        let lines = drawn(&lines, 16 * count, &mut random);
-                        let squares = drawn(&squares, count, &mut random);
-                        let compared = Values {
-                            lines,
-                            squares,
-                            coarse: Vec::new(),
-                        }
-                        .compared()
-                        .unwrap();
-                        let error = compared.error.unwrap();
-                        held += i32::from((compared.ratio - truth).abs() <= error);
-                    }
-                    let share = f64::from(held) / f64::from(repeats);
-                    println!("{fields:?} {name} {count} {share:.3}");
+                    let share = population.held(count, &mut random);
+                    println!("{fields:?} {} {count} {share:.3}", population.quantity);
                     least = least.min(share);
                 }
             }
         }
+        least
+    }
+
+    /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100
+    /// samples of a few of them. The rule that widens it was found with these two spectra.
+    #[test]
+    #[ignore = "computes 128 squares, minutes"]
+    fn the_interval_of_a_ratio_holds_the_ratio() {
+        let least = least_held(
+            &[
+                &[
+                    ("roughness.hurst", "0.55"),
+                    ("roughness.modes", "(1, 4)"),
+                    ("adhesion.elastic_energy_ratio", "1.5"),
+                ],
+                &[
+                    ("roughness.hurst", "0.2"),
+                    ("roughness.modes", "(2, 4)"),
+                    ("adhesion.elastic_energy_ratio", "0.5"),
+                ],
+            ],
+            5,
+        );
+        assert!(least >= 0.93, "{least}");
+    }
+
+    /// The interval also holds the ratio for spectra with which the rule that widens it was not
+    /// found: with and without a roll-off, with and without adhesion.
+    #[test]
+    #[ignore = "computes 256 squares, minutes"]
+    fn the_interval_of_a_ratio_holds_the_ratio_of_other_spectra() {
+        let least = least_held(
+            &[
+                &[
+                    ("roughness.hurst", "0.3"),
+                    ("roughness.modes", "(1, 4)"),
+                    ("roughness.roll_off", "5.0e-5"),
+                    ("adhesion.elastic_energy_ratio", "1.0"),
+                ],
+                &[
+                    ("roughness.hurst", "0.9"),
+                    ("roughness.modes", "(1, 4)"),
+                    ("adhesion.elastic_energy_ratio", "2.5"),
+                ],
+                &[
+                    ("roughness.hurst", "0.7"),
+                    ("roughness.modes", "(1, 3)"),
+                    ("adhesion.elastic_energy_ratio", "0.7"),
+                ],
+                &[
+                    ("roughness.hurst", "0.45"),
+                    ("roughness.modes", "(1, 4)"),
+                    ("roughness.roll_off", "4.0e-5"),
+                    ("adhesion", "None"),
+                    ("loading", "[ToForce(3.0e-5)]"),
+                ],
+            ],
+            6,
+        );
         assert!(least >= 0.93, "{least}");
     }
 }

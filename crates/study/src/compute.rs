@@ -8,7 +8,7 @@ use super::plan::Plan;
 use super::recorder::{Recorded, Recorder};
 use super::results::Results;
 use asperity_contact::ContactError;
-use asperity_data::{Control, on_threads};
+use asperity_data::{Control, Warning, on_threads};
 use asperity_scene::{RunError, Simulation};
 use asperity_surface::lines::MeasuredRoughness;
 use std::panic::resume_unwind;
@@ -17,6 +17,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
+
+/// Records of a streak that is computed.
+pub(super) struct SolvedStreak {
+    pub streak: Streak,
+    pub records: Vec<Recorded>,
+    /// Premises that the records do not meet, with the numbers of their cells.
+    pub warnings: Vec<(u64, Vec<Warning>)>,
+}
 
 /// Streaks of a plan that are to be computed.
 pub(super) struct Streaks<'a> {
@@ -32,8 +40,8 @@ pub(super) struct Streaks<'a> {
 
 impl Streaks<'_> {
     /// Computes the missing streaks on this number of threads, until `stop` returns true after a
-    /// streak. `receive` takes each streak with its records on the thread that computed it, and
-    /// returns false to end the computation.
+    /// streak. `receive` takes each computed streak on the thread that computed it, and returns
+    /// false to end the computation.
     ///
     /// # Errors
     /// Too little memory for a record.
@@ -42,7 +50,7 @@ impl Streaks<'_> {
         plan: &Plan,
         threads: usize,
         stop: &(dyn Fn() -> bool + Sync),
-        receive: &(dyn Fn(Streak, Vec<Recorded>) -> bool + Sync),
+        receive: &(dyn Fn(SolvedStreak) -> bool + Sync),
     ) -> Result<(), StudyError> {
         let ended = &AtomicBool::new(false);
         let worker = || {
@@ -68,7 +76,13 @@ impl Streaks<'_> {
                             format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
                         StudyError::Run { place, error }
                     })?;
-                    ended.fetch_or(!receive(streak, records), Ordering::SeqCst);
+                    let warnings = recorder.take_warnings();
+                    let solved = SolvedStreak {
+                        streak,
+                        records,
+                        warnings,
+                    };
+                    ended.fetch_or(!receive(solved), Ordering::SeqCst);
                 }
                 Ok(())
             }
@@ -107,25 +121,63 @@ impl Streaks<'_> {
 /// assert!(median(0) > median(1) && median(1) > median(2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyError> {
+pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError> {
+    check(plan, &control)?;
+    let measured = profile(plan, Path::new(""))?;
+    compute_on(plan, measured, control)
+}
+
+/// Computes a plan in memory as [`compute`] does, on a measured roughness that replaces the files
+/// that the scene names.
+///
+/// # Errors
+/// Returns the same errors as [`compute`], and an error for an axis of an option of the files, such
+/// as `roughness.row`, which a measured roughness in memory does not have any more.
+pub fn compute_with_measured(
+    plan: &Plan,
+    measured: Arc<MeasuredRoughness>,
+    control: Control<'_>,
+) -> Result<Results, StudyError> {
+    check(plan, &control)?;
+    for axis in &plan.axes {
+        if axis.path.starts_with("roughness.") {
+            let found = format!("an axis {} of a surface in memory", axis.path);
+            let allowed = "axes of other fields, or a surface in a file";
+            return Err(StudyError::refused(None, found, allowed));
+        }
+    }
+    compute_on(plan, Some(measured), control)
+}
+
+/// Returns an error if the threads or the memory do not suffice.
+fn check(plan: &Plan, control: &Control<'_>) -> Result<(), StudyError> {
     let threads = control.threads();
-    let stop = control.stop();
     StudyError::check_threads(threads)?;
     plan.memory(threads as u64)?;
-    let profile = profile(plan, Path::new(""))?;
+    Ok(())
+}
+
+/// Computes a plan whose measured roughness is known, if it has one.
+fn compute_on(
+    plan: &Plan,
+    measured: Option<Arc<MeasuredRoughness>>,
+    mut control: Control<'_>,
+) -> Result<Results, StudyError> {
+    let threads = control.threads();
+    let stop = control.stop();
     let cells = Cells::of(plan);
     let units: Vec<u64> = (0..cells.units()).collect();
     let streaks = Streaks {
         cells: &cells,
         units: &units,
         is_missing: &|_| true,
-        profile: profile.as_ref(),
+        profile: measured.as_ref(),
     };
     let mut results = Results::empty(plan.clone())?;
     let (sender, receiver) = channel();
     let work = move || {
         // The receiver lives until all threads have ended.
-        let send = move |streak, records| sender.send((streak, records)).is_ok();
+        let send = move |solved| sender.send(solved).is_ok();
         streaks.compute(plan, threads, stop, &send)
     };
     let mut done = 0;
@@ -133,12 +185,17 @@ pub fn compute(plan: &Plan, mut control: Control<'_>) -> Result<Results, StudyEr
         let computing = Builder::new()
             .spawn_scoped(scope, work)
             .map_err(StudyError::NoThread)?;
-        for (streak, records) in receiver.iter() {
+        for solved in receiver.iter() {
+            let SolvedStreak {
+                streak,
+                records,
+                warnings,
+            } = solved;
             done += records.len() as u64;
-            let places = streak.cells.map(|cell| cell * plan.lines + streak.line);
-            places
-                .zip(records)
-                .for_each(|(place, one)| results.set_record(place, one));
+            for (cell, record) in streak.cells.zip(records) {
+                results.set_record(cell * plan.lines + streak.line, record);
+            }
+            results.set_warnings(streak.line, warnings);
             control.report(done);
         }
         computing

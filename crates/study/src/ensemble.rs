@@ -3,9 +3,9 @@
 use super::error::StudyError;
 use super::missing_profiles::Failures;
 use super::quantity::Quantity;
-use super::results::{CountedWarning, Results};
+use super::results::Results;
 use super::statistics::{RegimeCounts, Statistics};
-use asperity_data::Control;
+use asperity_data::{Control, CountedWarning};
 use asperity_scene::{Scene, Simulation, Solver};
 
 /// Results of a scene on several random profiles. The first profile has the seed of the scene, and

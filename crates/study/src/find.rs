@@ -11,9 +11,8 @@ use super::plan::Plan;
 use super::premises::warnings_on_profiles;
 use super::profiles::on_profiles;
 use super::question::{Answer, Question};
-use super::results::CountedWarning;
 use asperity_contact::Move;
-use asperity_data::{Control, Remedy, format_quantity, format_range, quantile};
+use asperity_data::{Control, CountedWarning, Remedy, format_quantity, format_range, quantile};
 use asperity_scene::{CheckedScene, Simulation};
 
 /// Largest relative change of a quantity over the searched range with which the number counts as

@@ -82,7 +82,7 @@ mod study_map;
 mod tables;
 
 pub use axis::{Axis, Spacing};
-pub use compute::compute;
+pub use compute::{compute, compute_with_measured};
 pub use ensemble::Ensemble;
 pub use error::StudyError;
 pub use find::Found;
@@ -93,7 +93,7 @@ pub use preloads::Staircase;
 pub use quantity::Quantity;
 pub use question::{Answer, Question};
 pub use results::Results;
-pub use run::{StudyProgress, run_study};
+pub use run::{StudyProgress, StudyRun, run_study};
 pub use sensitivity::{Changed, Influence, Sensitivity};
 pub use shard::Shard;
 pub use statistics::{RegimeCounts, Spread, Statistics};
@@ -144,5 +144,5 @@ pub mod trust {
     pub use crate::criterion::Criterion;
     pub use crate::measured_adhesion::{MeasuredAdhesion, ProfileAdhesion};
     pub use crate::premises::{warnings_of_reversals, warnings_on_profiles};
-    pub use crate::results::CountedWarning;
+    pub use asperity_data::CountedWarning;
 }

@@ -3,8 +3,8 @@
 use super::error::StudyError;
 use super::missing_profiles::Failures;
 use super::quantity::Quantity;
-use super::results::{CountedWarning, Results};
-use asperity_data::{Control, Warning};
+use super::results::Results;
+use asperity_data::{Control, CountedWarning, Warning};
 use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 

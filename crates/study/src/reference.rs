@@ -8,9 +8,9 @@
 use super::compared::Compared;
 use super::ensemble::Ensemble;
 use super::reference_budget::ReferenceBudget;
-use super::results::CountedWarning;
 use super::shells::ComparedRoughness;
 use asperity_contact::Move;
+use asperity_data::CountedWarning;
 use asperity_scene::Scene;
 use serde::Serialize;
 

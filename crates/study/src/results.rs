@@ -9,7 +9,7 @@ use super::quantity::{Quantity, regime_of};
 use super::recorder::Recorded;
 use super::statistics::{RegimeCounts, Statistics};
 use super::store::{Folder, ShardFile};
-use asperity_data::{AxisScale, Control, Warning};
+use asperity_data::{AxisScale, Control, CountedWarning, Warning};
 use asperity_scene::{Regime, RunError, Scene, Simulation, Solver};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,16 +29,6 @@ pub struct Results {
     failed: BTreeMap<u64, String>,
     /// Premises that records computed in memory do not meet, by the index of the record.
     warnings: BTreeMap<u64, Vec<Warning>>,
-}
-
-/// A premise of the model that some profiles of a study do not meet.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct CountedWarning {
-    /// The premise, with the values of the first profile that does not meet it.
-    pub warning: Warning,
-    /// Number of profiles that do not meet it.
-    pub profiles: u64,
 }
 
 /// What [`merge`](crate::merge) found in the files of a study. A record has the values of one
@@ -99,20 +89,6 @@ fn same(one: &[f64], other: &[f64]) -> bool {
         }
     }
     true
-}
-
-/// Counts a warning of one more profile.
-fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
-    match counted
-        .iter_mut()
-        .find(|known| known.warning.name() == warning.name())
-    {
-        Some(known) => known.profiles += 1,
-        None => counted.push(CountedWarning {
-            warning: warning.clone(),
-            profiles: 1,
-        }),
-    }
 }
 
 /// Returns true if a file has a record with this index.
@@ -225,9 +201,15 @@ impl Results {
         for (cell, record) in (0..).zip(solved.records) {
             self.set_record(cell * self.plan.lines + solved.line, record);
         }
-        for (cell, warnings) in solved.warnings {
-            self.warnings
-                .insert(cell * self.plan.lines + solved.line, warnings);
+        self.set_warnings(solved.line, solved.warnings);
+    }
+
+    /// Sets the premises that records of a profile do not meet, each list with the number of its
+    /// cell.
+    pub(super) fn set_warnings(&mut self, line: u64, warnings: Vec<(u64, Vec<Warning>)>) {
+        for (cell, warnings) in warnings {
+            let place = cell * self.plan.lines + line;
+            self.warnings.insert(place, warnings);
         }
     }
 
@@ -384,7 +366,7 @@ impl Results {
             .range(places)
             .flat_map(|(_, warnings)| warnings)
         {
-            count(&mut counted, warning);
+            CountedWarning::count(&mut counted, warning);
         }
         counted
     }
@@ -402,7 +384,7 @@ impl Results {
             let mut names = BTreeSet::new();
             for warning in of_profile {
                 if names.insert(warning.name()) {
-                    count(&mut counted, warning);
+                    CountedWarning::count(&mut counted, warning);
                 }
             }
         }

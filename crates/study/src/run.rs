@@ -2,7 +2,7 @@
 //! not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
-use super::compute::Streaks;
+use super::compute::{SolvedStreak, Streaks};
 use super::error::StudyError;
 use super::measured::profile;
 use super::plan::Plan;
@@ -10,13 +10,14 @@ use super::recorder::Recorded;
 use super::shard::Shard;
 use super::status::{count, rate};
 use super::store::{Folder, encode};
-use asperity_data::Control;
+use asperity_data::{Control, CountedWarning};
 use std::fs::File;
 use std::io;
 use std::io::Write;
 use std::panic::resume_unwind;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
@@ -50,10 +51,15 @@ impl StudyProgress {
         self.done == self.total
     }
 
+    /// Returns the number of records that this run of [`run_study`] has computed so far.
+    pub fn computed(&self) -> u64 {
+        self.done - self.before
+    }
+
     /// Returns how many records this run of [`run_study`] has computed per second so far; `None`
     /// before the first record.
     pub fn rate(&self) -> Option<f64> {
-        rate(self.done - self.before, self.elapsed.as_secs_f64())
+        rate(self.computed(), self.elapsed.as_secs_f64())
     }
 
     /// Returns the estimated time for the missing records of the shard at [`StudyProgress::rate`];
@@ -62,6 +68,16 @@ impl StudyProgress {
         let seconds = (self.total - self.done) as f64 / self.rate()?;
         Duration::try_from_secs_f64(seconds).ok()
     }
+}
+
+/// What one run of [`run_study`] has computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyRun {
+    /// Progress at the end of the run.
+    pub progress: StudyProgress,
+    /// Premises of the model that records of this run do not meet, each with the number of these
+    /// records.
+    pub warnings: Vec<CountedWarning>,
 }
 
 /// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
@@ -75,7 +91,7 @@ pub fn run_study(
     folder: &Folder,
     shard: Shard,
     mut control: Control<'_, StudyProgress>,
-) -> Result<StudyProgress, StudyError> {
+) -> Result<StudyRun, StudyError> {
     let threads = control.threads();
     let stop = control.stop();
     StudyError::check_threads(threads)?;
@@ -90,8 +106,10 @@ pub fn run_study(
         elapsed: Duration::ZERO,
     };
     control.report(progress);
+    let warnings = Mutex::new(Vec::new());
     if progress.is_complete() {
-        return Ok(progress);
+        let warnings = Vec::new();
+        return Ok(StudyRun { progress, warnings });
     }
     // Read once, so that all threads compute from the same bytes, even if the file changes
     // meanwhile.
@@ -108,10 +126,15 @@ pub fn run_study(
     };
     let (sender, receiver) = sync_channel(WAITING);
     let missing = &missing;
+    let counted = &warnings;
     let work = move || {
-        let send = move |streak: Streak, records: Vec<Recorded>| {
+        let send = move |solved: SolvedStreak| {
+            let mut counted = counted.lock().unwrap_or_else(PoisonError::into_inner);
+            missing.count_warnings(&solved, &mut counted);
+            drop(counted);
             // The text has no receiver once the file cannot be written.
-            sender.send(missing.encoded(streak, &records)).is_ok()
+            let text = missing.encoded(solved.streak, &solved.records);
+            sender.send(text).is_ok()
         };
         streaks.compute(plan, threads, stop, &send)
     };
@@ -127,13 +150,16 @@ pub fn run_study(
         written.map_err(StudyError::unwritable(&path))
     })?;
     control.report(progress);
-    Ok(progress)
+    let warnings = warnings
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner);
+    Ok(StudyRun { progress, warnings })
 }
 
 /// Records that a folder lacks.
 struct MissingRecords<'a> {
     plan: &'a Plan,
-    /// For each record of the plan, whether the folder has it.
+    /// For each record of the plan, whether the folder has it already.
     done: &'a [bool],
 }
 
@@ -145,6 +171,17 @@ impl MissingRecords<'_> {
     fn has_any_of(&self, streak: &Streak) -> bool {
         let mut cells = streak.cells.clone();
         cells.any(|cell| self.has(cell, streak.line))
+    }
+
+    /// Counts the premises that missing records of a streak do not meet.
+    fn count_warnings(&self, solved: &SolvedStreak, counted: &mut Vec<CountedWarning>) {
+        for (cell, warnings) in &solved.warnings {
+            if self.has(*cell, solved.streak.line) {
+                for warning in warnings {
+                    CountedWarning::count(counted, warning);
+                }
+            }
+        }
     }
 
     /// Returns the missing records of a streak as lines of a file.

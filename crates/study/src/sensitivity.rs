@@ -12,8 +12,7 @@ use super::premises::warnings_on_profiles;
 use super::profiles::{Stop, on_profiles};
 use super::quantity::Quantity;
 use super::recorder::with_recorder;
-use super::results::CountedWarning;
-use asperity_data::{Control, median};
+use asperity_data::{Control, CountedWarning, median};
 use asperity_scene::{CheckedScene, RunError, Scene, SceneErrors, Simulation};
 use std::cmp::Reverse;
 

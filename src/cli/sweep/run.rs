@@ -5,9 +5,9 @@ use crate::cli::error::CliError;
 use crate::cli::progress::{ProgressLine, SignalWatch};
 use crate::cli::scene::{Overrides, threads};
 use asperity_data::{Control, memory_size};
-use asperity_report::progress_text;
+use asperity_report::{counted_record_texts, progress_text};
 use asperity_study::folders::Status;
-use asperity_study::{Changes, Folder, Plan, Shard, StudyProgress, merge, run_study};
+use asperity_study::{Changes, Folder, Plan, Shard, StudyProgress, StudyRun, merge, run_study};
 use clap::Args;
 use std::io;
 use std::io::Write;
@@ -64,12 +64,12 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     let folder = Folder::create(output, &plan)?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
     let computed = compute(&folder, shard, jobs as usize)?;
+    for text in counted_record_texts(&computed.warnings, computed.progress.computed()) {
+        let _ = writeln!(stderr, "warning: {text}");
+    }
     if let Some(shard) = arguments.shard {
-        let _ = writeln!(
-            stderr,
-            "all {} records of shard {} exist",
-            computed.total, shard
-        );
+        let total = computed.progress.total;
+        let _ = writeln!(stderr, "all {total} records of shard {shard} exist");
         // The process that completes the study merges it; of two at the same time both do.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());
@@ -96,7 +96,7 @@ fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
 }
 
 /// Computes the missing records of a part of a study, and shows the progress.
-fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyProgress, CliError> {
+fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyRun, CliError> {
     let watch = SignalWatch::begin()?;
     let stop = || watch.is_signalled();
     let mut line = ProgressLine::default();
@@ -117,8 +117,8 @@ fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyProgres
     let ended = run_study(folder, shard, control);
     line.keep();
     let ended = ended?;
-    if !ended.is_complete() {
-        let StudyProgress { done, total, .. } = ended;
+    if !ended.progress.is_complete() {
+        let StudyProgress { done, total, .. } = ended.progress;
         let stopped = format!(
             "stopped: {done} of {total} records are complete; the same command continues the study"
         );

@@ -142,7 +142,7 @@ fn a_file_that_changes_while_a_study_runs_changes_nothing() {
     };
     let control = Control::default().on_threads(1).stopped_by(&change);
     let ended = run_study(&other, Shard::WHOLE, control).unwrap();
-    assert!(ended.is_complete() && asked.into_inner() > 2);
+    assert!(ended.progress.is_complete() && asked.into_inner() > 2);
     merge(&other).unwrap();
     assert_eq!(tables(&other), whole);
 }

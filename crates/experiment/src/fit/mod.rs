@@ -28,6 +28,8 @@ use crate::fit::search::{MISFIT, Search, SearchResult};
 use crate::fit::space::Space;
 use asperity_data::{Control, Note, Remedy, format_rounded};
 use asperity_scene::{Document, Simulation};
+use asperity_surface::lines::MeasuredRoughness;
+use std::sync::Arc;
 
 /// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
@@ -75,6 +77,8 @@ const ENOUGH: usize = 400;
 pub struct Fit<'a> {
     document: &'a Document,
     free: Vec<Free>,
+    /// Measured roughness in place of the files that the scene names.
+    measured: Option<Arc<MeasuredRoughness>>,
 }
 
 impl<'a> Fit<'a> {
@@ -83,7 +87,15 @@ impl<'a> Fit<'a> {
         Fit {
             document,
             free: Vec::new(),
+            measured: None,
         }
+    }
+
+    /// Gives the fit a measured roughness that replaces the files that the scene names.
+    #[must_use]
+    pub fn with_measured(mut self, measured: Arc<MeasuredRoughness>) -> Self {
+        self.measured = Some(measured);
+        self
     }
 
     /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare
@@ -108,9 +120,19 @@ impl<'a> Fit<'a> {
         mut control: Control<'_>,
     ) -> Result<FitResult, ExperimentError> {
         let stop = control.stop();
-        find(curve, self.document, &self.free, stop, &mut |computed| {
-            control.report(computed as u64)
-        })
+        let mut simulation = Simulation::new(self.document.resolve(""));
+        if let Some(measured) = &self.measured {
+            simulation = simulation.with_measured(Arc::clone(measured));
+        }
+        let mut report = |computed| control.report(computed as u64);
+        find(
+            curve,
+            self.document,
+            &self.free,
+            &mut simulation,
+            stop,
+            &mut report,
+        )
     }
 }
 
@@ -122,17 +144,17 @@ fn find(
     curve: &MeasuredCurve,
     given: &Document,
     free: &[Free],
+    simulation: &mut Simulation,
     stop: &(dyn Fn() -> bool + Sync),
     report: &mut dyn FnMut(usize),
 ) -> Result<FitResult, ExperimentError> {
-    let mut simulation = Simulation::new(given.resolve(""));
     let (_, instrument) = curve.with_instrument(given).map_err(wrong)?;
-    let (document, space) = Space::of(curve, given, &mut simulation, free, stop)?;
-    let searched = search(curve, &document, &mut simulation, &space, report)?;
+    let (document, space) = Space::of(curve, given, simulation, free, stop)?;
+    let searched = search(curve, &document, simulation, &space, report)?;
     if let Some(wider) = space.extended(&searched.result.best.place, free) {
         let before = searched.evaluations;
         let mut report_all = |computed| report(before + computed);
-        let mut fit = find(curve, given, &wider, stop, &mut report_all)?;
+        let mut fit = find(curve, given, &wider, simulation, stop, &mut report_all)?;
         fit.evaluations += before;
         return Ok(fit);
     }
@@ -149,7 +171,7 @@ fn find(
     if searched.misfit > MISFIT {
         let best = &posterior.best;
         let scene = fitted.scene();
-        let reason = reason(curve, scene, &mut simulation, best, &free, tabor)?;
+        let reason = reason(curve, scene, simulation, best, &free, tabor)?;
         reason_of_misfit = Some(reason);
     }
 

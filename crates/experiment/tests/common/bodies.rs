@@ -168,6 +168,7 @@ impl Specimen {
             &curves,
             &document(&self.given),
             &options,
+            &simulation,
             Control::default().on_threads(2),
         )
         .unwrap()

@@ -141,6 +141,7 @@ fn compare(name: &str, with_errors: bool) {
                 &curves[..places],
                 &scene,
                 &options,
+                &Simulation::default(),
                 Control::default().on_threads(2),
             )
             .unwrap();

@@ -144,7 +144,7 @@ pub fn estimate(
     if outcome.warnings.iter().any(Warning::leaves_errors_unknown) {
         return None;
     }
-    let own = Solution::of(scene, outcome);
+    let own = Solution::of_target(scene, outcome);
     let target = Target::of(&own);
     if let (Some(exact), Some(force)) = (own.closed_form, own.adhesion_force) {
         let error = relative_error(force, exact);

@@ -170,6 +170,9 @@ impl Ladder<'_> {
     ) -> Result<Option<RunError>, RunError> {
         let mut refused = None;
         let mut last_seconds = 0.0;
+        // The first one is tried without any time left too: it reads the files of the scene before
+        // it asks for the time, so that a file that cannot be read is named.
+        let mut is_first = true;
         for points in allowed_points(self.scene) {
             let before = clock.left();
             // The first two rungs may take all of the time, because a comparison needs two
@@ -179,7 +182,8 @@ impl Ladder<'_> {
             } else {
                 0.0
             };
-            let mut goes_on = before > needed;
+            let mut goes_on = before > needed || is_first;
+            is_first = false;
             for setting in self.settings(points) {
                 let springs = format!("{} springs", grouped(points));
                 let (name, beyond) = match setting.knob {
@@ -430,4 +434,33 @@ fn time_of_transform() -> Option<f64> {
         }
     }
     shortest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::open::open;
+
+    fn without_time(scene: &CheckedScene) -> String {
+        let folder = Path::new("/");
+        measure(scene, folder, Duration::ZERO, &|| false, &mut |_| ()).unwrap_err()
+    }
+
+    /// A file that cannot be read is named whatever the load of the machine leaves of the budget.
+    #[test]
+    fn a_file_that_cannot_be_read_is_named_without_any_time() {
+        let smooth = open("jkr-sphere").unwrap();
+        let message = without_time(smooth.scene());
+        assert!(
+            message.starts_with("the budget of 0 s is spent"),
+            "{message}"
+        );
+        for file in ["/dev/zero", "/dev", "/no-such-file.csv"] {
+            let roughness = format!("Measured(file: \"{file}\")");
+            let scene = smooth.set("roughness", &roughness).unwrap();
+            let message = without_time(scene.scene());
+            assert!(message.contains(file), "{message}");
+            assert!(!message.contains("budget"), "{message}");
+        }
+    }
 }

@@ -39,6 +39,23 @@ pub(super) struct Solution {
 
 impl Solution {
     pub(super) fn of(scene: &Scene, outcome: &Outcome) -> Self {
+        Solution {
+            curve: force_curve(&outcome.history),
+            ..Solution::without_curve(scene, outcome)
+        }
+    }
+
+    /// Returns what [`Target::difference`] compares of a result. The adhesion force needs no copy
+    /// of the force curve.
+    pub(super) fn of_target(scene: &Scene, outcome: &Outcome) -> Self {
+        let own = Solution::without_curve(scene, outcome);
+        match Target::of(&own) {
+            Target::AdhesionForce => own,
+            Target::Curve => Solution::of(scene, outcome),
+        }
+    }
+
+    fn without_curve(scene: &Scene, outcome: &Outcome) -> Self {
         let figures = &outcome.figures;
         Solution {
             points: outcome.line.points as u64,
@@ -47,7 +64,7 @@ impl Solution {
             around: Vec::new(),
             dissipated_energy: figures.dissipated_energy.and_then(unless_zero),
             contact_length: unless_zero(longest_contact(outcome)),
-            curve: force_curve(&outcome.history),
+            curve: ForceCurve::new(),
         }
     }
 
@@ -145,7 +162,10 @@ impl Target {
 
     /// Returns the relative difference of this quantity between a solution and a reference.
     pub(super) fn difference(self, solution: &Solution, reference: &Solution) -> Option<f64> {
-        solution.errors(reference)[self as usize]
+        match self {
+            Target::AdhesionForce => solution.error_of_adhesion_force(reference),
+            Target::Curve => difference(&solution.curve, &reference.curve),
+        }
     }
 }
 

@@ -2,8 +2,34 @@
 
 use super::governing::{Governing, SteepWaves};
 use crate::scene::model::{Roughness, Scene};
+use asperity_contact::History;
 use asperity_data::Warning;
 use asperity_surface::Form;
+
+/// Distance from the axis at which the edge of a contact begins, as a share of its radius.
+const EDGE: f64 = 0.95;
+
+/// Number of halvings that find a distance to 15 digits.
+const HALVINGS: usize = 50;
+
+/// Returns the largest distance in m from the axis, up to `most`, at which the equivalent profile
+/// of a form is no deeper than `depth` in m.
+fn distance_at_depth(form: &Form, depth: f64, most: f64) -> f64 {
+    if form.mdr_profile(most) <= depth {
+        return most;
+    }
+    let mut low = 0.0;
+    let mut high = most;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if form.mdr_profile(middle) <= depth {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
 
 /// Facts about the profile of a scene that follow from the measured surface and not from the
 /// fields.
@@ -13,6 +39,9 @@ pub(crate) struct MeasuredFacts {
     pub scan: f64,
     /// Rms height of the surface in m, and rms height in m of the profile that was made from it.
     pub rms_heights: [f64; 2],
+    /// Share of the waves longer than a quarter of the scan in the mean squared height of the
+    /// profile.
+    pub long_wave_share: f64,
     /// How many of the longest waves fit on the profile; `None` if the profile is not random.
     pub long_waves: Option<f64>,
 }
@@ -70,7 +99,14 @@ impl Scene {
             warnings.extend(self.falling_profile());
         }
         if let Some(facts) = measured {
-            warnings.extend(Warning::of_scan(facts.scan, self.length, facts.rms_heights));
+            let MeasuredFacts {
+                scan,
+                rms_heights,
+                long_wave_share,
+                ..
+            } = facts;
+            warnings.extend(Warning::of_scan(scan, self.length, rms_heights));
+            warnings.extend(Warning::of_short_scan(scan, self.length, long_wave_share));
         }
         warnings.extend(self.rounded_waves());
         if adheres && let Some(waves) = self.long_waves(measured) {
@@ -94,6 +130,31 @@ impl Scene {
         let table = self.form.as_ref().and_then(Form::table)?;
         let from = table.falls_from(0.5 * self.length)?;
         Some(Warning::FallingProfile { from })
+    }
+
+    /// Returns a warning if the form of the body is steep at the edge of the largest contact of a
+    /// loading. Waves of the form count as its roughness.
+    pub(crate) fn steep_form(&self, history: &History) -> Option<Warning> {
+        let form = self.form.as_ref()?.without_waves();
+        let mut contact_length = 0.0_f64;
+        let mut deepest = 0.0_f64;
+        for point in history.legs.iter().flat_map(|leg| &leg.curve) {
+            contact_length = contact_length.max(point.contact_length);
+            deepest = deepest.max(point.indentation);
+        }
+        // Two spheres share the contact length and the length of the profile.
+        let bodies = match form {
+            Form::TwoSpheres { .. } => 2.0,
+            _ => 1.0,
+        };
+        let half_length = 0.5 * self.length / bodies;
+        let half_contact = 0.5 * contact_length / bodies;
+        let touched = distance_at_depth(&form, deepest, half_length);
+        let radius = touched.max(half_contact).min(half_length);
+        // The slope over the outer part of the contact, which a table has too.
+        let inner = EDGE * radius;
+        let fall = form.depth(radius)? - form.depth(inner)?;
+        Warning::of_slope_of_form(fall / (radius - inner))
     }
 
     /// Returns a warning if the waves of the profile differ from the wavelengths that the scene

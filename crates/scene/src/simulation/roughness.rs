@@ -15,6 +15,9 @@ use std::sync::Arc;
 /// Share of the mean squared height that the longest waves of a measured spectrum have together.
 const LONG_WAVES: f64 = 0.1;
 
+/// Number of waves on a scan up to which they count as long.
+const LONG_WAVES_PER_SCAN: f64 = 4.0;
+
 /// Everything that determines the heights of a roughness.
 #[derive(Clone, PartialEq)]
 pub(super) struct RoughnessKey {
@@ -171,8 +174,16 @@ impl RoughnessMaker {
         )?;
         self.phases_drawn += modes.last + 1 - modes.first;
         let amplitude = line.amplitude_of_modes(length, modes);
+        let scan = TAU / line.range()[0];
         let facts = MeasuredFacts {
-            scan: TAU / line.range()[0],
+            scan,
+            long_wave_share: long_wave_share(
+                line,
+                length,
+                modes,
+                amplitude.rms_height,
+                LONG_WAVES_PER_SCAN * length / scan,
+            ),
             rms_heights: [line.moments().rms_height.value, amplitude.rms_height],
             long_waves: Some(long_waves(line, length, modes, amplitude.rms_height)),
         };
@@ -229,6 +240,8 @@ fn cut_profile(
     let facts = MeasuredFacts {
         scan: profile.length(),
         rms_heights: [amplitude.rms_height, root_mean_square_about_mean(&heights)],
+        // A profile is never longer than the heights that are used as it.
+        long_wave_share: 0.0,
         long_waves: None,
     };
     Ok(Rough {
@@ -249,6 +262,24 @@ pub fn equivalent_springs(line: &EquivalentLine, length: f64) -> u64 {
     ((2.0 * SPRINGS_PER_WAVE as f64 * waves) as u64)
         .next_power_of_two()
         .clamp(1024, MOST_POINTS)
+}
+
+/// Returns the share of the modes up to `most` in the mean squared height of a profile. `length` is
+/// the length of the profile in m, `modes` are its modes, and `rms_height` is its rms height in m.
+fn long_wave_share(
+    line: &EquivalentLine,
+    length: f64,
+    modes: ModeRange,
+    rms_height: f64,
+    most: f64,
+) -> f64 {
+    let last = modes.last.min(most as u64);
+    if last < modes.first {
+        return 0.0;
+    }
+    let first = modes.first;
+    let longest = line.amplitude_of_modes(length, ModeRange { first, last });
+    (longest.rms_height / rms_height).powi(2)
 }
 
 /// Returns the smallest mode up to which the waves have together a tenth of the mean squared

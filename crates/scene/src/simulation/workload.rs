@@ -4,7 +4,7 @@
 use crate::scene::checked::CheckedScene;
 use crate::scene::effects::Effect;
 use crate::scene::model::{Observer, Roughness, Scene, Solver};
-use asperity_contact::{CurvePoint, Edges};
+use asperity_contact::{CurvePoint, Edges, LegRecord};
 use serde::Serialize;
 
 /// Number of bytes for each spring, for the heights of the roughness or the gaps of the profile.
@@ -25,6 +25,14 @@ const RELAXED: u64 = 9;
 /// contributions are also summed at each point.
 const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
+/// Largest number of points besides the samples at which a stage is searched for its extreme force.
+const SEARCHED: u64 = 256;
+/// Number of bytes for each spring, for the search between two points of the curve at which a
+/// compliant instrument loses the contact, as measured. All springs may detach there.
+const DISPLACED: u64 = 160;
+/// Largest number of records of a loading stage that have memory at the same time: while the list
+/// of the stages grows, it has its former memory and twice as much.
+const RECORDS: u64 = 3;
 /// Largest prime factor of a number of springs for which the Fourier transform needs no
 /// convolution.
 const LARGEST_FACTOR: u64 = 31;
@@ -176,8 +184,12 @@ impl Workload {
             SAMPLED
         };
         let samples = scene.numerics.samples;
-        contact += samples * scene.loading.len() as u64 * size_of::<CurvePoint>() as u64;
-        contact += samples.saturating_mul(sampled);
+        contact = contact.saturating_add(bytes_of_history(scene));
+        let searched = samples.saturating_add(SEARCHED);
+        contact = contact.saturating_add(searched.saturating_mul(sampled));
+        if scene.loading_stiffness.is_some() {
+            contact = contact.saturating_add(DISPLACED * springs);
+        }
         // The profile is made before the contact is solved, so the larger of the two amounts of
         // memory counts.
         let heights = if Effect::Roughness.is_on(scene) {
@@ -211,6 +223,14 @@ impl Workload {
                 .bytes(Stage::Synthesis)
                 .max(self.bytes(Stage::MeasuredProfile))
     }
+}
+
+/// Returns the memory in bytes of the force curves of all loading stages.
+fn bytes_of_history(scene: &Scene) -> u64 {
+    let points = scene.numerics.samples + LegRecord::FURTHER_POINTS as u64;
+    let curve = points.saturating_mul(size_of::<CurvePoint>() as u64);
+    let stage = curve.saturating_add(RECORDS * size_of::<LegRecord>() as u64);
+    stage.saturating_mul(scene.loading.len() as u64)
 }
 
 /// Field that requires a part of the computation (`Ok`), or the reason why the part is skipped

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// Premises of which scenes of this test break one each.
-const PREMISES: [&str; 13] = [
+const PREMISES: [&str; 15] = [
     "contact_at_ends",
     "ends_in_contact",
     "few_springs_in_contact",
@@ -17,11 +17,13 @@ const PREMISES: [&str; 13] = [
     "rounded_waves",
     "few_long_waves",
     "steep_roughness",
+    "steep_form",
     "long_ranged_attraction",
     "finite_ranged_attraction",
     "heights_as_profile",
     "cut_like_heights",
     "scan_longer_than_length",
+    "scan_shorter_than_length",
     "steep_waves",
 ];
 
@@ -151,6 +153,18 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
             let adhesion = broken.adhesion.as_mut().unwrap();
             adhesion.range = Some(0.3e-9 * number / wanted);
         }
+        "steep_form" => {
+            let radius = whole.form.as_ref().and_then(Form::sphere_radius).unwrap();
+            let widest = radius * random.between(1.1, 3.0);
+            whole.adhesion = None;
+            whole.length = 5.0 * widest;
+            broken = whole.clone();
+            // Without adhesion the contact radius a of a paraboloid has the indentation a²/R.
+            for (scene, contact_radius) in [(&mut whole, 0.95 * radius), (&mut broken, widest)] {
+                let pressed = Move::ToIndentation(contact_radius.powi(2) / radius);
+                scene.loading = vec![pressed, Move::ToSeparation];
+            }
+        }
         "steep_waves" => {
             let radius = whole
                 .form
@@ -205,7 +219,7 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
                 ..broken.clone()
             };
         }
-        "scan_longer_than_length" => {
+        "scan_longer_than_length" | "scan_shorter_than_length" => {
             let long_wave = |x: f64| 3e-8 * (2.5e5 * x).cos();
             let (scene, scan) =
                 measured(random, folder, |x| long_wave(x) + 1e-8 * (2.3e6 * x).cos());
@@ -214,10 +228,15 @@ fn pair(premise: &str, random: &mut Random, folder: &Path) -> [Scene; 2] {
                 ..scene
             };
             whole.length = 1.01 * scan;
+            let [least, most] = match premise {
+                "scan_longer_than_length" => [0.5, 0.9],
+                _ => [1.6, 4.0],
+            };
             broken = Scene {
-                length: scan * random.between(0.5, 0.9),
+                length: scan * random.between(least, most),
                 ..whole.clone()
             };
+            broken.numerics.points = if broken.length > scan { 8192 } else { 2048 };
         }
         _ => return rough_pair(premise, random),
     }
@@ -307,6 +326,40 @@ fn the_premise_that_a_scene_breaks_is_named_alone() {
     assert!(counts.iter().all(|count| *count >= 8), "{counts:?}");
 }
 
+/// The slope of a form is that at the edge of its contact, without and with adhesion.
+#[test]
+fn the_slope_of_a_form_is_that_at_the_edge_of_the_contact() {
+    let slope = |form: Form, adhesion: Option<Adhesion>, pressed: Move| {
+        let mut scene = Scene::new(Material::effective(1e6), 1e-3);
+        scene.form = Some(form);
+        scene.adhesion = adhesion;
+        scene.loading = vec![pressed];
+        let outcome = Simulation::default()
+            .compute(&scene.checked().unwrap())
+            .unwrap();
+        outcome.warnings.iter().find_map(|warning| match warning {
+            Warning::SteepForm { slope } => Some(*slope),
+            _ => None,
+        })
+    };
+    let cone = |angle: f64| slope(Form::Cone { angle }, None, Move::ToIndentation(1e-4));
+    assert!((cone(1.0).unwrap() / 1.0_f64.tan() - 1.0).abs() < 1e-9);
+    assert_eq!(cone(0.78), None);
+    let sphere = Form::Paraboloid { radius: 1e-4 };
+    let pressed = slope(sphere.clone(), None, Move::ToIndentation(4e-4)).unwrap();
+    assert!((pressed / 2.0 - 1.0).abs() < 0.03, "{pressed}");
+    // By the theory of JKR the contact of a sphere at no force has a³ = 9π γR²/(2E*).
+    let work = Adhesion::by_work(100.0);
+    let pulled = slope(sphere, Some(work), Move::ToZeroForce).unwrap();
+    let contact_radius = (4.5 * PI * 100.0 * 1e-8 / 1e6_f64).cbrt();
+    assert!(
+        (pulled * 1e-4 / contact_radius - 1.0).abs() < 0.03,
+        "{pulled}"
+    );
+    let punch = Form::Punch { radius: 1e-5 };
+    assert_eq!(slope(punch, None, Move::ToIndentation(1e-4)), None);
+}
+
 /// Premises that the fields alone decide are stated before the computation.
 #[test]
 fn a_scene_names_premises_of_its_fields_before_it_is_computed() {
@@ -353,6 +406,7 @@ fn words_are_whole_sentences_without_options() {
             rms_gradient: 1.2,
             is_measured: true,
         },
+        Warning::SteepForm { slope: 3.1 },
         Warning::LongRangedAttraction { tabor_number: 0.8 },
         Warning::FiniteRangedAttraction { tabor_number: 2.0 },
         Warning::HeightsAsProfile,
@@ -361,6 +415,11 @@ fn words_are_whole_sentences_without_options() {
             scan: 2.5e-4,
             length: 1e-4,
             rms_heights: [2.53e-7, 1.76e-7],
+        },
+        Warning::ScanShorterThanLength {
+            scan: 3e-5,
+            length: 1e-4,
+            share: 0.66,
         },
         Warning::SteepWaves {
             ratio: 5.0,

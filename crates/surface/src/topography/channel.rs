@@ -203,7 +203,9 @@ mod tests {
         }
         let error = found(&labels[2..], Wanted::Heights).unwrap_err();
         assert!(
-            error.starts_with("no channel of heights; channels: 3 \"Phase\" retrace; allowed: heights"),
+            error.starts_with(
+                "no channel of heights; channels: 3 \"Phase\" retrace; allowed: heights"
+            ),
             "{error}"
         );
     }

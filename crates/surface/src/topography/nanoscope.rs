@@ -478,9 +478,8 @@ mod tests {
         assert_eq!(read(Some(5e-8)), Ok([5e-8; 2]));
         let error = read(None).unwrap_err();
         assert!(
-            error.contains(
-                "without a distance between points; allowed: a distance beside the file"
-            ),
+            error
+                .contains("without a distance between points; allowed: a distance beside the file"),
             "{error}"
         );
     }

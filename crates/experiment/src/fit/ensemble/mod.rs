@@ -18,10 +18,9 @@ use self::summary::Measurement;
 use self::table::{Axis, End, Place, Specimen, Table, Workers, placed, seed_of};
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused, refused_with};
-use crate::fit::reason::{Reason, of_profile};
 use crate::fit::scene::wrong;
 use asperity_contact::Move;
-use asperity_data::{Control, Remedy, format_quantity, mean};
+use asperity_data::{Control, CountedWarning, Remedy, format_quantity, mean};
 use asperity_scene::{
     Adhesion, CheckedScene, Document, Material, Roughness, Scene, Simulation, Solver, Strength,
 };
@@ -54,8 +53,6 @@ const SAME_STIFFNESS: f64 = 0.01;
 const NORMAL: f64 = 1.96;
 /// Largest standard error of the roughness for which the results change in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
-/// Number of random profiles whose contact is examined.
-const EXAMINED: u64 = 5;
 /// Numbers of curves whose precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
@@ -106,9 +103,10 @@ pub struct EnsembleFit {
     /// agree on it; otherwise `None`.
     #[serde(skip)]
     pub instrument: Option<String>,
-    /// Why the profiles of the scene are not suitable with the fitted values: the contact fills
-    /// most of the examined profiles, or few springs are in contact. `None` if they are suitable.
-    pub unsuitable_profile: Option<Reason>,
+    /// Premises of the model that the scene with the found values does not meet, each with the
+    /// number of the [`Self::EXAMINED`] random profiles that do not meet it.
+    #[serde(skip)]
+    pub warnings: Vec<CountedWarning>,
     /// Number of random profiles with which the curves were compared.
     pub lines: u64,
     /// Number of force curves computed on these profiles.
@@ -133,6 +131,12 @@ pub struct EnsembleFit {
     /// True if the interval of γ or E* ends where the values end for which curves were computed.
     /// The true interval is then wider.
     pub at_end_of_table: bool,
+}
+
+impl EnsembleFit {
+    /// Number of random profiles on which the scene with the found values is computed for
+    /// [`Self::warnings`].
+    pub const EXAMINED: u64 = 5;
 }
 
 /// Sources of the uncertainty of the work of adhesion, as shares of the squared half-width of the
@@ -163,7 +167,8 @@ pub struct Prospect {
 /// effective modulus is found too.
 ///
 /// The curves are compared with curves computed for random profiles that have the roughness of the
-/// scene. `control` reports the number of curves computed so far, and can stop the search.
+/// scene. `simulation` has the folder of the measured files that the scene names, or the measured
+/// roughness in their place ([`Simulation::with_measured`]). `control` reports the number of curves computed so far, and can stop the search.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an
@@ -173,6 +178,7 @@ pub fn fit_ensemble(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
     options: &EnsembleOptions,
+    simulation: &Simulation,
     mut control: Control<'_>,
 ) -> Result<EnsembleFit, ExperimentError> {
     check(curves, document.scene(), options)?;
@@ -187,7 +193,7 @@ pub fn fit_ensemble(
         let report = move |computed: usize| {
             let _ = sender.send(computed);
         };
-        compare(curves, document, options, jobs, stop, &report)
+        compare(curves, document, options, simulation, jobs, stop, &report)
     };
     scope(|scope| match Builder::new().spawn_scoped(scope, compare) {
         Ok(thread) => {
@@ -208,14 +214,14 @@ fn compare(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
     options: &EnsembleOptions,
+    simulation: &Simulation,
     jobs: usize,
     stop: &(dyn Fn() -> bool + Sync),
     report: &(dyn Fn(usize) + Sync),
 ) -> Result<EnsembleFit, ExperimentError> {
     let (document, instrument) = &with_instrument(curves, document)?;
     let measured = Measurement::of(curves)?;
-    let folder = document.resolve("");
-    let (_, governing) = Simulation::new(folder.clone()).contact(document.scene())?;
+    let (_, governing) = simulation.another().contact(document.scene())?;
     let closing = match governing.adhesive_works() {
         Some([closing, opening]) => closing / opening,
         None => 1.0,
@@ -229,7 +235,7 @@ fn compare(
             protocols: &measured.protocols,
             stop,
         },
-        folder: &folder,
+        simulation,
         jobs,
         computed: &computed,
         report,
@@ -309,7 +315,7 @@ impl Comparison<'_> {
             prospects,
             roughness,
             instrument: None,
-            unsuitable_profile: unsuitable_profile(self.workers, best, preload),
+            warnings: warnings_at(self.workers, best, preload),
             lines: self.options.lines,
             computed: self.workers.computed.load(Ordering::Relaxed),
             preload,
@@ -469,19 +475,31 @@ impl Precision {
     }
 }
 
-/// Returns why most of a few random profiles are not suitable for a contact with the parameters of
-/// a place.
-fn unsuitable_profile(workers: &Workers<'_>, place: Place, preload: f64) -> Option<Reason> {
-    let mut simulation = Simulation::new(workers.folder.to_path_buf());
-    let mut reasons = Vec::new();
-    for line in 0..EXAMINED {
-        let profile = profile_at(&workers.specimen, place, preload, line)?;
-        reasons.extend(of_profile(&profile, &mut simulation));
+/// Returns the premises of the model that a few random profiles do not meet with the parameters of
+/// a place and a preload in N. If no profile can be computed, the premises are those that are known
+/// from the fields of the scene.
+fn warnings_at(workers: &Workers<'_>, place: Place, preload: f64) -> Vec<CountedWarning> {
+    let mut simulation = workers.simulation.another();
+    let mut warnings = Vec::new();
+    let mut computed = 0;
+    for line in 0..EnsembleFit::EXAMINED {
+        let profile = profile_at(&workers.specimen, place, preload, line);
+        let outcome = profile.and_then(|profile| simulation.compute(&profile).ok());
+        let Some(outcome) = outcome else {
+            continue;
+        };
+        computed += 1;
+        for warning in &outcome.warnings {
+            CountedWarning::count(&mut warnings, warning);
+        }
     }
-    if 2 * reasons.len() <= EXAMINED as usize {
-        return None;
+    if computed == 0 {
+        for warning in workers.specimen.scene.warnings() {
+            let profiles = EnsembleFit::EXAMINED;
+            warnings.push(CountedWarning { warning, profiles });
+        }
     }
-    reasons.first().copied()
+    warnings
 }
 
 /// Returns the scene of a random profile that is loaded to a preload in N with the parameters of a
@@ -595,6 +613,7 @@ fn check_error(name: &str, error: Option<f64>) -> Result<(), ExperimentError> {
 mod tests {
     use super::*;
     use crate::common::specimens::{curve, document, scene};
+    use asperity_data::Warning;
 
     const OPTIONS: EnsembleOptions = EnsembleOptions {
         lines: 16,
@@ -612,6 +631,7 @@ mod tests {
             curves,
             &document(scene),
             &options,
+            &Simulation::default(),
             Control::default().on_threads(1),
         )
     }
@@ -687,7 +707,8 @@ mod tests {
             ..scene.clone()
         };
         let three = Control::default().on_threads(3);
-        let same = fit_ensemble(&others, &document(&other), &OPTIONS, three).unwrap();
+        let simulation = Simulation::default();
+        let same = fit_ensemble(&others, &document(&other), &OPTIONS, &simulation, three).unwrap();
         assert_eq!(same, fit);
         let stated = EnsembleOptions {
             height_error: Some(0.1),
@@ -745,14 +766,43 @@ mod tests {
     #[test]
     fn a_contact_that_fills_its_profile_is_named() {
         let (scene, all) = curves(2, None);
-        assert_eq!(
-            found(&all, &scene, OPTIONS).unwrap().unsuitable_profile,
-            None
-        );
+        let ends = |warning: &&CountedWarning| warning.warning.name() == "contact_at_ends";
+        let fit = found(&all, &scene, OPTIONS).unwrap();
+        assert_eq!(fit.warnings.iter().find(ends), None);
         let mut short = scene.clone();
         short.length = 2e-5;
         let fit = found(&all, &short, OPTIONS).unwrap();
-        assert_eq!(fit.unsuitable_profile, Some(Reason::ShortProfile(2e-5)));
+        let expected = CountedWarning {
+            warning: Warning::ContactAtEnds { length: 2e-5 },
+            profiles: EnsembleFit::EXAMINED,
+        };
+        assert_eq!(fit.warnings.iter().find(ends), Some(&expected));
+    }
+
+    /// The premises are those of the profiles that are computed with the found values.
+    #[test]
+    fn the_premises_are_those_of_single_profiles() {
+        let (mut scene, all) = curves(2, None);
+        scene.numerics.points = 64;
+        let fit = found(&all, &scene, OPTIONS).unwrap();
+        let mut names = Vec::new();
+        for seed in 0..EnsembleFit::EXAMINED {
+            let single = scene.with(|scene| {
+                scene.adhesion = Some(Adhesion::by_work(fit.work.value));
+                scene.loading = vec![Move::ToForce(fit.preload), Move::ToSeparation];
+                scene.set_seed(seed_of(scene, seed));
+            });
+            let outcome = Simulation::default().compute(&single.unwrap()).unwrap();
+            names.extend(outcome.warnings.iter().map(Warning::name));
+        }
+        assert!(!names.is_empty());
+        for counted in &fit.warnings {
+            let name = counted.warning.name();
+            let profiles = names.iter().filter(|other| **other == name).count();
+            assert_eq!(counted.profiles, profiles as u64, "{name}");
+            names.retain(|other| *other != name);
+        }
+        assert_eq!(names, [""; 0]);
     }
 
     #[test]
@@ -814,6 +864,7 @@ mod tests {
             &all,
             &document(&scene),
             &OPTIONS,
+            &Simulation::default(),
             Control::default().on_threads(0),
         );
         assert_eq!(
@@ -824,6 +875,7 @@ mod tests {
             &all,
             &document(&scene),
             &OPTIONS,
+            &Simulation::default(),
             Control::default().stopped_by(&|| true),
         );
         assert!(matches!(stopped, Err(ExperimentError::Run(_))));

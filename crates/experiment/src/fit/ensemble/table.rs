@@ -11,7 +11,6 @@ use asperity_scene::instrument::DisplacementCurve;
 use asperity_scene::{CheckedScene, Governing, Simulation};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of points of a computed branch, without the points at jumps.
@@ -262,8 +261,8 @@ fn normal_pair(generator: &mut ChaCha8Rng) -> [f64; 2] {
 #[derive(Clone, Copy)]
 pub(crate) struct Workers<'a> {
     pub specimen: Specimen<'a>,
-    /// Folder of the files of the scene.
-    pub folder: &'a Path,
+    /// Simulation with the folder of the files of the scene, or with its measured roughness.
+    pub simulation: &'a Simulation,
     pub jobs: usize,
     /// Number of curves computed so far.
     pub computed: &'a AtomicUsize,
@@ -281,7 +280,7 @@ impl Workers<'_> {
         moduli: &[f64],
     ) -> Result<Vec<Vec<Summaries>>, ExperimentError> {
         let worker = || {
-            let mut simulation = Simulation::new(self.folder.to_path_buf());
+            let mut simulation = self.simulation.another();
             move |line: u64| {
                 let curves = self
                     .specimen
@@ -746,7 +745,7 @@ mod tests {
                 protocols: &protocols,
                 stop: &|| false,
             },
-            folder: Path::new(""),
+            simulation: &Simulation::default(),
             jobs,
             computed: &computed,
             report: &|_| (),

@@ -2,8 +2,8 @@
 
 use super::super::channel::{self, Label, Wanted};
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{Remedy, shown};
 use asperity_data::text_table::{Role, TextColumn};
+use asperity_data::{Remedy, shown};
 
 /// Limit of the number of columns of positions and heights; more columns are rows of a map, unless
 /// their names say otherwise.
