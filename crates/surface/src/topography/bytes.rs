@@ -130,6 +130,13 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// Returns the bytes of a file from this offset on.
+    pub fn from(bytes: &'a [u8], order: Order, offset: usize) -> Result<Self, SurfaceError> {
+        let mut file = Bytes::new(bytes, order);
+        file.take(offset)?;
+        Ok(file)
+    }
+
     /// Returns the place of the next byte in the file.
     pub fn place(&self) -> Place {
         Place::Byte(self.offset)

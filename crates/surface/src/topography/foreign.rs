@@ -10,6 +10,10 @@ const ARRAYS: &str =
     "the heights saved by numpy.save, or as X3P, SUR or text by the program that wrote the file";
 const MOUNTAINS: &str = "the same exported as SUR or X3P in MountainsMap";
 const SHEET: &str = "the same saved as CSV";
+const RASTER: &str = "the same on an even grid (Rasterize), saved as GWY or X3P in Gwyddion";
+const MESH: &str =
+    "the heights on an even grid as X3P, SUR, GWY or text, from the program of the instrument";
+const KEYENCE: &str = "the same as VK4, or the heights as CSV, from the program of the microscope";
 
 /// A format that is not read.
 struct Foreign {
@@ -31,7 +35,7 @@ const fn starting(start: &'static [u8], name: &'static str, allowed: &'static st
     }
 }
 
-const KNOWN_STARTS: [KnownStart; 29] = [
+const KNOWN_STARTS: [KnownStart; 30] = [
     starting(
         b"\\*Force file list",
         "a file of force curves of Nanoscope",
@@ -52,10 +56,14 @@ const KNOWN_STARTS: [KnownStart; 29] = [
     ),
     starting(b"\x01\0Directory", "OPD of Wyko", GWYDDION),
     starting(b"VCA DATA", "OPDx of Dektak and Vision64", GWYDDION),
-    starting(b"\x88\x1b\x03", "DAT of Zygo MetroPro", GWYDDION),
-    starting(b"VK3", "VK3 of Keyence", GWYDDION),
-    starting(b"VK4", "VK4 of Keyence", GWYDDION),
-    starting(b"VK6", "VK6 of Keyence", GWYDDION),
+    starting(b"VK6", "VK6 of Keyence", KEYENCE),
+    starting(b"VK7", "VK7 of Keyence", KEYENCE),
+    starting(b"Gwyddion XYZ Field", "GXYZF of Gwyddion", RASTER),
+    starting(b"OmniSurf3D", "OS3D of Digital Metrology", GWYDDION),
+    starting(b"Zeta-Instruments", "ZMG of Zeta", GWYDDION),
+    starting(b"OLYMPUSRAWFORMAT", "OIR of Olympus", GWYDDION),
+    starting(b"ply\n", "a mesh (PLY)", MESH),
+    starting(b"ply\r\n", "a mesh (PLY)", MESH),
     starting(b"KPK", "ZON of Keyence", GWYDDION),
     starting(b"FRTM_GL", "FRT of FormFactor", GWYDDION),
     starting(b"fileType      Image", "MI of Agilent", GWYDDION),
@@ -65,10 +73,7 @@ const KNOWN_STARTS: [KnownStart; 29] = [
     starting(b"\x01\xb0\x93\xff", "MDT of NT-MDT", GWYDDION),
     starting(b"fileformat = bcr", "BCR of SPIP", GWYDDION),
     starting(b"f\0i\0l\0e\0f\0o\0r\0m\0a\0t\0", "BCR of SPIP", GWYDDION),
-    starting(b"II*\0", "TIFF, also of JPK and Park", GWYDDION),
-    starting(b"MM\0*", "TIFF, also of JPK and Park", GWYDDION),
     starting(b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", ARRAYS),
-    starting(b"\x05\0\x94", "IBW of Igor and Asylum", GWYDDION),
     starting(b"\x89PNG", "a picture (PNG)", PICTURE),
     starting(b"\xff\xd8\xff", "a picture (JPEG)", PICTURE),
     starting(b"GIF8", "a picture (GIF)", PICTURE),
@@ -100,21 +105,32 @@ const KNOWN_ARCHIVES: [KnownArchive; 5] = [
     archive_with("header.properties", "an archive of JPK", CURVE),
 ];
 
-const WSXM: Foreign = Foreign {
-    name: "STP or TOP of WSxM",
-    allowed: GWYDDION,
-};
+/// A format that is known by more of its content than the first bytes.
+struct KnownContent {
+    has: fn(&[u8]) -> bool,
+    format: Foreign,
+}
 
-/// First words of all files of WSxM, also of its texts.
-const WSXM_START: &[u8] = b"WSxM file";
+const fn containing(
+    has: fn(&[u8]) -> bool,
+    name: &'static str,
+    allowed: &'static str,
+) -> KnownContent {
+    KnownContent {
+        has,
+        format: Foreign { name, allowed },
+    }
+}
 
-/// Second line of the images of WSxM that are no text.
-const WSXM_IMAGE: &[u8] = b"SxM Image file";
-
-const PLU: Foreign = Foreign {
-    name: "PLU of Sensofar",
-    allowed: GWYDDION,
-};
+const KNOWN_CONTENTS: [KnownContent; 7] = [
+    containing(is_plu, "PLU of Sensofar", GWYDDION),
+    containing(is_wsxm_image, "STP or TOP of WSxM", GWYDDION),
+    containing(is_sm4, "SM4 of RHK", GWYDDION),
+    containing(is_createc, "DAT of Createc", GWYDDION),
+    containing(is_mesh, "a mesh (STL)", MESH),
+    containing(is_asd, "ASD of a high-speed microscope", GWYDDION),
+    containing(is_nms, "NMS of NanoFocus", GWYDDION),
+];
 
 /// Returns an error with the name of the format if the content has a format that is known, but not
 /// read.
@@ -124,20 +140,19 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
             return Err(unread(&known.format));
         }
     }
-    if is_plu(bytes) {
-        return Err(unread(&PLU));
-    }
-    if is_wsxm_image(bytes) {
-        return Err(unread(&WSXM));
+    for known in &KNOWN_CONTENTS {
+        if (known.has)(bytes) {
+            return Err(unread(&known.format));
+        }
     }
     Ok(())
 }
 
-/// Returns true for an image of WSxM in binary numbers.
+/// Returns true for an image of WSxM in binary numbers. Its texts have the same first words.
 fn is_wsxm_image(bytes: &[u8]) -> bool {
     let second_line = bytes.split(|byte| *byte == b'\n').nth(1);
-    let has_image = second_line.is_some_and(|line| line.starts_with(WSXM_IMAGE));
-    bytes.starts_with(WSXM_START) && (has_image || bytes.contains(&0))
+    let has_image = second_line.is_some_and(|line| line.starts_with(b"SxM Image file"));
+    bytes.starts_with(b"WSxM file") && (has_image || bytes.contains(&0))
 }
 
 /// Returns true for a date of 24 letters, then a zero.
@@ -146,6 +161,67 @@ fn is_plu(bytes: &[u8]) -> bool {
         Some(head) => head[24] == 0 && head[13] == b':' && head[16] == b':',
         None => false,
     }
+}
+
+/// Returns true for the name of the format in letters of two bytes, after the size of the header.
+fn is_sm4(bytes: &[u8]) -> bool {
+    let name = bytes.get(2..).unwrap_or_default();
+    name.starts_with(b"S\0T\0i\0M\0a\0g\0e\0 \0")
+}
+
+/// Returns true for one of the first words of Createc before binary numbers.
+fn is_createc(bytes: &[u8]) -> bool {
+    let starts: [&[u8]; 3] = [b"[Parameter]", b"[Paramet32]", b"[Paramco32]"];
+    starts.iter().any(|start| bytes.starts_with(start)) && bytes.contains(&0)
+}
+
+/// Returns true for a mesh of triangles, as text or as 50 bytes for each triangle after their
+/// number.
+fn is_mesh(bytes: &[u8]) -> bool {
+    const HEADER: usize = 80;
+    const TRIANGLE: usize = 50;
+    let head = &bytes[..bytes.len().min(1_024)];
+    if head.starts_with(b"solid") && head.windows(5).any(|word| word == b"facet") {
+        return true;
+    }
+    let Some(count) = little_endian(bytes, HEADER) else {
+        return false;
+    };
+    let size = count.saturating_mul(TRIANGLE).saturating_add(HEADER + 4);
+    count > 0 && bytes.len() == size
+}
+
+/// Returns true for a version below 3, and the two letters of a channel at its place in that
+/// version.
+fn is_asd(bytes: &[u8]) -> bool {
+    const CHANNELS: [[u8; 2]; 4] = [*b"TP", *b"PT", *b"ER", *b"PH"];
+    let letters = match (little_endian(bytes, 0), bytes.get(..28)) {
+        (Some(0), Some(head)) => [head[4], head[5]],
+        (Some(1 | 2), Some(head)) if head[25] == 0 && head[27] == 0 => [head[24], head[26]],
+        _ => return false,
+    };
+    CHANNELS.contains(&letters)
+}
+
+/// Returns true for a header of known size whose counts, at their place in it, fit the size of the
+/// file.
+fn is_nms(bytes: &[u8]) -> bool {
+    const HEADER: usize = 3_468;
+    const COUNTS: usize = 1_368;
+    let (Some(columns), Some(rows)) = (
+        little_endian(bytes, COUNTS),
+        little_endian(bytes, COUNTS + 4),
+    ) else {
+        return false;
+    };
+    let points = columns.saturating_mul(rows);
+    points > 0 && bytes.len() == points.saturating_mul(2).saturating_add(HEADER)
+}
+
+/// Returns the number of four bytes at this offset.
+fn little_endian(bytes: &[u8], offset: usize) -> Option<usize> {
+    let bytes = bytes.get(offset..offset + 4)?;
+    Some(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize)
 }
 
 fn unread(format: &Foreign) -> SurfaceError {
@@ -202,6 +278,46 @@ mod tests {
             (
                 b"Fri Mar 10 16:35:59 2023\0\0\0",
                 "PLU of Sensofar is not read; allowed: ",
+            ),
+            (
+                b"WSxM file copyright UAM\nSxM Image file\nImage header size: 9\n",
+                "STP or TOP of WSxM is not read; allowed: the same saved as GWY",
+            ),
+            (
+                b"\x8e\0S\0T\0i\0M\0a\0g\0e\0 \x000\0",
+                "SM4 of RHK is not read; allowed: ",
+            ),
+            (
+                b"[Paramco32]\r\nNum.X=4\r\n\0\0",
+                "DAT of Createc is not read; allowed: ",
+            ),
+            (
+                b"Gwyddion XYZ Field 1.0\nNChannels = 1\n",
+                "GXYZF of Gwyddion is not read; allowed: the same on an even grid (Rasterize)",
+            ),
+            (
+                b"solid part\n facet normal 0 0 1\n",
+                "a mesh (STL) is not read; allowed: the heights on an even grid",
+            ),
+            (
+                &[&[7; 80][..], &[1, 0, 0, 0], &[7; 50]].concat(),
+                "a mesh (STL) is not read; allowed: the heights on an even grid",
+            ),
+            (
+                &[b"\0\0\0\0TPER", &[1; 20][..]].concat(),
+                "ASD of a high-speed microscope is not read; allowed: ",
+            ),
+            (
+                &[b"\x01\0\0\0", &[9; 20][..], b"T\0P\0"].concat(),
+                "ASD of a high-speed microscope is not read; allowed: ",
+            ),
+            (
+                &[&[1; 1_368][..], &[2, 0, 0, 0, 3, 0, 0, 0], &[1; 2_092 + 12]].concat(),
+                "NMS of NanoFocus is not read; allowed: ",
+            ),
+            (
+                b"VK6\0",
+                "VK6 of Keyence is not read; allowed: the same as VK4",
             ),
             (
                 b"ab\0\x01\x02",

@@ -5,9 +5,10 @@ use super::bytes::{Bytes, Number, Order, decoded};
 use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
+use super::transpose::reverse_rows;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{Note, gathered, shown};
+use asperity_data::{Note, shown};
 use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
@@ -233,9 +234,8 @@ impl Image<'_> {
         };
         let mut data = Bytes::new(bytes, Order::Little);
         data.take(offset)?;
-        let numbers = data.numbers(points, number)?;
-        let from_top = numbers.chunks_exact(columns).rev().flatten().copied();
-        let numbers = gathered(points, from_top)?;
+        let mut numbers = data.numbers(points, number)?;
+        reverse_rows(&mut numbers, columns);
 
         let size = self.scan_size()?;
         let along = size.width / columns as f64;

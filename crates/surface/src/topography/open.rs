@@ -7,7 +7,9 @@ use super::container::{self, Measurement};
 use super::options::ReadOptions;
 use super::reading::Reading;
 use super::surface::Topography;
-use super::{foreign, gsf, gwy, nanoscope, netcdf, npy, sdf, sur, text, x3p};
+use super::{
+    foreign, gsf, gwy, ibw, igor, nanoscope, netcdf, npy, sdf, sur, text, tiff, vk, x3p, zygo,
+};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{Note, ReadError, Remedy, read_limited, read_regular};
 use flate2::read::MultiGzDecoder;
@@ -58,8 +60,8 @@ const fn with_channels(
     BinaryFormat { signature, reader }
 }
 
-/// All other formats except SDF and archives are text.
-const BINARY_FORMATS: [BinaryFormat; 8] = [
+/// All other formats except SDF, waves of Igor and archives are text.
+const BINARY_FORMATS: [BinaryFormat; 15] = [
     single(asperity_data::SIGNATURE, npy::read),
     single(gsf::SIGNATURE, gsf::read),
     single(netcdf::SIGNATURE, netcdf::read),
@@ -68,6 +70,13 @@ const BINARY_FORMATS: [BinaryFormat; 8] = [
     with_channels(nanoscope::SIGNATURE_OF_ELECTROCHEMISTRY, nanoscope::read),
     single(sur::PLAIN, sur::read),
     single(sur::COMPRESSED, sur::read),
+    with_channels(tiff::SIGNATURES[0], tiff::read),
+    with_channels(tiff::SIGNATURES[1], tiff::read),
+    with_channels(vk::SIGNATURES[0], vk::read),
+    with_channels(vk::SIGNATURES[1], vk::read),
+    single(zygo::SIGNATURES[0], zygo::read),
+    single(zygo::SIGNATURES[1], zygo::read),
+    single(zygo::SIGNATURES[2], zygo::read),
 ];
 
 /// Reads a measured surface from a regular file of at most 1 GiB. If the file is an archive with
@@ -199,12 +208,16 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
         check_unnamed(options)?;
         return sdf::read(&content);
     }
+    if igor::is_wave(&content) {
+        return ibw::read(&content, Wanted::new(options)?);
+    }
     foreign::check(&content)?;
     for format in &BINARY_FORMATS {
         if content.starts_with(format.signature) {
             return format.reader.read(&content, options);
         }
     }
+    igor::check_sum(&content)?;
     text::read(&content, Wanted::new(options)?)
 }
 
