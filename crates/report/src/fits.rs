@@ -789,13 +789,16 @@ mod tests {
         let document = open("jkr-sphere").unwrap();
         let texts = |rows: &[CurveRow]| {
             let report = FitsReport {
+                wording: |remedy| format!("{remedy:?}"),
                 scene: document.scene(),
                 free: &[Parameter::Work],
                 rows,
             };
             let warnings = report.warning_texts();
             let text = report.text().unwrap().replace('\n', " ");
-            let json = serde_json::to_value(report.json().unwrap()).unwrap();
+            let mut bytes = Vec::new();
+            report.json().unwrap().write_json(&mut bytes, &[]).unwrap();
+            let json: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
             assert_eq!(text.contains("Warnings"), !warnings.is_empty());
             assert_eq!(json["warnings"], serde_json::json!(warnings));
             warnings
@@ -816,6 +819,7 @@ mod tests {
         let rows = [row("a", 0.05, true), row("b", 0.06, true)];
         for (count, title) in [(1, "1 curve"), (2, "2 curves")] {
             let report = FitsReport {
+                wording: |remedy| format!("{remedy:?}"),
                 scene: document.scene(),
                 free: &[Parameter::Work, Parameter::Modulus],
                 rows: &rows[..count],

@@ -464,7 +464,15 @@ mod tests {
             "offset".parse().unwrap(),
         ];
         let document = Document::from_scene(&made.scene, "made").unwrap();
-        let bounded = find(&curve, &document, &given, &|| false, &mut |_| ()).unwrap();
+        let bounded = find(
+            &curve,
+            &document,
+            &given,
+            &mut Simulation::default(),
+            &|| false,
+            &mut |_| (),
+        )
+        .unwrap();
         assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
     }
 

@@ -181,7 +181,7 @@ pub(super) mod tests {
         let error = found(&map(Order::Little, &LAYERS), Wanted::Heights).unwrap_err();
         assert!(
             error.starts_with(
-                "2 channels of heights; channels: 0 \"HeightTrace\", 1 \"HeightRetrace\", 2 \"PhaseTrace\"; allowed: --ch"
+                "2 channels of heights; channels: 0 \"HeightTrace\", 1 \"HeightRetrace\", 2 \"PhaseTrace\"; allowed: the number"
             ),
             "{error}"
         );

@@ -244,7 +244,7 @@ pub(super) mod tests {
         assert!(
             error.starts_with(
                 "2 channels of heights; channels: 0 \"Height\" trace in m, 1 \"Height\" retrace in m, 2 \
-                 \"Phase\" trace in deg; allowed: --channel"
+                 \"Phase\" trace in deg; allowed: the number or the name of one"
             ),
             "{error}"
         );

@@ -787,7 +787,7 @@ mod tests {
         let fit = found(&all, &scene, OPTIONS).unwrap();
         let mut names = Vec::new();
         for seed in 0..EnsembleFit::EXAMINED {
-            let single = scene.with(|scene| {
+            let single = scene.checked().unwrap().with(|scene| {
                 scene.adhesion = Some(Adhesion::by_work(fit.work.value));
                 scene.loading = vec![Move::ToForce(fit.preload), Move::ToSeparation];
                 scene.set_seed(seed_of(scene, seed));

@@ -737,6 +737,7 @@ mod tests {
         let protocols = [Protocol::of(&branches, branches.preload())];
         let computed = AtomicUsize::new(0);
         let scene = scene.checked().unwrap();
+        let simulation = Simulation::default();
         let workers = |jobs| Workers {
             specimen: Specimen {
                 scene: &scene,
@@ -745,7 +746,7 @@ mod tests {
                 protocols: &protocols,
                 stop: &|| false,
             },
-            simulation: &Simulation::default(),
+            simulation: &simulation,
             jobs,
             computed: &computed,
             report: &|_| (),
