@@ -369,14 +369,14 @@ fn a_run_holds_at_most_the_memory_that_is_stated() {
         ("[ToForce(1.0e-4)]".to_owned(), 2),
         ("[ToForce(1.0e-4)]".to_owned(), 512),
         (pulled_off(1), 20_000),
-        (pulled_off(100), 2),
-        (pulled_off(100), 512),
+        (pulled_off(40), 2),
+        (pulled_off(40), 512),
         (back_and_forth(4), 2),
         (back_and_forth(4), 512),
         (back_and_forth(100), 64),
-        (back_and_forth(100), 2000),
-        (back_and_forth(2000), 2),
-        (back_and_forth(2000), 512),
+        (back_and_forth(40), 2000),
+        (back_and_forth(500), 2),
+        (back_and_forth(500), 512),
     ];
     let mut wrong = Vec::new();
     for (name, points, adhesion) in [

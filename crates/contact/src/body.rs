@@ -257,9 +257,6 @@ impl Body {
         let before = self.point();
         let touches = self.is_separated();
         let leg = &motion.leg;
-        // The curve, which stays, has its memory before the arrays that are freed after the motion.
-        // Otherwise those leave gaps between the curves of many stages, half as large as these.
-        let curve = Vec::with_capacity(self.samples + LegRecord::FURTHER_POINTS);
         let sampled = self.sample(&motion)?;
         let loosest = self.loosest_point(&motion, &sampled)?;
         if touches || self.leg.direction() != leg.direction() {
@@ -271,7 +268,7 @@ impl Body {
         };
         let jump_energy = leg.jump_energy(&sampled.states, separated, &mut self.extreme);
         self.state = self.end_state(&motion, &sampled, loosest);
-        let curve = self.curve_of(&sampled, loosest, curve);
+        let curve = self.curve_of(&sampled, loosest);
         let extremes = if motion.loads() {
             self.extremes_of_loading(&motion, &sampled, &curve, touches)
         } else {
@@ -366,14 +363,10 @@ impl Body {
     }
 
     /// Returns the points of the force curve of a sampled motion, in ascending order of the
-    /// indentation. They are stored in the memory of `curve`, which is empty.
-    fn curve_of(
-        &self,
-        sampled: &SampledMotion,
-        loosest: Option<CurvePoint>,
-        mut curve: Vec<CurvePoint>,
-    ) -> Vec<CurvePoint> {
+    /// indentation.
+    fn curve_of(&self, sampled: &SampledMotion, loosest: Option<CurvePoint>) -> Vec<CurvePoint> {
         let last = sampled.states.len() - 1;
+        let mut curve = Vec::with_capacity(self.samples + LegRecord::FURTHER_POINTS);
         for (index, &state) in sampled.states.iter().enumerate() {
             if index % sampled.stride == 0 || index == last {
                 curve.push(self.point_of(state));

@@ -29,7 +29,20 @@ const SAMPLED_WITH_EDGES: u64 = 120;
 const SEARCHED: u64 = 256;
 /// Number of bytes for each spring, for the search between two points of the curve at which a
 /// compliant instrument loses the contact, as measured. All springs may detach there.
-const DISPLACED: u64 = 160;
+const DISPLACED: u64 = 320;
+/// Bytes per curve point that are reserved besides, as measured, and those with an instrument. The
+/// arrays grow by doubling, and the system gives no memory for what is not used.
+const RESERVED: u64 = 80;
+const RESERVED_DISPLACED: u64 = 400;
+/// Bytes of all small arrays together.
+const SMALL_ARRAYS: u64 = 64 << 10;
+/// Memory of the gaps that freed arrays leave between the curves of many stages, in units of the
+/// memory of the curves, as measured with the allocator of glibc. The system gives it, but no array
+/// has it.
+const GAPS: f64 = 0.75;
+/// Size in bytes of the curve of a stage from which the allocator asks the system for its memory,
+/// so that it has no gaps.
+const LARGE_CURVE: u64 = 1 << 20;
 /// Largest number of records of a loading stage that have memory at the same time: while the list
 /// of the stages grows, it has its former memory and twice as much.
 const RECORDS: u64 = 3;
@@ -184,11 +197,14 @@ impl Workload {
             SAMPLED
         };
         let samples = scene.numerics.samples;
-        contact = contact.saturating_add(bytes_of_history(scene));
+        let history = bytes_of_history(scene);
         let searched = samples.saturating_add(SEARCHED);
+        contact = contact.saturating_add(history);
         contact = contact.saturating_add(searched.saturating_mul(sampled));
+        let mut reserved = SMALL_ARRAYS.saturating_add(searched.saturating_mul(RESERVED));
         if scene.loading_stiffness.is_some() {
             contact = contact.saturating_add(DISPLACED * springs);
+            reserved = reserved.saturating_add(searched.saturating_mul(RESERVED_DISPLACED));
         }
         // The profile is made before the contact is solved, so the larger of the two amounts of
         // memory counts.
@@ -197,8 +213,16 @@ impl Workload {
         } else {
             0
         };
-        plan.peak_bytes = (heights + contact).max(plan.bytes(Stage::Synthesis));
-        plan.resident_bytes = Workload::PROGRAM + contact.max(plan.bytes(Stage::Synthesis));
+        let synthesis = plan.bytes(Stage::Synthesis);
+        let held = heights.saturating_add(contact).max(synthesis);
+        plan.peak_bytes = held.saturating_add(reserved);
+        let gaps = if history / LARGE_CURVE < scene.loading.len() as u64 {
+            (GAPS * history as f64) as u64
+        } else {
+            0
+        };
+        let resident = contact.saturating_add(gaps).max(synthesis);
+        plan.resident_bytes = Workload::PROGRAM.saturating_add(resident);
         plan
     }
 
