@@ -150,6 +150,34 @@ pub enum Warning {
     LongWavesOfScan {
         /// Share of these waves in the squared height.
         share: f64,
+        /// True if the curvature of the heights was removed before.
+        is_levelled: bool,
+    },
+    /// Parts of one measured surface have different roughness, more than chance explains.
+    PartsDiffer {
+        /// Ratio of the largest to the smallest rms gradient of the parts.
+        ratio: f64,
+    },
+    /// Measured surfaces that count as samples of one roughness differ more than chance explains.
+    SurfacesDiffer {
+        /// Ratio of their largest to their smallest rms height or rms gradient.
+        ratio: f64,
+    },
+    /// The heights of a measured surface are far from normally distributed.
+    HeightsNotNormal {
+        /// Skewness of the heights; 0 for normal heights.
+        skewness: f64,
+        /// Kurtosis of the heights; 3 for normal heights.
+        kurtosis: f64,
+    },
+    /// A measured surface is larger or higher than any instrument measures roughness.
+    ImprobableLengths {
+        /// Name of the file.
+        file: String,
+        /// Length of the scan in m.
+        length: f64,
+        /// Rms height in m.
+        rms_height: f64,
     },
     /// The moments of a measured surface come from fewer than [`Warning::MANY_PROFILES`] profiles.
     FewMeasuredProfiles {
@@ -228,6 +256,25 @@ impl Warning {
     /// Share of long waves in the squared height of a scan above which the waves are likely to
     /// belong to a body or to a bow of the scanner.
     pub const FORM_OF_SCAN: f64 = 0.9;
+
+    /// Ratio of the rms gradients of parts of one surface from which on their difference is named.
+    pub const LARGEST_RATIO_OF_PARTS: f64 = 1.2;
+
+    /// Ratio of the rms heights or gradients of several surfaces from which on their difference is
+    /// named.
+    pub const LARGEST_RATIO_OF_SURFACES: f64 = 1.3;
+
+    /// Largest absolute skewness of heights that count as nearly normal.
+    pub const LARGEST_SKEWNESS: f64 = 1.0;
+
+    /// Smallest and largest kurtosis of heights that count as nearly normal.
+    pub const KURTOSIS: [f64; 2] = [1.5, 6.0];
+
+    /// Length of a scan in m from which on its unit is probably wrong.
+    pub const IMPROBABLE_LENGTH: f64 = 1.0;
+
+    /// Rms height of a surface in m from which on its unit is probably wrong.
+    pub const IMPROBABLE_HEIGHT: f64 = 1e-3;
 
     /// Largest ratio of the rms heights of two samples of one roughness.
     pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
@@ -332,8 +379,42 @@ impl Warning {
     }
 
     /// Returns a warning if long waves carry this share of the squared height of a scan.
-    pub fn of_long_waves_of_scan(share: f64) -> Option<Warning> {
-        (share > Self::MANY_LONG_WAVES).then_some(Warning::LongWavesOfScan { share })
+    /// `is_levelled` is true if the curvature of the heights was removed before.
+    pub fn of_long_waves_of_scan(share: f64, is_levelled: bool) -> Option<Warning> {
+        let is_large = share > Self::MANY_LONG_WAVES;
+        is_large.then_some(Warning::LongWavesOfScan { share, is_levelled })
+    }
+
+    /// Returns a warning if the rms gradients of the parts of a surface have this ratio, which
+    /// chance does not explain.
+    pub fn of_parts(ratio: f64) -> Option<Warning> {
+        (ratio > Self::LARGEST_RATIO_OF_PARTS).then_some(Warning::PartsDiffer { ratio })
+    }
+
+    /// Returns a warning if the rms heights or gradients of several surfaces have this ratio, which
+    /// chance does not explain.
+    pub fn of_surfaces(ratio: f64) -> Option<Warning> {
+        (ratio > Self::LARGEST_RATIO_OF_SURFACES).then_some(Warning::SurfacesDiffer { ratio })
+    }
+
+    /// Returns a warning if heights with this skewness and kurtosis are far from normal.
+    pub fn of_distribution(skewness: f64, kurtosis: f64) -> Option<Warning> {
+        let [least, most] = Self::KURTOSIS;
+        let is_normal =
+            skewness.abs() <= Self::LARGEST_SKEWNESS && (least..=most).contains(&kurtosis);
+        (!is_normal).then_some(Warning::HeightsNotNormal { skewness, kurtosis })
+    }
+
+    /// Returns a warning for a surface in a file whose length or rms height in m no instrument
+    /// measures.
+    pub fn of_lengths(file: &str, length: f64, rms_height: f64) -> Option<Warning> {
+        let is_improbable =
+            length >= Self::IMPROBABLE_LENGTH || rms_height > Self::IMPROBABLE_HEIGHT;
+        is_improbable.then(|| Warning::ImprobableLengths {
+            file: file.to_owned(),
+            length,
+            rms_height,
+        })
     }
 
     /// Returns a warning for the moments of this number of measured profiles.
@@ -393,6 +474,10 @@ impl Warning {
             Warning::SurfacesFarApart { .. } => "surfaces_far_apart",
             Warning::DisplacedRows { .. } => "displaced_rows",
             Warning::LongWavesOfScan { .. } => "long_waves_of_scan",
+            Warning::PartsDiffer { .. } => "parts_differ",
+            Warning::SurfacesDiffer { .. } => "surfaces_differ",
+            Warning::HeightsNotNormal { .. } => "heights_not_normal",
+            Warning::ImprobableLengths { .. } => "improbable_lengths",
             Warning::FewMeasuredProfiles { .. } => "few_measured_profiles",
             Warning::UnresolvedSpectrum => "unresolved_spectrum",
             Warning::OffsetRows => "offset_rows",
@@ -559,10 +644,37 @@ impl Warning {
                  gradient is too large.",
                 metres(*distance)
             ),
-            Warning::LongWavesOfScan { share } => format!(
+            Warning::LongWavesOfScan { share, .. } => format!(
                 "Waves longer than a quarter of the scan carry {:.0} % of the squared height: rms \
                  height and elastic energy depend on the length of the scan.",
                 100.0 * share
+            ),
+            Warning::PartsDiffer { ratio } => format!(
+                "Parts of the surface differ: their rms gradients are up to {}-fold apart, more \
+                 than chance explains. The stated errors contain these differences.",
+                format_rounded(*ratio, 3, "1")
+            ),
+            Warning::SurfacesDiffer { ratio } => format!(
+                "The measured surfaces differ: their rms heights or gradients are up to {}-fold \
+                 apart, more than chance explains. The stated errors contain these differences.",
+                format_rounded(*ratio, 3, "1")
+            ),
+            Warning::HeightsNotNormal { skewness, kurtosis } => format!(
+                "The heights are far from normal (skewness {}, kurtosis {}; normal heights: 0 and \
+                 3), but the random profiles of the equivalent line have normal heights: forces \
+                 computed on them leave out what rare summits or pits do.",
+                format_rounded(*skewness, 2, "1"),
+                format_rounded(*kurtosis, 2, "1")
+            ),
+            Warning::ImprobableLengths {
+                file,
+                length,
+                rms_height,
+            } => format!(
+                "{file}: the scan is {} long and its rms height is {}, more than instruments for \
+                 roughness measure: its unit is probably wrong.",
+                metres(*length),
+                metres(*rms_height)
             ),
             Warning::FewMeasuredProfiles { profiles } => {
                 let [low, high] = Self::BOUNDARY_FACTORS;
@@ -671,17 +783,40 @@ impl Warning {
                 "roughness.unit and roughness.height_unit state the units of a file."
             }
             Warning::DisplacedRows { .. } => "Rows of one direction alone are not displaced.",
-            Warning::LongWavesOfScan { share } if *share > Self::FORM_OF_SCAN => {
+            Warning::LongWavesOfScan {
+                share,
+                is_levelled: false,
+            } if *share > Self::FORM_OF_SCAN => {
                 "Where they are the form of a curved body or a bow of the scanner, \
                  roughness.detrend: Curvature removes it."
             }
             Warning::LongWavesOfScan { .. } => {
                 "A longer scan, or several, shows how the rms height depends on the length."
             }
+            Warning::PartsDiffer { .. } => {
+                "More scans at other places show the mean of the surface; a scan of one part alone \
+                 describes that part."
+            }
+            Warning::SurfacesDiffer { .. } => {
+                "If they belong to different surfaces, analyse each one by itself; if units are \
+                 wrong, roughness.unit and roughness.height_unit state them."
+            }
+            Warning::HeightsNotNormal { .. } => {
+                "What single summits do is computed with a form, such as Paraboloid, that has the \
+                 radius of a summit."
+            }
+            Warning::ImprobableLengths { .. } => {
+                "roughness.unit and roughness.height_unit state units where the file has none; a \
+                 file that states wrong ones, such as an X3P in µm in place of m, has to be \
+                 corrected, or its heights saved as text or .npy."
+            }
             Warning::FewMeasuredProfiles { .. } => "100 profiles or a map are better.",
             Warning::UnresolvedSpectrum => "roughness.continue_to continues it as a power law.",
             Warning::OffsetRows => "Rows that are not levelled one by one keep these waves.",
-            Warning::WavesApart { .. } => "Level the rows before, or choose one by roughness.row.",
+            Warning::WavesApart { .. } => {
+                "Where rows are offset, roughness.align_rows subtracts the median of each row; or \
+                 choose one row by roughness.row."
+            }
             Warning::TipArtefacts { .. } => "A sharper tip resolves these waves.",
         };
         remedy.to_owned()

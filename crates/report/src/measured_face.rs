@@ -152,6 +152,16 @@ impl MeasuredFace {
         Warning::of_rms_heights(flattest, roughest)
     }
 
+    /// Returns warnings about files whose surfaces are too large or too high for an instrument.
+    fn improbable_lengths(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for (file, rms_height) in self.files.iter().zip(&self.analysis.rms_heights) {
+            let length = file.lengths.iter().copied().fold(0.0, f64::max);
+            warnings.extend(Warning::of_lengths(&file.name(), length, *rms_height));
+        }
+        warnings
+    }
+
     /// Returns warnings: unusual properties of each file, and reasons why results of the analysis
     /// may be unreliable.
     pub fn warnings(&self) -> Vec<Warning> {
@@ -165,12 +175,25 @@ impl MeasuredFace {
                 });
             }
         }
+        warnings.extend(self.improbable_lengths());
         warnings.extend(Warning::of_gradient(analysis.line.rms_gradient.value, true));
-        warnings.extend(self.far_apart());
+        match self.far_apart() {
+            Some(warning) => warnings.push(warning),
+            None => warnings.extend(Warning::of_surfaces(analysis.ratio_of_surfaces)),
+        }
+        warnings.extend(Warning::of_parts(analysis.ratio_of_parts));
+        let statistics = &analysis.statistics;
+        warnings.extend(Warning::of_distribution(
+            statistics.skewness,
+            statistics.kurtosis,
+        ));
         if let Some(distance) = analysis.displaced {
             warnings.push(Warning::DisplacedRows { distance });
         }
-        warnings.extend(Warning::of_long_waves_of_scan(analysis.long_wave_share()));
+        warnings.extend(Warning::of_long_waves_of_scan(
+            analysis.long_wave_share(),
+            analysis.is_levelled,
+        ));
         if analysis.maps == 0 {
             warnings.extend(Warning::of_measured_profiles(analysis.profiles));
         }
@@ -195,6 +218,59 @@ impl MeasuredFace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use asperity_surface::{AnalysisOptions, analyse};
+
+    /// The names of the warnings about heights in m on a map of `columns` points in a row.
+    fn names(heights: &[f64], columns: usize, spacing: f64) -> Vec<&'static str> {
+        let surface = Topography::from_map(heights, columns, [spacing; 2]).unwrap();
+        let options = AnalysisOptions::default();
+        let face = MeasuredFace {
+            files: vec![SurfaceFile::new(PathBuf::from("a.x3p"), &surface)],
+            analysis: analyse(&[surface], &options).unwrap(),
+        };
+        face.warnings().iter().map(Warning::name).collect()
+    }
+
+    /// Heights of many waves in all directions, on 64 × 64 points.
+    fn waves() -> Vec<f64> {
+        let mut heights = vec![0.0; 64 * 64];
+        for wave in 1..200_u32 {
+            let direction = 2.4 * f64::from(wave);
+            let wave_number = 0.4 + 0.004 * f64::from(wave);
+            let phase = f64::from(wave * wave);
+            for (index, z) in heights.iter_mut().enumerate() {
+                let x = (index % 64) as f64;
+                let y = (index / 64) as f64;
+                let along = x * direction.cos() + y * direction.sin();
+                *z += 1e-9 * (wave_number * along + phase).sin();
+            }
+        }
+        heights
+    }
+
+    #[test]
+    fn lengths_that_no_instrument_measures_are_named() {
+        let heights = waves();
+        assert!(!names(&heights, 64, 1e-7).contains(&"improbable_lengths"));
+        // A file in µm that is read in m: 6.4 m long.
+        let in_metres: Vec<f64> = heights.iter().map(|z| 1e6 * z).collect();
+        assert!(names(&in_metres, 64, 0.1).contains(&"improbable_lengths"));
+        // Rms height of about 10 mm on 6.4 cm.
+        assert!(names(&in_metres, 64, 1e-3).contains(&"improbable_lengths"));
+    }
+
+    #[test]
+    fn heights_far_from_normal_are_named() {
+        let heights = waves();
+        assert!(!names(&heights, 64, 1e-7).contains(&"heights_not_normal"));
+        let mut particles: Vec<f64> = heights.iter().map(|z| 0.1 * z).collect();
+        for place in [700, 1500, 1533, 2900, 3100] {
+            for index in [place, place + 1, place + 64, place + 65] {
+                particles[index] += 1e-7;
+            }
+        }
+        assert!(names(&particles, 64, 1e-7).contains(&"heights_not_normal"));
+    }
 
     #[test]
     fn warnings_promise_what_the_documentation_states() {

@@ -34,12 +34,12 @@ pub fn measured_adhesion_text(computed: &MeasuredAdhesion) -> Option<String> {
         .adhesion_force()
         .filter(|forces| forces.count >= 2)?;
     let fit = match computed.fit_interval() {
-        Some(interval) => format!(", fit error {}", format_range(interval, 2, "N")),
-        None => String::new(),
+        Some(interval) => format!("fit error {}", format_range(interval, 2, "N")),
+        None => "fit error not known".to_owned(),
     };
     let profiles = forces.count;
     let words = forces.words("N");
-    Some(format!("{profiles} profiles: {words}{fit}"))
+    Some(format!("{profiles} profiles: {words}, {fit}"))
 }
 
 /// Report on the measured surfaces of one body or of both bodies in contact, and on the adhesion of
@@ -92,6 +92,9 @@ impl Report for SurfaceReport {
             add_face(&mut sheet, heading, face);
         }
         sheet.heading("Equivalent line");
+        // Both may have been typed without a unit.
+        sheet.quantity("effective modulus E*", self.modulus, "Pa");
+        sheet.quantity("work of adhesion γ", self.work, "J/m²");
         self.add_moments(&mut sheet);
         self.add_wavelengths(&mut sheet);
         if let Some((scene, computed)) = &self.adhesion {
@@ -419,6 +422,9 @@ fn add_adhesion(
         label,
         force.unwrap_or_else(|| "none: nothing is pulled".to_owned()),
     );
+    let hint = "for a flat face; a form in the scene of --scene, such as Paraboloid(radius: 1e-5), \
+                makes it a sphere";
+    sheet.row("", hint);
     let forces = computed.adhesion_force();
     if let Some(warning) = forces.and_then(|forces| forces.warning("F_a")) {
         sheet.row("", warning);

@@ -31,7 +31,9 @@ pub struct ProfileAdhesion {
     /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
     /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the
-    /// fit; `None` if there is no adhesion force before or after the change.
+    /// fit and computed to first order; limited to forces from zero to
+    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after
+    /// the change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
     /// is unknown.
@@ -39,6 +41,10 @@ pub struct ProfileAdhesion {
     /// Regime of adhesion that follows from F_a(F=0), for the fitted spectrum; `None` if the regime
     /// is unknown.
     pub regime_after_zero_force: Option<Regime>,
+    /// Ideal adhesion force F_a,max in N of a flat face of the length of the profile, which no
+    /// rough profile exceeds; `None` if it is not known.
+    #[serde(skip)]
+    pub largest_force: Option<f64>,
 }
 
 impl ProfileAdhesion {
@@ -63,7 +69,9 @@ impl ProfileAdhesion {
         let adhesion_force = fitted.figures.adhesion_force;
         let mut fit_change = None;
         if let (Some(before), Some(after)) = (adhesion_force, moved.figures.adhesion_force) {
-            fit_change = Some((after - before) / SHARE);
+            let change = (after - before) / SHARE;
+            let largest = fitted.ideal_adhesion_force.unwrap_or(f64::INFINITY);
+            fit_change = Some(change.max(-before).min((largest - before).max(0.0)));
         }
         Ok(ProfileAdhesion {
             seed,
@@ -71,6 +79,7 @@ impl ProfileAdhesion {
             fit_change,
             regime: fitted.regime,
             regime_after_zero_force: fitted.regime_after_zero_force,
+            largest_force: fitted.ideal_adhesion_force,
         })
     }
 }
@@ -87,13 +96,32 @@ fn run_on(
 }
 
 /// Adhesion of several random profiles with the spectrum of one measured surface.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MeasuredAdhesion {
     /// Adhesion of each profile, sorted by the seeds of the profiles.
     pub profiles: Vec<ProfileAdhesion>,
+    /// True if the error of the elastic energy of the spectrum is at most as large as the energy
+    /// itself. Otherwise the uncertainty of the force due to the spectrum is not known.
+    pub is_fit_known: bool,
 }
 
 impl MeasuredAdhesion {
+    /// Creates the adhesion of the spectrum of `line`, without any profile.
+    pub fn new(line: &EquivalentLine) -> Self {
+        let energy = line.moments().energy_per_modulus;
+        MeasuredAdhesion {
+            profiles: Vec::new(),
+            is_fit_known: energy.error <= energy.value,
+        }
+    }
+
+    /// Returns the ideal adhesion force F_a,max in N of a flat face of the length of the profiles,
+    /// which no rough profile exceeds; `None` if it is not known.
+    pub fn largest_force(&self) -> Option<f64> {
+        self.profiles.first()?.largest_force
+    }
+
     /// Computes the adhesion of a scene on `count` random profiles with the spectrum of its
     /// measured surface. The first profile has the seed of the scene, and the others have the seeds
     /// that follow. Paths of measured files are relative to the folder of the scene file. `control`
@@ -205,7 +233,10 @@ impl MeasuredAdhesion {
             computed += 1;
             control.report(computed);
         })?;
-        Ok(MeasuredAdhesion { profiles })
+        Ok(MeasuredAdhesion {
+            profiles,
+            ..MeasuredAdhesion::new(line)
+        })
     }
 
     /// Returns the statistics of the adhesion force in N over the profiles, for the fitted
@@ -221,28 +252,25 @@ impl MeasuredAdhesion {
 
     /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
     /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles;
-    /// `None` for fewer than two profiles.
+    /// `None` for fewer than two profiles, and if it is [not known](Self::is_fit_known).
     pub fn fit_deviation(&self) -> Option<f64> {
+        if !self.is_fit_known {
+            return None;
+        }
         let changes = self.profiles.iter().map(|profile| profile.fit_change);
         rms(changes.flatten())
     }
 
-    /// Returns two forces in N, the median adhesion force divided by a factor and the median times
-    /// this factor; `None` for fewer than two profiles. The factor expresses the uncertainty of the
-    /// spectrum. Its logarithm is the root mean square of [`ProfileAdhesion::fit_change`] divided
-    /// by [`ProfileAdhesion::adhesion_force`].
+    /// Returns two forces in N, the median adhesion force minus and plus
+    /// [`MeasuredAdhesion::fit_deviation`], limited to forces from zero to
+    /// [`MeasuredAdhesion::largest_force`]. `None` without a deviation.
     pub fn fit_interval(&self) -> Option<(f64, f64)> {
-        let mut relative_changes = Vec::with_capacity(self.profiles.len());
-        for profile in &self.profiles {
-            if let (Some(change), Some(force)) = (profile.fit_change, profile.adhesion_force)
-                && force > 0.0
-            {
-                relative_changes.push(change / force);
-            }
-        }
-        let factor = rms(relative_changes.into_iter())?.exp();
+        let deviation = self.fit_deviation()?;
         let median = self.adhesion_force()?.quartiles[1];
-        Some((median / factor, median * factor))
+        let largest = self.largest_force().unwrap_or(f64::INFINITY).max(median);
+        let low = (median - deviation).max(0.0);
+        let high = (median + deviation).min(largest);
+        Some((low, high))
     }
 
     /// Returns the numbers of profiles in each regime: first for [`Quantity::Regime`], then for
@@ -387,6 +415,42 @@ mod tests {
             )
             .is_err()
         );
+    }
+
+    /// A spectrum of which next to nothing is known leaves the force unknown, and no stated force is
+    /// above the force of a flat face.
+    #[test]
+    fn no_error_of_the_force_is_beyond_the_force_of_a_flat_face() {
+        let (scene, line) = scene_and_line("(work: 0.05)");
+        let control = || Control::default().on_threads(1);
+        let found = MeasuredAdhesion::of_line(&scene, &line, 6, control()).unwrap();
+        let largest = found.largest_force().unwrap();
+        for profile in &found.profiles {
+            let changed = profile.adhesion_force.unwrap() + profile.fit_change.unwrap();
+            assert!((0.0..=largest).contains(&changed), "{profile:?}");
+        }
+        let (low, high) = found.fit_interval().unwrap();
+        assert!(0.0 <= low && high <= largest, "{low} {high} {largest}");
+        let wide = MeasuredAdhesion {
+            profiles: (0..4)
+                .map(|seed| ProfileAdhesion {
+                    seed,
+                    adhesion_force: Some(0.4 * largest),
+                    fit_change: Some(0.6 * largest),
+                    regime: None,
+                    regime_after_zero_force: None,
+                    largest_force: Some(largest),
+                })
+                .collect(),
+            ..found.clone()
+        };
+        assert_eq!(wide.fit_interval(), Some((0.0, largest)));
+        let unknown = MeasuredAdhesion {
+            is_fit_known: false,
+            ..found
+        };
+        assert_eq!(unknown.fit_interval(), None);
+        assert_eq!(unknown.fit_deviation(), None);
     }
 
     #[test]

@@ -148,15 +148,12 @@ fn is_sampled(scene: &Scene) -> bool {
 /// Returns the study that computes the adhesion force of the random profiles that are still
 /// missing.
 fn profiles(app: &App, computed: &SolvedScene) -> Study {
-    let mut found = app
-        .studies
-        .value::<MeasuredAdhesion>()
-        .cloned()
-        .unwrap_or_default();
+    let earlier = app.studies.value::<MeasuredAdhesion>().cloned();
     let scene = Arc::clone(&computed.scene);
     Study::new(computed.generation, false, move |_, mut control| {
         let faces = read_faces(&scene.measured_paths(Path::new("")))?;
         let line = EquivalentLine::new(&faces, &scene.measured_options())?;
+        let mut found = earlier.unwrap_or_else(|| MeasuredAdhesion::new(&line));
         let first = scene.seed().unwrap_or(0);
         while found.profiles.len() < PROFILES {
             let seed = first.wrapping_add(found.profiles.len() as u64);

@@ -441,8 +441,29 @@ fn words_are_whole_sentences_without_options() {
             },
         },
         Warning::DisplacedRows { distance: 1e-6 },
-        Warning::LongWavesOfScan { share: 0.5 },
-        Warning::LongWavesOfScan { share: 0.95 },
+        Warning::LongWavesOfScan {
+            share: 0.5,
+            is_levelled: false,
+        },
+        Warning::LongWavesOfScan {
+            share: 0.95,
+            is_levelled: false,
+        },
+        Warning::LongWavesOfScan {
+            share: 0.95,
+            is_levelled: true,
+        },
+        Warning::PartsDiffer { ratio: 1.5 },
+        Warning::SurfacesDiffer { ratio: 3.2 },
+        Warning::HeightsNotNormal {
+            skewness: 3.8,
+            kurtosis: 19.0,
+        },
+        Warning::ImprobableLengths {
+            file: "a.x3p".to_owned(),
+            length: 8.0,
+            rms_height: 0.051,
+        },
         Warning::FewMeasuredProfiles { profiles: 1 },
         Warning::UnresolvedSpectrum,
         Warning::OffsetRows,

@@ -1,6 +1,7 @@
 //! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and the
 //! limits of all three.
 
+use super::differences::Differences;
 use super::fits::SpectrumFits;
 use super::isotropic::IsotropicSpectrum;
 use super::levelled::LevelledSurface;
@@ -8,6 +9,7 @@ use super::moments::{LineMoments, line_moments};
 use super::no_maximum;
 use super::nodes::End;
 use super::options::AnalysisOptions;
+use super::parts::Blocks;
 use super::periodogram::{Along, Bin};
 use super::point_results::PointResults;
 use super::powers::Powers;
@@ -62,6 +64,16 @@ pub struct Analysis {
     /// Distance in m by which odd rows of a map are displaced against even rows, as if they were
     /// from two scans. `None` if no map has such a displacement.
     pub displaced: Option<f64>,
+    /// True if the curvature of each surface was removed, see [`AnalysisOptions::detrend`].
+    pub is_levelled: bool,
+    /// Ratio of the largest to the smallest rms gradient of the four quarters of a surface (of the
+    /// two halves of a profile), the largest of all surfaces. It is 1 if the parts differ by no
+    /// more than chance explains.
+    pub ratio_of_parts: f64,
+    /// Ratio of the largest to the smallest rms height or rms gradient of several surfaces, by the
+    /// waves that they have in common with the fitted spectrum. It is 1 if the surfaces differ by
+    /// no more than chance explains, and for a single surface.
+    pub ratio_of_surfaces: f64,
 }
 
 impl Analysis {
@@ -113,7 +125,12 @@ pub fn analyse(
     if surfaces.is_empty() {
         return Err(refused(Place::File, "no surface", "at least one"));
     }
-    let Measured { points, powers } = measure(surfaces, options)?;
+    let Measured {
+        points,
+        powers,
+        differences,
+        is_levelled,
+    } = measure(surfaces, options)?;
     let has_gaps = surfaces.iter().any(|surface| surface.interpolated() > 0);
     let fits = SpectrumFits::new(&powers, has_gaps, options.end)?;
     let observations = powers.observations(fits.last_wave_number());
@@ -121,7 +138,7 @@ pub fn analyse(
     let apart = powers.apart();
     // A surface whose waves depend on their direction has no self-affine isotropic spectrum.
     let mut power_law = if apart == 0.0 {
-        fits.self_affine(&observations, &isotropic)
+        fits.self_affine(&observations)
     } else {
         None
     };
@@ -129,6 +146,12 @@ pub fn analyse(
     let changes = fits.changes_between_readings(surfaces, options, &isotropic, power_law)?;
     isotropic.add_method_errors(changes.integrals);
     isotropic.add_method_errors([apart; 3]);
+    let unevenness = differences.unevenness();
+    let mut ratio_of_surfaces = unevenness.ratio_of_surfaces;
+    if surfaces.len() > 1 {
+        ratio_of_surfaces = ratio_of_surfaces.max(isotropic.ratio_of_kinds);
+    }
+    isotropic.add_method_errors(unevenness.errors);
     if let Some(fit) = &mut power_law {
         fit.hurst.error = fit.hurst.error.hypot(changes.hurst);
     }
@@ -161,6 +184,9 @@ pub fn analyse(
         offsets: powers.maps.iter().any(|map| map.offsets),
         apart,
         displaced: points.displaced,
+        is_levelled,
+        ratio_of_parts: unevenness.ratio_of_parts,
+        ratio_of_surfaces,
     })
 }
 
@@ -169,15 +195,25 @@ pub fn analyse(
 struct Measured {
     points: PointResults,
     powers: Powers,
+    differences: Differences,
+    /// True if the curvature of each surface was removed.
+    is_levelled: bool,
 }
 
 fn measure(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Measured, SurfaceError> {
-    let mut measured = Measured::default();
+    let mut measured = Measured {
+        is_levelled: true,
+        ..Measured::default()
+    };
     for (index, surface) in surfaces.iter().enumerate() {
         let levelled = LevelledSurface::new(index, surface, options, 0)?;
         levelled.check_rough(surface)?;
+        measured.is_levelled &= levelled.without_curvature;
         measured.points.add(&levelled, options.tip_radius);
-        measured.powers.add(&levelled)?;
+        let blocks = Blocks::new(&levelled)?;
+        let spread = blocks.spread();
+        measured.powers.add(&levelled, &blocks.weights(&spread))?;
+        measured.differences.add(&levelled, spread);
     }
     Ok(measured)
 }

@@ -174,6 +174,15 @@ impl WavesByAxis {
         }
     }
 
+    /// Returns all waves.
+    pub fn all(self) -> Vec<Wave> {
+        let mut waves = self.others;
+        for axis in self.axes {
+            waves.extend(axis.waves);
+        }
+        waves
+    }
+
     fn squared_gradient(&self) -> f64 {
         let parallel = self.axes.iter().flat_map(|axis| &axis.waves);
         let waves = self.others.iter().chain(parallel);

@@ -10,7 +10,8 @@ use super::nodes::{End, WaveRange};
 use super::observation::Observation;
 use super::options::AnalysisOptions;
 use super::powers::Powers;
-use super::self_affine_fit::{SelfAffineFit, fit_self_affine};
+use super::self_affine_ends::fit_for_ends;
+use super::self_affine_fit::SelfAffineFit;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::Topography;
 
@@ -74,12 +75,8 @@ impl SpectrumFits {
         fit_isotropic(&model).ok_or_else(no_maximum)
     }
 
-    /// Fits the self-affine spectrum. `isotropic` is the fit with nodes to the same observations.
-    pub fn self_affine(
-        &self,
-        observations: &[Observation],
-        isotropic: &IsotropicSpectrum,
-    ) -> Option<SelfAffineFit> {
+    /// Fits the self-affine spectrum.
+    pub fn self_affine(&self, observations: &[Observation]) -> Option<SelfAffineFit> {
         // The powers of the last waves depend on how the spectrum ends.
         let limit = if self.ends_inside {
             self.range.last - BEFORE_END * self.range.first
@@ -88,8 +85,7 @@ impl SpectrumFits {
         };
         let mut before_end = observations.to_vec();
         before_end.retain(|observation| observation.wave_number < limit);
-        let model = Model::new(&before_end, self.range, self.end);
-        fit_self_affine(&model, isotropic)
+        fit_for_ends(&before_end, self.range, self.end, self.ends_inside)
     }
 
     /// Repeats the fits for other values of the heights that were interpolated or resampled.
@@ -109,7 +105,7 @@ impl SpectrumFits {
             for (largest, change) in largest.integrals.iter_mut().zip(changes) {
                 *largest = largest.max(change.abs());
             }
-            let power_law_again = self.self_affine(&observations, &isotropic_again);
+            let power_law_again = self.self_affine(&observations);
             if let (Some(again), Some(before)) = (power_law_again, power_law) {
                 let change = again.hurst.value - before.hurst.value;
                 largest.hurst = largest.hurst.max(change.abs());

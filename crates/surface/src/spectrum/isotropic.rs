@@ -58,6 +58,9 @@ pub struct IsotropicSpectrum {
     pub(super) method: [f64; 3],
     /// Relative changes of the same integrals if short waves are missing.
     pub(super) missing: [f64; 3],
+    /// Ratio of the largest to the smallest rms height or rms gradient of the measured surfaces of
+    /// several kinds to which the spectrum is fitted; 1 if they differ by chance.
+    pub(super) ratio_of_kinds: f64,
 }
 
 /// Integral over a spectrum, and its derivatives with respect to ln C2D at the nodes.
@@ -224,6 +227,7 @@ mod tests {
             information,
             method: [0.0; 3],
             missing: [0.0; 3],
+            ratio_of_kinds: 1.0,
         }
     }
 

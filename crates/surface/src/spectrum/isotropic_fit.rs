@@ -5,6 +5,8 @@
 
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
+use super::observation::Observation;
+use super::parts::student_factor;
 use super::scoring::{Linearised, Objective, descend};
 use std::f64::consts::TAU;
 
@@ -20,6 +22,9 @@ const MOST_STEPS: usize = 200;
 /// Largest change of ln C2D at a node in one step.
 const LARGEST_STEP: f64 = 1.5;
 
+/// Number of standard errors that chance exceeds once in a few hundred times.
+const LEAST_DEVIATIONS: f64 = 3.0;
+
 /// Exponent of the power law q^(−3) by which initial values are interpolated.
 const INITIAL_EXPONENT: f64 = 3.0;
 
@@ -29,16 +34,17 @@ pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
     let likelihood = PenalisedLikelihood { model };
     let values = descend(&likelihood, initial_values(model), MOST_STEPS)?.parameters;
     let information = likelihood.linearise(&values).factor()?;
-    let method = departure(model, &values);
+    let departure = departure(model, &values);
     let mut spectrum = IsotropicSpectrum {
         nodes: model.nodes,
         values,
         information,
         method: [0.0; 3],
         missing: [0.0; 3],
+        ratio_of_kinds: departure.ratio_of_kinds,
     };
     let integrals = spectrum.integrals();
-    spectrum.method = [0, 1, 2].map(|index| TAU * method[index] / integrals[index]);
+    spectrum.method = [0, 1, 2].map(|index| TAU * departure.moments[index] / integrals[index]);
     Some(spectrum)
 }
 
@@ -167,37 +173,101 @@ fn between(means: &[NodeMean], index: usize) -> f64 {
     }
 }
 
-/// Compares the moments of the measured powers with the moments of the fitted means over the same
-/// waves. Returns the largest difference of each moment among profiles and maps of one kind. With
-/// several kinds, only the excess over chance counts.
-fn departure(model: &Model<'_>, values: &[f64]) -> [f64; 3] {
-    let kinds: Vec<_> = model
-        .observations
-        .chunk_by(|observation, next| observation.kind == next.kind)
-        .collect();
-    let mut largest = [0.0_f64; 3];
-    let mut means = model.means(values);
-    for kind in &kinds {
-        let mut differences = [0.0; 3];
+/// Differences between the measured powers and a fit.
+struct Departure {
+    /// Largest difference of each moment among profiles and maps of one kind, in the unit of the
+    /// moment.
+    moments: [f64; 3],
+    /// Ratio of the largest to the smallest rms height or rms gradient among the kinds; 1 if the
+    /// kinds differ by chance.
+    ratio_of_kinds: f64,
+}
+
+/// Moments of the measured powers of one kind of surfaces, and of the fitted means over the same
+/// waves.
+struct KindMoments {
+    differences: [f64; 3],
+    fitted: [f64; 3],
+    /// Standard errors of the fitted moments, because the number of waves is finite.
+    errors: [f64; 3],
+}
+
+impl KindMoments {
+    fn new(observations: &[Observation], means: &mut impl Iterator<Item = f64>) -> Self {
+        let mut moments = KindMoments {
+            differences: [0.0; 3],
+            fitted: [0.0; 3],
+            errors: [0.0; 3],
+        };
         let mut variances = [0.0; 3];
-        for (observed, mean) in kind.iter().zip(&mut means) {
+        for (observed, mean) in observations.iter().zip(means) {
             let difference = observed.moments(observed.power - mean);
-            let deviation = observed.moments(mean);
+            let fitted = observed.moments(mean);
             for index in 0..3 {
-                differences[index] += difference[index];
-                variances[index] += deviation[index].powi(2) / observed.waves;
+                moments.differences[index] += difference[index];
+                moments.fitted[index] += fitted[index];
+                variances[index] += fitted[index].powi(2) / observed.waves;
             }
         }
+        moments.errors = variances.map(f64::sqrt);
+        moments
+    }
+
+    /// Returns the ratio of the measured to the fitted moment.
+    fn ratio(&self, index: usize) -> f64 {
+        1.0 + self.differences[index] / self.fitted[index]
+    }
+}
+
+/// Compares the moments of the measured powers with the moments of the fitted means over the same
+/// waves, for the profiles and maps of each kind. With several kinds, only the excess over chance
+/// counts, multiplied by Student's factor if it is large.
+fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
+    let mut means = model.means(values);
+    let mut kinds = Vec::new();
+    for observations in model
+        .observations
+        .chunk_by(|observation, next| observation.kind == next.kind)
+    {
+        // The means of the next kind follow.
+        let mut own_means = means.by_ref().take(observations.len());
+        kinds.push(KindMoments::new(observations, &mut own_means));
+    }
+    let mut departure = Departure {
+        moments: [0.0; 3],
+        ratio_of_kinds: 1.0,
+    };
+    let mut is_chance = true;
+    for kind in &kinds {
         for index in 0..3 {
+            let difference = kind.differences[index].abs();
+            is_chance &= difference <= LEAST_DEVIATIONS * kind.errors[index];
             // Scans that share a spectrum depart from it by chance, which is in the statistical
             // error.
             let chance = if kinds.len() > 1 {
-                2.0 * f64::sqrt(variances[index])
+                2.0 * kind.errors[index]
             } else {
                 0.0
             };
-            largest[index] = largest[index].max(differences[index].abs() - chance);
+            departure.moments[index] = departure.moments[index].max(difference - chance);
         }
+    }
+    if kinds.len() > 1 && !is_chance {
+        departure.moments = departure
+            .moments
+            .map(|moment| student_factor(kinds.len()) * moment);
+        departure.ratio_of_kinds = ratio_of_kinds(&kinds);
+    }
+    departure
+}
+
+fn ratio_of_kinds(kinds: &[KindMoments]) -> f64 {
+    let mut largest = 1.0_f64;
+    for index in [0, 2] {
+        let ratios = kinds.iter().map(|kind| kind.ratio(index));
+        let most = ratios.clone().fold(0.0, f64::max);
+        let least = ratios.fold(f64::INFINITY, f64::min);
+        largest = largest.max((most / least).sqrt());
     }
     largest
 }

@@ -3,6 +3,7 @@
 use super::options::AnalysisOptions;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::{Detrend, Topography};
+use asperity_data::resized;
 
 /// Smallest allowed number of points along a row and of rows of a map.
 const LEAST_POINTS: usize = 32;
@@ -19,12 +20,17 @@ pub(super) struct LevelledSurface {
     pub heights: Vec<f64>,
     pub columns: usize,
     pub rows: usize,
+    /// True for each point that is measured, false for interpolated ones; empty if all points are
+    /// measured.
+    pub measured: Vec<bool>,
     /// Distances of the points along and between the rows in m.
     pub distances: [f64; 2],
     /// True if the analysis uses a window function, because the surface is not periodic.
     pub windowed: bool,
     /// True if the rows were levelled one by one.
     pub aligned: bool,
+    /// True if the curvature was removed.
+    pub without_curvature: bool,
 }
 
 impl LevelledSurface {
@@ -44,15 +50,24 @@ impl LevelledSurface {
 
         let mut heights = surface.copied_heights(quarters).map_err(within)?;
         let periodic = options.periodic || surface.periodic;
-        polynomial(surface, options, periodic).remove(&mut heights, columns);
+        let polynomial = polynomial(surface, options, periodic);
+        polynomial.remove(&mut heights, columns);
         Ok(LevelledSurface {
             heights,
             columns,
             rows,
+            measured: measured_points(surface).map_err(within)?,
             distances,
             windowed: !periodic,
             aligned: surface.aligned,
+            without_curvature: polynomial == Detrend::Curvature,
         })
+    }
+
+    /// Returns the height in m of a point; `None` if it is interpolated.
+    pub fn measured_height(&self, index: usize) -> Option<f64> {
+        let is_measured = self.measured.get(index).copied().unwrap_or(true);
+        is_measured.then(|| self.heights[index])
     }
 
     /// Checks that the heights exceed the rounding errors of the original heights.
@@ -67,6 +82,17 @@ impl LevelledSurface {
             "heights that differ",
         ))
     }
+}
+
+fn measured_points(surface: &Topography) -> Result<Vec<bool>, SurfaceError> {
+    if surface.interpolated.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut measured = resized(Vec::new(), surface.heights.len(), true)?;
+    for index in &surface.interpolated {
+        measured[*index] = false;
+    }
+    Ok(measured)
 }
 
 fn check_points(columns: usize, rows: usize) -> Result<(), SurfaceError> {

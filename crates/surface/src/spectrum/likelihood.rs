@@ -6,6 +6,9 @@ use super::observation::Observation;
 
 const NODES_PER_DECADE: f64 = 6.0;
 
+/// Distance in ln q of the grid of condensed terms.
+const GRID: f64 = 0.02;
+
 /// Observed powers, with the terms that give their means from a spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
@@ -27,6 +30,45 @@ impl<'a> Model<'a> {
             terms,
             nodes,
         }
+    }
+
+    /// Returns the same model with fewer terms: the weight of each term is divided between the two
+    /// nearest wave numbers of a fine grid. The mean of a power law q^(−4) changes by less than
+    /// 0.1 %.
+    pub fn condensed(&self) -> Model<'a> {
+        let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
+        Model {
+            observations: self.observations,
+            terms: terms.collect(),
+            nodes: self.nodes,
+        }
+    }
+
+    fn condensed_terms(&self, terms: &[Term]) -> Vec<Term> {
+        // The spectrum is constant below the first node.
+        let ln_q = |term: &Term| term.ln_q.max(self.nodes.first);
+        let lowest = terms.iter().map(ln_q).fold(f64::INFINITY, f64::min);
+        let highest = terms.iter().map(ln_q).fold(lowest, f64::max);
+        if terms.is_empty() {
+            return Vec::new();
+        }
+        let cells = ((highest - lowest) / GRID).ceil() as usize + 1;
+        let mut weights = vec![0.0; cells + 1];
+        for term in terms {
+            let place = (ln_q(term) - lowest) / GRID;
+            let index = place as usize;
+            let share = place - index as f64;
+            weights[index] += (1.0 - share) * term.weight;
+            weights[index + 1] += share * term.weight;
+        }
+        let mut condensed = Vec::new();
+        for (index, weight) in weights.into_iter().enumerate() {
+            if weight != 0.0 {
+                let wave_number = (lowest + index as f64 * GRID).exp();
+                condensed.push(self.nodes.term(wave_number, weight));
+            }
+        }
+        condensed
     }
 
     /// Computes the negative logarithm of the likelihood, Σ w (P/m + ln m), for the means m of the

@@ -34,10 +34,7 @@ impl MapPower {
     /// between the rows are left out.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
-        let steps = [
-            TAU / (map.columns as f64 * along),
-            TAU / (map.rows as f64 * between),
-        ];
+        let steps = steps(map);
         let mut waves = waves_by_axis(map, steps)?.without_offsets();
         waves
             .waves
@@ -51,6 +48,21 @@ impl MapPower {
             apart: waves.apart,
         })
     }
+}
+
+/// Returns the waves of a map up to the smaller Nyquist wave number, in any order. None are left
+/// out.
+pub(super) fn waves_of_map(map: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
+    Ok(waves_by_axis(map, steps(map))?.all())
+}
+
+/// Returns the wave numbers of wave 1 along and between the rows in rad/m.
+fn steps(map: &LevelledSurface) -> [f64; 2] {
+    let [along, between] = map.distances;
+    [
+        TAU / (map.columns as f64 * along),
+        TAU / (map.rows as f64 * between),
+    ]
 }
 
 /// Computes the powers of the waves in half of the plane. Wave 1 along and between the rows has the

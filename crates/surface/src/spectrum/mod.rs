@@ -17,6 +17,7 @@
 pub(crate) mod analysis;
 mod axis_power;
 mod detrend;
+mod differences;
 mod fits;
 mod identities;
 mod interlaced;
@@ -30,13 +31,16 @@ pub(crate) mod moments;
 pub(crate) mod nodes;
 mod observation;
 pub(crate) mod options;
+mod parts;
 pub(crate) mod periodogram;
 mod point_results;
 mod powers;
 mod quadrature;
 mod scoring;
+mod self_affine_ends;
 pub(crate) mod self_affine_fit;
 pub(crate) mod statistics;
+mod weights;
 
 use crate::error::{Place, SurfaceError, refused};
 

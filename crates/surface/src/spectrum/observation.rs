@@ -15,7 +15,7 @@ const BANDS_PER_DECADE: f64 = 60.0;
 
 /// Number of waves under a Hann window that count as one independent wave. Powers at distances of 1
 /// and 2 waves are correlated with the squares of 2/3 and 1/6.
-const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
+pub(super) const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
 /// A wave that contributes to the observed power of a wave.
 struct Contribution {

@@ -1,5 +1,6 @@
 //! Periodograms of profiles: the power of each wave.
 
+use super::weights::EqualWeights;
 use crate::error::SurfaceError;
 use asperity_fourier::{Complex64, plan_real_forward};
 use serde::Serialize;
@@ -87,14 +88,22 @@ impl ProfilePower {
         }
     }
 
-    /// Adds the power spectra of profiles with equal points, which are the rows of one surface.
+    /// Adds the power spectra of profiles with equal points, which are the rows of one surface,
+    /// multiplied by these factors.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
+        weights: &EqualWeights,
     ) -> Result<(), SurfaceError> {
-        let scale = self.spacing / self.points as f64;
+        let spacing = self.spacing / self.points as f64;
+        let scales: Vec<f64> = self
+            .waves
+            .iter()
+            .map(|wave| spacing * weights.factor(wave.wave_number))
+            .collect();
         transform_rows(rows, self.points, self.windowed, |coefficients| {
-            for (wave, coefficient) in self.waves.iter_mut().zip(&coefficients[1..]) {
+            let waves = self.waves.iter_mut().zip(&scales);
+            for ((wave, scale), coefficient) in waves.zip(&coefficients[1..]) {
                 wave.power += scale * coefficient.norm_sqr();
             }
             self.profiles += 1;
@@ -126,7 +135,7 @@ pub fn line_spectrum(
     // The mean of windowed heights would leak into the first waves.
     let mean = heights.iter().sum::<f64>() / heights.len() as f64;
     let differences = heights.iter().map(|height| height - mean);
-    power.add(std::iter::once(differences))?;
+    power.add(std::iter::once(differences), &EqualWeights::none())?;
     let waves = power.waves.into_iter().map(|wave| Bin {
         wave_number: wave.wave_number,
         power: wave.power,

@@ -31,9 +31,9 @@ impl PointResults {
         let heights = &surface.heights;
         let columns = surface.columns;
         let spacing = surface.distances[0];
-        self.sums.add(heights, columns, surface.distances);
+        self.sums.add(surface);
         let mut own_sums = Sums::default();
-        own_sums.add(heights, columns, surface.distances);
+        own_sums.add(surface);
         self.rms_heights.push(own_sums.statistics().rms_height);
 
         let row_length = columns as f64 * spacing;
@@ -75,8 +75,7 @@ impl LargestSums {
             self.sums = Sums::default();
         }
         if size >= self.size * (1.0 - SAME) {
-            let heights = &surface.heights;
-            self.sums.add(heights, surface.columns, surface.distances);
+            self.sums.add(surface);
         }
     }
 }

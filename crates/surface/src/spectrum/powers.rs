@@ -5,8 +5,10 @@ use super::map_power::MapPower;
 use super::nodes::WaveRange;
 use super::observation::{self, Observation};
 use super::options::AnalysisOptions;
+use super::parts::Blocks;
 use super::periodogram::{Along, Bin, ProfilePower, Wave, bins};
 use super::point_results::SAME;
+use super::weights::EqualWeights;
 use crate::error::SurfaceError;
 use crate::topography::surface::Topography;
 use std::f64::consts::PI;
@@ -42,27 +44,35 @@ impl Powers {
         let mut powers = Powers::default();
         for (index, surface) in surfaces.iter().enumerate() {
             let levelled = LevelledSurface::new(index, surface, options, quarters)?;
-            powers.add(&levelled)?;
+            let blocks = Blocks::new(&levelled)?;
+            powers.add(&levelled, &blocks.weights(&blocks.spread()))?;
         }
         Ok(powers)
     }
 
-    /// Adds the power spectra of a surface.
-    pub fn add(&mut self, surface: &LevelledSurface) -> Result<(), SurfaceError> {
+    /// Adds the power spectra of a surface, multiplied by these factors.
+    pub fn add(
+        &mut self,
+        surface: &LevelledSurface,
+        weights: &EqualWeights,
+    ) -> Result<(), SurfaceError> {
         if surface.rows == 1 {
-            return group(&mut self.profiles, surface, 0).add(rows(surface));
+            return group(&mut self.profiles, surface, 0).add(rows(surface), weights);
         }
         let [along_x, along_y] = &mut self.axes;
-        group(along_x, surface, 0).add(rows(surface))?;
-        group(along_y, surface, 1).add(columns(surface))?;
+        group(along_x, surface, 0).add(rows(surface), weights)?;
+        group(along_y, surface, 1).add(columns(surface), weights)?;
 
-        let map = MapPower::new(surface)?;
+        let mut map = MapPower::new(surface)?;
+        for wave in &mut map.waves {
+            wave.power *= weights.factor(wave.wave_number);
+        }
         if let Some(axis) = long_axis(surface, &map) {
             let mut power = new_power(surface, axis);
             if axis == 0 {
-                power.add(rows(surface))?;
+                power.add(rows(surface), weights)?;
             } else {
-                power.add(columns(surface))?;
+                power.add(columns(surface), weights)?;
             }
             let end = observation::least_of_map(&map);
             self.strips.push(Strip { power, end });

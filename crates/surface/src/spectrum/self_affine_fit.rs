@@ -65,16 +65,26 @@ impl SelfAffineFit {
     }
 }
 
-/// Fits a self-affine spectrum to the observations of a model. `isotropic` is the fit with nodes to
-/// the same observations. `None` if the fit does not converge or no exponent between 0 and 1 fits.
-pub(super) fn fit_self_affine(
-    model: &Model<'_>,
-    isotropic: &IsotropicSpectrum,
-) -> Option<SelfAffineFit> {
-    let search = Search::new(model);
+/// Self-affine spectrum of largest likelihood, without errors.
+#[derive(Clone, Copy)]
+pub(super) struct PowerLaw {
+    parameters: Parameters,
+    /// Number of free parameters.
+    free: usize,
+    /// Negative logarithm of the likelihood.
+    pub misfit: f64,
+    /// Hurst exponent of a spectrum with a roll-off.
+    hurst_with_roll_off: f64,
+}
+
+/// Finds the self-affine spectrum of largest likelihood for the observations of a model. `None` if
+/// the search does not converge.
+pub(super) fn find_power_law(model: &Model<'_>) -> Option<PowerLaw> {
+    let model = model.condensed();
+    let search = Search::new(&model);
     let without = search.without_roll_off()?;
     let with = search.with_roll_off();
-    let hurst_with = match with {
+    let hurst_with_roll_off = match with {
         Some(with) => with.parameters.hurst,
         None => without.parameters.hurst,
     };
@@ -82,34 +92,58 @@ pub(super) fn fit_self_affine(
         Some(with) if without.value - with.value > LEAST_GAIN => (with, WITH_ROLL_OFF),
         _ => (without, WITHOUT_ROLL_OFF),
     };
-    let parameters = best.parameters;
-
-    // For a self-affine surface the mean of twice the difference is the number of further
-    // parameters of the isotropic spectrum.
-    let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
-    let excess = 2.0 * (best.value - misfit_of_nodes);
-    let further = isotropic.values.len() - free;
-    let scale = (excess / further as f64).max(1.0).sqrt();
-    let information = search.likelihood(free).linearise(&parameters).factor()?;
-    let error = |index: usize| scale * information.standard_error(index);
-    let is_possible = 0.0 < parameters.hurst && parameters.hurst < 1.0;
-    if !is_possible {
-        return None;
-    }
-    let roll_off = if free == WITH_ROLL_OFF {
-        Some(exponential(parameters.roll_off, error(2)))
-    } else {
-        None
-    };
-    Some(SelfAffineFit {
-        hurst: ValueWithError {
-            value: parameters.hurst,
-            // The surface may have a roll-off that the data cannot distinguish from chance.
-            error: error(1).hypot(hurst_with - parameters.hurst),
-        },
-        roll_off,
-        level: exponential(parameters.level, error(0)),
+    Some(PowerLaw {
+        parameters: best.parameters,
+        free,
+        misfit: best.value,
+        hurst_with_roll_off,
     })
+}
+
+impl PowerLaw {
+    /// Returns the Hurst exponent.
+    pub fn hurst(&self) -> f64 {
+        self.parameters.hurst
+    }
+
+    /// Returns the factor of the standard errors that the misfit to the observations of the model
+    /// gives. `isotropic` is the fit with nodes to the same observations.
+    pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
+        // For a self-affine surface the mean of twice the difference is the number of further
+        // parameters of the isotropic spectrum.
+        let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
+        let excess = 2.0 * (self.misfit - misfit_of_nodes);
+        let further = isotropic.values.len() - self.free;
+        (excess / further as f64).max(1.0).sqrt()
+    }
+
+    /// Returns the fit with its standard errors, multiplied by `scale`. `None` if no exponent
+    /// between 0 and 1 fits.
+    pub fn with_errors(&self, model: &Model<'_>, scale: f64) -> Option<SelfAffineFit> {
+        let parameters = self.parameters;
+        let model = model.condensed();
+        let likelihood = Search::new(&model).likelihood(self.free);
+        let information = likelihood.linearise(&parameters).factor()?;
+        let error = |index: usize| scale * information.standard_error(index);
+        let is_possible = 0.0 < parameters.hurst && parameters.hurst < 1.0;
+        if !is_possible {
+            return None;
+        }
+        let roll_off = if self.free == WITH_ROLL_OFF {
+            Some(exponential(parameters.roll_off, error(2)))
+        } else {
+            None
+        };
+        Some(SelfAffineFit {
+            hurst: ValueWithError {
+                value: parameters.hurst,
+                // The surface may have a roll-off that the data cannot distinguish from chance.
+                error: error(1).hypot(self.hurst_with_roll_off - parameters.hurst),
+            },
+            roll_off,
+            level: exponential(parameters.level, error(0)),
+        })
+    }
 }
 
 /// Returns the exponential of a value with a standard error.

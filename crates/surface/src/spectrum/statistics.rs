@@ -1,13 +1,15 @@
 //! Moments of the heights and gradients of measured points, and the shortest wavelength that a tip
 //! resolves.
 
+use super::levelled::LevelledSurface;
 use serde::Serialize;
 
 /// Statistics of the points of one or more surfaces after removal of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of points of all surfaces together.
+    /// Number of measured points of all surfaces together. Points with interpolated heights count
+    /// nowhere in these statistics.
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
     /// filter.
@@ -55,29 +57,41 @@ pub(super) struct Sums {
 }
 
 impl Sums {
-    /// Adds the heights (m) of a surface, relative to their mean, in rows of `columns` points.
-    /// `distances` are the distances (m) of the points along and between the rows.
-    pub fn add(&mut self, heights: &[f64], columns: usize, distances: [f64; 2]) {
-        let [along, between] = distances;
-        let level = heights[0];
-        let mean = level + heights.iter().map(|z| z - level).sum::<f64>() / heights.len() as f64;
-        self.points += heights.len();
-        for height in heights {
+    /// Adds the measured points of a surface, with their heights relative to the mean of these
+    /// points. Slopes between two points count if both are measured.
+    pub fn add(&mut self, surface: &LevelledSurface) {
+        let columns = surface.columns;
+        let [along, between] = surface.distances;
+        let points = surface.heights.len();
+        let level = surface.heights[0];
+        let mut sum = 0.0;
+        let mut count = 0;
+        for height in (0..points).filter_map(|index| surface.measured_height(index)) {
+            sum += height - level;
+            count += 1;
+        }
+        let mean = level + sum / count.max(1) as f64;
+        self.points += count;
+        for index in 0..points {
+            let Some(height) = surface.measured_height(index) else {
+                continue;
+            };
             let z = height - mean;
             self.squares += z * z;
             self.cubes += z * z * z;
             self.fourths += (z * z) * (z * z);
-        }
-        for row in heights.chunks_exact(columns) {
-            for pair in row.windows(2) {
-                self.slopes_along.add((pair[1] - pair[0]) / along);
+            if index % columns > 0
+                && let Some(before) = surface.measured_height(index - 1)
+            {
+                self.slopes_along.add((height - before) / along);
+            }
+            if index >= columns
+                && let Some(before) = surface.measured_height(index - columns)
+            {
+                self.slopes_between.add((height - before) / between);
             }
         }
-        for (height, next) in heights.iter().zip(heights.iter().skip(columns)) {
-            self.slopes_between.add((next - height) / between);
-        }
-        let rows = heights.len() / columns;
-        self.has_profile |= rows < 2;
+        self.has_profile |= surface.rows < 2;
     }
 
     pub fn statistics(&self) -> PointStatistics {
@@ -171,8 +185,19 @@ mod tests {
 
     #[test]
     fn moments_of_a_map_and_a_profile_are_those_by_hand() {
+        let surface = |heights: &[f64], distances: [f64; 2]| LevelledSurface {
+            heights: heights.to_vec(),
+            columns: 3,
+            rows: heights.len() / 3,
+            measured: Vec::new(),
+            distances,
+            windowed: true,
+            aligned: false,
+            without_curvature: false,
+        };
         let mut sums = Sums::default();
-        sums.add(&[1.0, 2.0, 4.0, 1.0, 5.0, 5.0], 3, [0.5, 2.0]);
+        let map = surface(&[1.0, 2.0, 4.0, 1.0, 5.0, 5.0], [0.5, 2.0]);
+        sums.add(&map);
         let found = sums.statistics();
         // Mean 3: −2 −1 1 −2 2 2.
         assert!((found.rms_height - 3.0_f64.sqrt()).abs() < 1e-15);
@@ -181,7 +206,19 @@ mod tests {
         // Along rows 2 4 8 0, between rows 0 1.5 0.5.
         assert!((found.rms_slope.powi(2) - 84.0 / 4.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (21.0 + 2.5 / 3.0)).abs() < 1e-13);
-        sums.add(&[7.0, 7.0, 7.0], 3, [1.0; 2]);
+        // Without the point in the middle of the second row: mean 2.6, −1.6 −0.6 1.4 −1.6 2.4.
+        let mut measured = Sums::default();
+        measured.add(&LevelledSurface {
+            measured: vec![true, true, true, true, false, true],
+            ..map
+        });
+        let found = measured.statistics();
+        assert_eq!(found.points, 5);
+        assert!((found.rms_height.powi(2) - 13.2 / 5.0).abs() < 1e-14);
+        // Along the first row 2 4, between rows 0 0.5.
+        assert!((found.rms_slope.powi(2) - 20.0 / 2.0).abs() < 1e-13);
+        assert!((found.rms_gradient.unwrap().powi(2) - (10.0 + 0.25 / 2.0)).abs() < 1e-13);
+        sums.add(&surface(&[7.0, 7.0, 7.0], [1.0; 2]));
         assert_eq!(
             (sums.statistics().points, sums.statistics().rms_gradient),
             (9, None)

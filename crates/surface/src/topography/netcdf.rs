@@ -42,6 +42,8 @@ struct Conversion<'a> {
     missing: [f64; 2],
     scale: f64,
     offset: f64,
+    /// True for positions of a periodic surface.
+    is_periodic: bool,
 }
 
 /// Header of a file, and the bytes after it.
@@ -60,7 +62,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let values = dataset.unmasked(heights)?;
     // Each variable has its own unit, or none.
     let height_unit = heights.unit()?;
-    match heights.dimensions[..] {
+    let mut reading = match heights.dimensions[..] {
         [dimension] => profile(&dataset, dimension, values, height_unit),
         [slow, fast] => map(&dataset, slow, fast, values, height_unit),
         _ => {
@@ -69,7 +71,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
             let allowed = "one of a profile, or two of a map";
             Err(refused(Place::File, found, allowed))
         }
-    }
+    }?;
+    reading.periodic = heights
+        .dimensions
+        .iter()
+        .any(|dimension| dataset.is_periodic(*dimension));
+    Ok(reading)
 }
 
 fn profile(
@@ -179,6 +186,13 @@ impl<'a> Dataset<'a> {
             Some(positions) => positions.unit(),
             None => Ok(None),
         }
+    }
+
+    /// Returns true if the positions along a dimension state that the surface is periodic.
+    /// SurfaceTopography states it beside x alone, for both axes.
+    fn is_periodic(&self, dimension: usize) -> bool {
+        self.positions_over(dimension)
+            .is_some_and(|positions| positions.conversion.is_periodic)
     }
 
     /// Returns the distance of the positions along a dimension.
@@ -325,6 +339,7 @@ impl<'a> Conversion<'a> {
             missing: [f64::NAN; 2],
             scale: 1.0,
             offset: 0.0,
+            is_periodic: false,
         };
         for attribute in attributes {
             let Some(number) = attribute.number else {
@@ -341,6 +356,7 @@ impl<'a> Conversion<'a> {
                 b"_FillValue" => conversion.missing[1] = value,
                 b"scale_factor" => conversion.scale = value,
                 b"add_offset" => conversion.offset = value,
+                b"periodic" => conversion.is_periodic = value != 0.0,
                 _ => {}
             }
         }

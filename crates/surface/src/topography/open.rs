@@ -181,7 +181,7 @@ fn parse_measurements(
         let mut surface = reading.resolve_part(&options).map_err(within)?;
         surface.warnings.extend(measurement.tip_radius());
         surface.detrend = measurement.detrend();
-        surface.periodic = measurement.is_periodic;
+        surface.periodic |= measurement.is_periodic;
         surface.name = measurement.name;
         surfaces.push(surface);
     }
@@ -338,6 +338,17 @@ mod tests {
             (turned.heights[1], turned.heights[6]),
             (straight.heights[4], straight.heights[1])
         );
+        // SurfaceTopography states beside x whether the surface is periodic.
+        assert!(!straight.periodic);
+        let stated = |number: u8| {
+            let mut attribute = b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0".to_vec();
+            attribute.push(number);
+            attribute
+        };
+        let plain = stated(0);
+        let periodic = stated(1);
+        assert!(!read("map.nc", &plain, &plain, &bare("")).periodic);
+        assert!(read("map.nc", &plain, &periodic, &bare("")).periodic);
         // Each axis of a map, and its heights, have a unit of their own.
         let before =
             b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0\0\0\0\0\x04unit\0\0\0\x02\0\0\0";

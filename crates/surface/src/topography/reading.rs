@@ -19,6 +19,8 @@ pub(super) struct Reading {
     pub units: StatedUnits,
     /// Place of the first missing point, if the reader can name it better than by its number.
     pub first_missing: Option<Place>,
+    /// True if the file states that the surface is periodic at its borders.
+    pub periodic: bool,
     /// Messages about oddities of the file.
     pub warnings: Vec<Note>,
 }
@@ -42,6 +44,7 @@ impl Reading {
             spacing,
             units,
             first_missing: None,
+            periodic: false,
             warnings: Vec::new(),
         };
         if rows == 1 {

@@ -76,7 +76,7 @@ impl Reading {
             aligned: options.align_rows,
             name: String::new(),
             detrend: None,
-            periodic: false,
+            periodic: self.periodic,
             warnings: self.warnings,
         };
         surface.check_slopes()?;

@@ -63,8 +63,8 @@ pub struct Topography {
     /// Name of the measurement in an archive of several measurements; empty for a surface that has
     /// a file of its own.
     pub name: String,
-    /// Polynomial to remove, and whether the surface is periodic at its borders, as a container
-    /// states.
+    /// Polynomial to remove, as a container states, and whether the surface is periodic at its
+    /// borders, as a container or the file states.
     pub(crate) detrend: Option<Detrend>,
     pub(crate) periodic: bool,
     /// Messages for the user, each about something unusual in the file.

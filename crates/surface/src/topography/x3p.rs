@@ -10,6 +10,7 @@ use super::stated_units::StatedUnits;
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{emptied, gathered, push, shown};
 use encoding_rs::{Encoding, UTF_8};
+use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt;
 
@@ -126,6 +127,8 @@ type Coordinates = [Vec<f64>; 3];
 struct Surface<'a, 'input> {
     root: Node<'a, 'input>,
     axes: [Axis<'a>; 3],
+    /// Messages about the file.
+    warnings: Vec<String>,
 }
 
 impl<'a, 'input> Surface<'a, 'input> {
@@ -135,19 +138,22 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(Surface {
             root,
             axes: [x?, y?, z?],
+            warnings: Vec::new(),
         })
     }
 
-    fn read(&self, archive: Archive<'_>) -> Result<Reading, SurfaceError> {
-        if text(self.root, "ListDimension").is_empty() {
-            self.matrix(archive)
+    fn read(mut self, archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+        let mut reading = if text(self.root, "ListDimension").is_empty() {
+            self.matrix(archive)?
         } else {
-            self.list(archive)
-        }
+            self.list(archive)?
+        };
+        reading.warnings.append(&mut self.warnings);
+        Ok(reading)
     }
 
     /// Reads a list of points without an order.
-    fn list(&self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+    fn list(&mut self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
         let points = count(self.root, "ListDimension")?;
         if self.axes.iter().any(|axis| !axis.is_absolute) {
             let found = "a list of points with an incremental axis";
@@ -158,7 +164,7 @@ impl<'a, 'input> Surface<'a, 'input> {
     }
 
     /// Reads points in rows and columns.
-    fn matrix(&self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
+    fn matrix(&mut self, mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
         let columns = count(self.root, "SizeX")?;
         let rows = count(self.root, "SizeY")?;
         if count(self.root, "SizeZ")? != 1 {
@@ -189,9 +195,31 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(Reading::even("X3P", heights, columns, spacing, units))
     }
 
+    /// Returns a message about binary content whose MD5 is not the one that the index states, as
+    /// ISO 25178-72 demands. `element` is the name of the element that states it.
+    fn changed(&self, name: &str, content: &[u8], element: &str) -> Option<String> {
+        let stated = trimmed(find(self.root, element)?);
+        let is_checksum = stated.len() == 32 && stated.bytes().all(|byte| byte.is_ascii_hexdigit());
+        if !is_checksum {
+            return None;
+        }
+        let mut found = String::with_capacity(32);
+        for byte in Md5::digest(content) {
+            found.push_str(&format!("{byte:02x}"));
+        }
+        if stated.eq_ignore_ascii_case(&found) {
+            return None;
+        }
+        let name = shown(name);
+        Some(format!(
+            "{name} has the MD5 {found}, and {INDEX} states {stated}: the file was changed or \
+             damaged after it was written"
+        ))
+    }
+
     /// Reads the coordinates of each point from a binary file or a list in the index.
     fn coordinates(
-        &self,
+        &mut self,
         archive: &mut Archive<'_>,
         points: usize,
     ) -> Result<Coordinates, SurfaceError> {
@@ -211,7 +239,7 @@ impl<'a, 'input> Surface<'a, 'input> {
     /// Reads the coordinates of a binary file of the archive, point by point. Points marked invalid
     /// in the bit field are missing.
     fn linked(
-        &self,
+        &mut self,
         archive: &mut Archive<'_>,
         link: &str,
         points: usize,
@@ -221,6 +249,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         let expected = unpacked_size(points, size.sum(), Place::Part(INDEX.to_owned()))?;
         let allowed = format!("{expected} bytes for {points} points");
         let content = exactly(archive, link, expected, allowed)?;
+        let changed = self.changed(link, &content, "MD5ChecksumPointData");
+        self.warnings.extend(changed);
 
         let mut data = Bytes::new(&content, Order::Little);
         let mut coordinates = [const { Vec::new() }; 3];
@@ -239,7 +269,10 @@ impl<'a, 'input> Surface<'a, 'input> {
         }
         if let Some(link) = find(self.root, "ValidPointsLink") {
             let allowed = format!("a bit for each of {points} points");
-            let valid = exactly(archive, trimmed(link), points.div_ceil(8), allowed)?;
+            let link = trimmed(link);
+            let valid = exactly(archive, link, points.div_ceil(8), allowed)?;
+            let changed = self.changed(link, &valid, "MD5ChecksumValidPoints");
+            self.warnings.extend(changed);
             remove_invalid(&mut coordinates, &valid);
         }
         Ok(coordinates)
@@ -520,6 +553,33 @@ mod tests {
                 .unwrap()
                 .spacing,
             None
+        );
+    }
+
+    #[test]
+    fn content_whose_checksum_differs_is_named() {
+        let stating = |checksum: &str| {
+            let element = format!("<MD5ChecksumPointData>{checksum}</MD5ChecksumPointData>");
+            with(&MAIN.replacen(
+                "<ValidPointsLink>",
+                &format!("{element}<ValidPointsLink>"),
+                1,
+            ))
+        };
+        // Of the twelve bytes of heights, by the program md5sum.
+        let right = "f6050cdac59263109f2a853227bed520";
+        let in_capitals = right.to_uppercase();
+        for checksum in [right, &in_capitals, "", "none"] {
+            assert_eq!(stating(checksum).unwrap().warnings, [""; 0], "{checksum}");
+        }
+        let wrong = "0".repeat(32);
+        let [warning] = &stating(&wrong).unwrap().warnings[..] else {
+            panic!("one warning");
+        };
+        assert!(
+            warning.starts_with(&format!("bindata/data.bin has the MD5 {right}"))
+                && warning.contains(&wrong),
+            "{warning}"
         );
     }
 

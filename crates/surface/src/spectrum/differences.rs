@@ -1,0 +1,125 @@
+//! Differences between the parts of surfaces, and between surfaces that are measurements of the
+//! same roughness, beyond the differences that chance explains.
+
+use super::levelled::LevelledSurface;
+use super::parts::{Spread, chance_factor, student_factor, variance_of_mean};
+use super::point_results::SAME;
+
+/// Surfaces with equal points, whose moments can be compared.
+struct Group {
+    points: [usize; 2],
+    spacing: f64,
+    spreads: Vec<Spread>,
+}
+
+/// Differences between parts of a surface and between surfaces.
+#[derive(Default)]
+pub(super) struct Differences {
+    groups: Vec<Group>,
+}
+
+/// What follows from the differences.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unevenness {
+    /// Relative errors of [`IsotropicSpectrum::integrals`](super::isotropic::IsotropicSpectrum)
+    /// that come from the differences.
+    pub errors: [f64; 3],
+    /// Ratio of the largest to the smallest rms gradient of the parts of a surface, the largest of
+    /// all surfaces; 1 if the parts differ by chance.
+    pub ratio_of_parts: f64,
+    /// Ratio of the largest to the smallest rms height or rms gradient of surfaces with equal
+    /// points, whichever is larger; 1 if the surfaces differ by chance.
+    pub ratio_of_surfaces: f64,
+}
+
+impl Differences {
+    /// Adds the spread of the parts of a surface.
+    pub fn add(&mut self, surface: &LevelledSurface, spread: Spread) {
+        let points = [surface.columns, surface.rows];
+        let spacing = surface.distances[0];
+        let is_equal = |group: &&mut Group| {
+            group.points == points && (group.spacing / spacing - 1.0).abs() < SAME
+        };
+        match self.groups.iter_mut().find(is_equal) {
+            Some(group) => group.spreads.push(spread),
+            None => self.groups.push(Group {
+                points,
+                spacing,
+                spreads: vec![spread],
+            }),
+        }
+    }
+
+    /// Returns what follows from all differences. The largest error of all groups counts.
+    pub fn unevenness(&self) -> Unevenness {
+        let mut unevenness = Unevenness {
+            errors: [0.0; 3],
+            ratio_of_parts: 1.0,
+            ratio_of_surfaces: 1.0,
+        };
+        for group in &self.groups {
+            let between = group.between();
+            for (index, error) in unevenness.errors.iter_mut().enumerate() {
+                let variance = group.within(index) + between.excess[index];
+                *error = error.max(variance.sqrt());
+            }
+            let ratio = between.ratio.sqrt();
+            unevenness.ratio_of_surfaces = unevenness.ratio_of_surfaces.max(ratio);
+            for spread in &group.spreads {
+                unevenness.ratio_of_parts = unevenness.ratio_of_parts.max(spread.ratio.sqrt());
+            }
+        }
+        unevenness
+    }
+}
+
+impl Group {
+    /// Returns the relative variance of a mean moment of all surfaces beyond chance, because parts
+    /// of each surface differ.
+    fn within(&self, index: usize) -> f64 {
+        let count = self.spreads.len() as f64;
+        let sum: f64 = self.spreads.iter().map(|spread| spread.excess[index]).sum();
+        sum / (count * count)
+    }
+
+    /// Returns the spread between the surfaces. Differences between the parts of a surface, and the
+    /// finite number of its waves, make the surfaces differ by chance.
+    fn between(&self) -> Spread {
+        let mut between = Spread::by_chance();
+        let count = self.spreads.len();
+        if count < 2 {
+            return between;
+        }
+        let mut is_chance = true;
+        let mut ratio = 1.0_f64;
+        for index in 0..3 {
+            let means: Vec<f64> = self
+                .spreads
+                .iter()
+                .map(|spread| spread.means[index])
+                .collect();
+            let mean = means.iter().sum::<f64>() / count as f64;
+            if mean <= 0.0 {
+                return between;
+            }
+            let mut chance = 0.0;
+            for spread in &self.spreads {
+                let share = spread.means[index] / (mean * count as f64);
+                chance += share * share * (spread.chance[index] + spread.excess[index]);
+            }
+            let variance = variance_of_mean(&means, mean);
+            is_chance &= variance <= chance * chance_factor(count, chance * count as f64);
+            let student = student_factor(count).powi(2) * variance;
+            between.excess[index] = (student - chance).max(0.0);
+            let least = means.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = means.iter().copied().fold(0.0, f64::max);
+            ratio = ratio.max(most / least);
+        }
+        if is_chance {
+            between.excess = [0.0; 3];
+        } else {
+            between.ratio = ratio;
+        }
+        between
+    }
+}

@@ -1,0 +1,391 @@
+//! Parts of a surface: the powers of equal blocks of its points. They show whether the surface is
+//! uniform, how much less certain its moments are if it is not, and by how much a window, which
+//! weighs the middle of the surface more than its borders, falsifies its spectrum.
+
+use super::levelled::LevelledSurface;
+use super::map_power::waves_of_map;
+use super::observation::HANN_CORRELATED;
+use super::periodogram::{ProfilePower, Wave, window};
+use super::weights::EqualWeights;
+use crate::error::SurfaceError;
+use crate::topography::surface::Detrend;
+use std::f64::consts::TAU;
+
+/// Smallest number of points along a side of a block.
+const LEAST_POINTS: usize = 16;
+
+/// Largest number of blocks along a side of a map.
+const MOST_OF_MAP: usize = 8;
+
+/// Largest number of blocks of a profile.
+const MOST_OF_PROFILE: usize = 16;
+
+/// Number of the first wave of a block that counts. Removing the tilt of a block reduces the waves
+/// around wave 1.
+const FIRST_WAVE: f64 = 2.0;
+
+/// Quantile of the normal distribution that chance exceeds once in a thousand times.
+const NO_CHANCE: f64 = 3.09;
+
+/// Powers of the waves of one block.
+#[derive(Clone, Debug)]
+struct Block {
+    /// Sum of the powers in each octave of wave numbers.
+    octaves: Vec<f64>,
+    /// Sums of q^power times the power of each wave, for power = 0, 1, 2. Up to constant factors
+    /// they are the mean square height, the elastic energy and the mean square gradient.
+    moments: [f64; 3],
+    /// Variances of these moments on a normal surface, because the number of waves is finite.
+    variances: [f64; 3],
+}
+
+/// Equal blocks of the points of a surface, row by row.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    columns: usize,
+    rows: usize,
+    /// Wave number in rad/m at which the first octave begins.
+    first: f64,
+    blocks: Vec<Block>,
+    /// Share of each block in the powers of the surface, by the square of the window.
+    shares: Vec<f64>,
+}
+
+/// Relative spread of the moments of the parts of a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Spread {
+    /// Means of the moments over the blocks.
+    pub means: [f64; 3],
+    /// Relative variances of these means on a uniform normal surface.
+    pub chance: [f64; 3],
+    /// Relative variances of these means beyond `chance`; zero if the parts differ by chance.
+    pub excess: [f64; 3],
+    /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
+    /// surface, or among the two halves of a surface that has no four quarters. It is 1 if the
+    /// parts differ by chance.
+    pub ratio: f64,
+    /// True if the parts differ by chance.
+    pub is_chance: bool,
+}
+
+/// Relative spread of one moment of the parts of a surface.
+#[derive(Clone, Copy)]
+struct MomentSpread {
+    mean: f64,
+    /// Relative variance of the mean on a uniform normal surface.
+    chance: f64,
+    /// Largest relative variance of the mean that the differences between the parts give.
+    variance: f64,
+    /// True if the parts differ by chance.
+    is_chance: bool,
+}
+
+impl Spread {
+    /// Returns the spread of parts that differ by chance, or of a single part.
+    pub fn by_chance() -> Self {
+        Spread {
+            ratio: 1.0,
+            is_chance: true,
+            ..Spread::default()
+        }
+    }
+}
+
+impl Blocks {
+    /// Computes the powers of the blocks of a surface.
+    pub fn new(surface: &LevelledSurface) -> Result<Self, SurfaceError> {
+        let is_profile = surface.rows == 1;
+        let most = if is_profile {
+            MOST_OF_PROFILE
+        } else {
+            MOST_OF_MAP
+        };
+        let columns = block_count(surface.columns, most);
+        let rows = if is_profile {
+            1
+        } else {
+            block_count(surface.rows, most)
+        };
+        let width = surface.columns / columns;
+        let height = surface.rows / rows;
+        let [along, between] = surface.distances;
+        let mut shortest = width as f64 * along;
+        if !is_profile {
+            shortest = shortest.min(height as f64 * between);
+        }
+        let first = FIRST_WAVE * (1.0 - 1e-9) * TAU / shortest;
+        let mut blocks = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            for column in 0..columns {
+                let place = [column * width, row * height];
+                let waves = waves_of(&copy_block(surface, place, [width, height]))?;
+                blocks.push(Block::new(&waves, first, is_profile));
+            }
+        }
+        let shares_of_columns = shares(surface.columns, columns, surface.windowed);
+        let shares_of_rows = shares(surface.rows, rows, surface.windowed && !is_profile);
+        let mut shares = Vec::with_capacity(columns * rows);
+        for share_of_row in &shares_of_rows {
+            for share_of_column in &shares_of_columns {
+                shares.push(share_of_row * share_of_column);
+            }
+        }
+        Ok(Blocks {
+            columns,
+            rows,
+            first,
+            blocks,
+            shares,
+        })
+    }
+
+    /// Returns the spread of the moments, which is by chance unless one of the moments spreads more
+    /// than chance explains.
+    pub fn spread(&self) -> Spread {
+        let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
+        let mut spread = Spread {
+            means: moments.map(|moment| moment.mean),
+            chance: moments.map(|moment| moment.chance),
+            ..Spread::by_chance()
+        };
+        if moments.iter().any(|moment| !moment.is_chance) {
+            spread.is_chance = false;
+            spread.excess = moments.map(|moment| (moment.variance - moment.chance).max(0.0));
+            spread.ratio = self.ratio();
+        }
+        spread
+    }
+
+    /// Returns the spread of one moment. For parts of several sizes, each of 1, 2, 4 … blocks, it
+    /// takes the variance of the mean that their differences give, multiplied by the square of
+    /// Student's factor, and of these variances the largest: differences over long distances do
+    /// not appear between small parts.
+    fn spread_of_moment(&self, index: usize) -> MomentSpread {
+        let count = self.blocks.len() as f64;
+        let moments: Vec<f64> = self
+            .blocks
+            .iter()
+            .map(|block| block.moments[index])
+            .collect();
+        let mean = moments.iter().sum::<f64>() / count;
+        let mut spread = MomentSpread {
+            mean,
+            chance: 0.0,
+            variance: 0.0,
+            is_chance: true,
+        };
+        if mean <= 0.0 {
+            return spread;
+        }
+        let variances = self.blocks.iter().map(|block| block.variances[index]);
+        spread.chance = variances.sum::<f64>() / (count * mean).powi(2);
+        for parts in self.parts(&moments) {
+            let variance = variance_of_mean(&parts, mean);
+            let factor = chance_factor(parts.len(), spread.chance * parts.len() as f64);
+            spread.is_chance &= variance <= spread.chance * factor;
+            let with_student = student_factor(parts.len()).powi(2) * variance;
+            spread.variance = spread.variance.max(with_student);
+        }
+        spread
+    }
+
+    /// Returns the means of a value of the blocks over parts of more and more blocks, down to two
+    /// parts.
+    fn parts(&self, values: &[f64]) -> Vec<Vec<f64>> {
+        let mut all = Vec::new();
+        let mut parts = values.to_vec();
+        let mut columns = self.columns;
+        let mut rows = self.rows;
+        while parts.len() > 1 {
+            all.push(parts.clone());
+            parts = if columns >= rows {
+                columns /= 2;
+                parts.chunks_exact(2).map(mean).collect()
+            } else {
+                rows /= 2;
+                let pairs = parts.chunks_exact(2 * columns);
+                pairs.flat_map(|pair| mean_of_rows(pair, columns)).collect()
+            };
+        }
+        all
+    }
+
+    fn ratio(&self) -> f64 {
+        let gradients: Vec<f64> = self.blocks.iter().map(|block| block.moments[2]).collect();
+        let parts = self.parts(&gradients);
+        let Some(coarse) = parts
+            .iter()
+            .rfind(|parts| parts.len() >= 4)
+            .or(parts.last())
+        else {
+            return 1.0;
+        };
+        let least = coarse.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = coarse.iter().copied().fold(0.0, f64::max);
+        most / least
+    }
+
+    /// Returns factors of the powers of the whole surface: if the surface is not uniform by this
+    /// spread, the factors by which its powers change if all its blocks count equally; else 1.
+    pub fn weights(&self, spread: &Spread) -> EqualWeights {
+        if spread.is_chance {
+            EqualWeights::none()
+        } else {
+            self.equal_weights()
+        }
+    }
+
+    fn equal_weights(&self) -> EqualWeights {
+        let mut logarithms = Vec::new();
+        let count = self.blocks.len() as f64;
+        let octaves = self.blocks.first().map_or(0, |block| block.octaves.len());
+        for octave in 0..octaves {
+            let mut equal = 0.0;
+            let mut windowed = 0.0;
+            for (block, share) in self.blocks.iter().zip(&self.shares) {
+                equal += block.octaves[octave] / count;
+                windowed += block.octaves[octave] * share;
+            }
+            let is_known = equal > 0.0 && windowed > 0.0;
+            let logarithm = if is_known {
+                (equal / windowed).ln()
+            } else {
+                0.0
+            };
+            logarithms.push(logarithm);
+        }
+        EqualWeights {
+            first: self.first,
+            logarithms,
+        }
+    }
+}
+
+impl Block {
+    fn new(waves: &[Wave], first: f64, is_profile: bool) -> Self {
+        let mut block = Block {
+            octaves: Vec::new(),
+            moments: [0.0; 3],
+            variances: [0.0; 3],
+        };
+        let correlated = if is_profile {
+            HANN_CORRELATED
+        } else {
+            HANN_CORRELATED * HANN_CORRELATED
+        };
+        let last = waves
+            .iter()
+            .map(|wave| wave.wave_number)
+            .fold(first, f64::max);
+        let octaves = ((last / first).log2().floor() as usize).max(1);
+        block.octaves.resize(octaves, 0.0);
+        for wave in waves {
+            if wave.wave_number < first {
+                continue;
+            }
+            let octave = (wave.wave_number / first).log2() as usize;
+            block.octaves[octave.min(octaves - 1)] += wave.power;
+            let mut term = wave.power;
+            for index in 0..3 {
+                block.moments[index] += term;
+                // The mean square of an exponentially distributed power is twice the variance.
+                block.variances[index] += 0.5 * correlated * term * term;
+                term *= wave.wave_number;
+            }
+        }
+        block
+    }
+}
+
+/// Returns the number of blocks along a side of a surface, a power of two.
+fn block_count(points: usize, most: usize) -> usize {
+    let mut blocks = 1;
+    while 2 * blocks <= most && points / (2 * blocks) >= LEAST_POINTS {
+        blocks *= 2;
+    }
+    blocks
+}
+
+/// Copies a block of a surface without its tilt. `first` is its first column and row, `size` the
+/// number of its columns and rows.
+fn copy_block(surface: &LevelledSurface, first: [usize; 2], size: [usize; 2]) -> LevelledSurface {
+    let [first_column, first_row] = first;
+    let [columns, rows] = size;
+    let mut heights = Vec::with_capacity(columns * rows);
+    for row in first_row..first_row + rows {
+        let begin = row * surface.columns + first_column;
+        heights.extend_from_slice(&surface.heights[begin..begin + columns]);
+    }
+    Detrend::Tilt.remove(&mut heights, columns);
+    LevelledSurface {
+        heights,
+        columns,
+        rows,
+        measured: Vec::new(),
+        distances: surface.distances,
+        windowed: true,
+        aligned: surface.aligned,
+        without_curvature: false,
+    }
+}
+
+fn waves_of(block: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
+    if block.rows > 1 {
+        return waves_of_map(block);
+    }
+    let mut power = ProfilePower::new(block.columns, block.distances[0], true);
+    let rows = std::iter::once(block.heights.iter().copied());
+    power.add(rows, &EqualWeights::none())?;
+    Ok(power.waves)
+}
+
+/// Returns the share of each of several blocks of points in the power of windowed points.
+fn shares(points: usize, blocks: usize, windowed: bool) -> Vec<f64> {
+    let weights: Vec<f64> = window(points, windowed).iter().map(|w| w * w).collect();
+    let size = points / blocks;
+    let sums: Vec<f64> = weights
+        .chunks_exact(size)
+        .map(|block| block.iter().sum())
+        .collect();
+    let total: f64 = sums[..blocks].iter().sum();
+    sums[..blocks].iter().map(|sum| sum / total).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Returns the means of neighbours in two rows of this number of columns.
+fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
+    let (first, second) = pair.split_at(columns);
+    first
+        .iter()
+        .zip(second)
+        .map(|(first, second)| 0.5 * (first + second))
+}
+
+/// Returns the variance of the mean of several parts that their differences give, over the square
+/// of the mean.
+pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
+    let count = parts.len() as f64;
+    let squares: f64 = parts.iter().map(|part| (part / mean - 1.0).powi(2)).sum();
+    squares / ((count - 1.0) * count)
+}
+
+/// Returns the factor above its expected value that the variance of a mean, known from `parts`
+/// parts, exceeds by chance once in a thousand times: a quantile of the χ² distribution (Wilson and
+/// Hilferty 1931). `variance` is the relative variance of a part by chance. Sums of few powers have
+/// a skewed distribution, that of the sum of 1/`variance` exponentially distributed numbers, and
+/// their variance scatters more.
+pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
+    let parts = parts as f64;
+    let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;
+    (1.0 - ninth + NO_CHANCE * ninth.sqrt()).powi(3)
+}
+
+/// Returns the quantile of Student's distribution within which two thirds of all cases lie, for a
+/// mean of `parts` parts. It is 1 for many parts.
+pub(super) fn student_factor(parts: usize) -> f64 {
+    let freedom = parts as f64 - 1.0;
+    1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)
+}

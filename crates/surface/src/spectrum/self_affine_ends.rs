@@ -1,0 +1,181 @@
+//! Self-affine fits for several assumptions on the waves that the points do not resolve.
+//!
+//! Points that sample a surface with shorter waves than they resolve have the powers of these waves
+//! added to the powers of longer ones (aliases), and a profile has in each of its powers a part of
+//! shorter waves of the surface. An assumption on these waves changes the Hurst exponent by up to
+//! 0.2, so the assumption with the largest likelihood counts, and the change between likely
+//! assumptions is part of the error.
+
+use super::isotropic_fit::fit_isotropic;
+use super::likelihood::Model;
+use super::nodes::{End, WaveRange};
+use super::observation::{Kind, Observation};
+use super::self_affine_fit::{PowerLaw, SelfAffineFit, find_power_law};
+
+/// Ratios of the last wave number of the surface to the last resolved one that are tried.
+const CONTINUED: [f64; 3] = [1.5, 3.0, 10.0];
+
+/// Ratio of the last wave number of the surface to the last one that a filter before the sampling
+/// leaves.
+const FILTERED: f64 = 30.0;
+
+/// Ratio of the last resolved wave number to the last one of a fit over a shorter range.
+const OCTAVE: f64 = 2.0;
+
+/// Assumption on the waves beyond the last resolved one.
+#[derive(Clone, Copy)]
+struct Assumption {
+    end: End,
+    /// True if an instrument removes these waves from each profile before it samples heights.
+    is_filtered: bool,
+}
+
+/// A power law and the assumption under which it was fitted.
+#[derive(Clone, Copy)]
+struct Candidate {
+    assumption: Assumption,
+    law: PowerLaw,
+}
+
+/// Fits a self-affine spectrum to observations over a range of wave numbers, for the assumption of
+/// largest likelihood. `None` if no fit converges or
+/// no exponent between 0 and 1 fits.
+pub(super) fn fit_for_ends(
+    observations: &[Observation],
+    range: WaveRange,
+    end: End,
+    ends_inside: bool,
+) -> Option<SelfAffineFit> {
+    let mut candidates = Vec::new();
+    for assumption in assumptions(observations, range, end, ends_inside) {
+        let observations = assumption.observed(observations);
+        let model = Model::new(&observations, range, assumption.end);
+        if let Some(law) = find_power_law(&model) {
+            candidates.push(Candidate { assumption, law });
+        }
+    }
+    let best = candidates
+        .iter()
+        .min_by(|first, second| first.law.misfit.total_cmp(&second.law.misfit))?;
+
+    let observed = best.assumption.observed(observations);
+    let model = Model::new(&observed, range, best.assumption.end);
+    let isotropic = fit_isotropic(&model)?;
+    let scale = best.law.scale(&model, &isotropic);
+    let mut fit = best.law.with_errors(&model, scale)?;
+    let by_end = change_by_end(&candidates, best, scale);
+    let by_range = if ends_inside {
+        0.0
+    } else {
+        change_by_range(&observed, range, best, fit.hurst.error)
+    };
+    fit.hurst.error = fit.hurst.error.hypot(by_end).hypot(by_range);
+    Some(fit)
+}
+
+/// Lists the assumptions on the waves that are not resolved.
+fn assumptions(
+    observations: &[Observation],
+    range: WaveRange,
+    end: End,
+    ends_inside: bool,
+) -> Vec<Assumption> {
+    let stated = Assumption {
+        end,
+        is_filtered: false,
+    };
+    let mut assumptions = vec![stated];
+    if end != End::Ends {
+        return assumptions;
+    }
+    let has_cut = observations
+        .iter()
+        .any(|observation| matches!(observation.kind, Kind::Cut { .. }));
+    // A spectrum that ends inside the scan has no waves that the points do not resolve.
+    let continued = if ends_inside { &[] } else { &CONTINUED[..] };
+    for factor in continued {
+        assumptions.push(Assumption {
+            end: End::Continues(factor * range.last),
+            is_filtered: false,
+        });
+    }
+    // The power of a wave of a map has no part of shorter waves but its aliases.
+    if has_cut {
+        assumptions.push(Assumption {
+            end: End::Continues(FILTERED * range.last),
+            is_filtered: true,
+        });
+    }
+    assumptions
+}
+
+impl Assumption {
+    /// Returns the observations, without aliases if they are filtered.
+    fn observed(&self, observations: &[Observation]) -> Vec<Observation> {
+        let mut observed = observations.to_vec();
+        if !self.is_filtered {
+            return observed;
+        }
+        for observation in &mut observed {
+            match &mut observation.kind {
+                Kind::Cut { sampling, .. } => *sampling = f64::INFINITY,
+                Kind::Plane { sampling, .. } => *sampling = [f64::INFINITY; 2],
+            }
+        }
+        observed
+    }
+}
+
+/// Returns the rms change of the Hurst exponent between the assumptions, weighted by their
+/// likelihood. Powers that scatter `scale` times as much as chance says distinguish less.
+fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 {
+    let mut weights = 0.0;
+    let mut squares = 0.0;
+    for candidate in candidates {
+        let excess = (candidate.law.misfit - best.law.misfit) / (scale * scale);
+        let weight = (-excess).exp();
+        weights += weight;
+        squares += weight * (candidate.law.hurst() - best.law.hurst()).powi(2);
+    }
+    let by_likelihood = squares / weights;
+    (by_likelihood + change_between_ends(candidates, best).powi(2)).sqrt()
+}
+
+/// Returns the standard deviation of the Hurst exponent because the last wave number of the surface
+/// lies anywhere between two wave numbers that are tried. It is that of a uniform distribution
+/// between the best assumption and the likeliest other one without a filter.
+fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
+    if best.assumption.is_filtered {
+        return 0.0;
+    }
+    let others = candidates.iter().filter(|candidate| {
+        !candidate.assumption.is_filtered && candidate.assumption.end != best.assumption.end
+    });
+    let likeliest = others.min_by(|first, second| first.law.misfit.total_cmp(&second.law.misfit));
+    match likeliest {
+        Some(other) => (other.law.hurst() - best.law.hurst()).abs() / 12.0_f64.sqrt(),
+        None => 0.0,
+    }
+}
+
+/// Returns the change of the Hurst exponent without the last octave of waves, beyond the change
+/// that the smaller number of waves explains. `error` is the standard error over the whole range.
+fn change_by_range(
+    observations: &[Observation],
+    range: WaveRange,
+    best: &Candidate,
+    error: f64,
+) -> f64 {
+    let mut fewer = observations.to_vec();
+    fewer.retain(|observation| observation.wave_number < range.last / OCTAVE);
+    let model = Model::new(&fewer, range, best.assumption.end);
+    let Some(law) = find_power_law(&model) else {
+        return 0.0;
+    };
+    let Some(fit) = law.with_errors(&model, 1.0) else {
+        return 0.0;
+    };
+    let change = fit.hurst.value - best.law.hurst();
+    let chance = (fit.hurst.error.powi(2) - error * error).max(0.0);
+    (change * change - chance).max(0.0).sqrt()
+}

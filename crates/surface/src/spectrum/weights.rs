@@ -1,0 +1,32 @@
+//! Factors of measured powers that make all parts of a surface count equally.
+
+/// Factors of the powers of a surface in octaves of wave numbers.
+pub(super) struct EqualWeights {
+    /// Wave number in rad/m at which the first octave begins.
+    pub first: f64,
+    /// Logarithms of the factors.
+    pub logarithms: Vec<f64>,
+}
+
+impl EqualWeights {
+    /// Returns factors of 1.
+    pub fn none() -> Self {
+        EqualWeights {
+            first: 1.0,
+            logarithms: Vec::new(),
+        }
+    }
+
+    /// Returns the factor of the power of a wave with this wave number in rad/m. It is
+    /// interpolated between the middles of the octaves.
+    pub fn factor(&self, wave_number: f64) -> f64 {
+        let Some(last) = self.logarithms.len().checked_sub(1) else {
+            return 1.0;
+        };
+        let place = ((wave_number / self.first).log2() - 0.5).clamp(0.0, last as f64);
+        let below = place as usize;
+        let above = (below + 1).min(last);
+        let share = place - below as f64;
+        ((1.0 - share) * self.logarithms[below] + share * self.logarithms[above]).exp()
+    }
+}
