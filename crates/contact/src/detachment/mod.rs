@@ -118,8 +118,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         0.0
     }
 
-    /// Returns true if the edges of a patch move with the indentation. They do so if the patch bears
-    /// a stretch and its length grows with the level. `growth` is in cells per metre.
+    /// Returns true if the edges of a patch move with the indentation. They do so if the patch
+    /// bears a stretch and its length grows with the level. `growth` is in cells per metre.
     #[inline]
     fn slides(&self, growth: f64) -> bool {
         growth > 0.0 && !self.bears_no_stretch()
