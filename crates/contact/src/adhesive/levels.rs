@@ -132,9 +132,9 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Returns the growth of the share of a cell in contact with the level, in 1/m. `height` in m is
-/// the rise of the level from an empty cell to a full one. If `height` is so small that its inverse
-/// is infinite, returns zero.
+/// Returns the rate, in 1/m, at which the share of a cell that is in contact grows while the level
+/// rises. `height` in m is the rise of the level that brings the whole cell into contact. If
+/// `height` is so small that its inverse is infinite, returns zero.
 #[inline]
 fn growth_over(height: f64) -> f64 {
     let growth = height.recip();
