@@ -368,8 +368,8 @@ impl CurvePoint {
     }
 }
 
-/// A contact patch: a group of neighbouring springs in contact. In JSON it is the array `[first,
-/// last]`.
+/// A contact patch: a group of neighbouring springs in contact. In JSON it is the array
+/// `[first, last]`.
 ///
 /// ```
 /// use asperity_contact::Patch;

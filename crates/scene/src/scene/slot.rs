@@ -299,8 +299,8 @@ impl Place {
 }
 
 /// Makes the [`Place`] of a field. A member that every scene has is written as
-/// `place!(numerics.points)`, and a member that only some scenes have as `place!(form,
-/// Some(Form::Cone { angle }) => angle)`.
+/// `place!(numerics.points)`, and a member that only some scenes have as
+/// `place!(form, Some(Form::Cone { angle }) => angle)`.
 macro_rules! place {
     ($($member:ident).+) => {
         $crate::scene::slot::Place {
