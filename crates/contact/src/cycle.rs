@@ -276,8 +276,8 @@ impl Contact {
     }
 }
 
-/// Returns the points of a stage at those of the `indentations` (in m, ascending) that the stage
-/// passes, in ascending order.
+/// Returns the points of a stage at all `indentations` that the stage passes. The indentations are
+/// in m and in ascending order, and so are the returned points.
 fn points_between(
     record: &LegRecord,
     leg: &Leg,

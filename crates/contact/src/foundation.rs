@@ -29,7 +29,7 @@ impl Foundation {
 
     /// Returns half the distance between the outermost edges of the contact in m; zero in
     /// separation. `patches` and `point` must belong to the same state. The distance is the contact
-    /// length plus the springs without contact between the patches.
+    /// length plus the length of the springs between the patches that are not in contact.
     pub fn contact_radius(&self, patches: &[Patch], point: CurvePoint) -> f64 {
         let separated_springs = match patches {
             [] => 0,

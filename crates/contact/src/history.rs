@@ -56,8 +56,9 @@ pub struct LegRecord {
     pub jump_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the motion.
     pub reaches_ends: bool,
-    /// Point of the smallest force that a further unloading to separation would reach. It is known
-    /// only for an unloading that ends in contact; otherwise `None`.
+    /// Point of the smallest force that a further unloading to separation would reach, if this
+    /// motion is an unloading that ends in contact. `None` for any other motion, and if the force
+    /// is not known.
     pub smallest_of_rest: Option<CurvePoint>,
 }
 
@@ -371,8 +372,8 @@ impl CurvePoint {
     }
 }
 
-/// A contact patch: a group of neighbouring springs in contact. In JSON it is the array `[first,
-/// last]`.
+/// A contact patch: a group of neighbouring springs in contact. In JSON it is the array
+/// `[first, last]`.
 ///
 /// ```
 /// use asperity_contact::Patch;

@@ -6,9 +6,9 @@
 const PARTS: usize = 16;
 
 /// Smallest fall of the outermost part on each side of the summit for which a body counts as
-/// curved. It is relative to the mean fall of the parts on this side. A cone has 1, a sphere nearly
-/// 2. A rough flat body has about a half, because its longest wave rises again at the ends of the
-/// profile.
+/// curved. It is relative to the mean fall of the parts on this side. The value of a cone is 1, and
+/// the value of a sphere nearly 2. The value of a rough flat body is about a half, because its
+/// longest wave rises again at the ends of the profile.
 const LEAST_FALL_AT_ENDS: f64 = 0.75;
 
 /// Largest rms difference between heights and a parabola for which the heights count as smooth,

@@ -58,8 +58,8 @@ pub struct Span {
 }
 
 impl Span {
-    /// Extends the span by neighbouring springs with gaps up to `level` in m. The span then stays
-    /// between the springs of `limits`, the leftmost and the rightmost spring that it may contain.
+    /// Extends the span by neighbouring springs with gaps up to `level` in m, but not beyond the
+    /// two springs of `limits`, the leftmost and the rightmost one that the span may contain.
     #[inline]
     pub fn up_to(&self, gaps: &[f64], level: f64, limits: [u32; 2]) -> Self {
         let [leftmost, rightmost] = limits;
@@ -74,9 +74,9 @@ impl Span {
         span
     }
 
-    /// Returns the index of the wall, the spring beside the span that attaches next. Of the two
-    /// springs beside the span, the wall has the smaller gap. Returns `None` if the span fills the
-    /// profile.
+    /// Returns the index of the wall: the spring beside the span that attaches next. Of the two
+    /// springs beside the span, the wall is the one with the smaller gap. Returns `None` if the
+    /// span fills the profile.
     #[inline]
     pub fn wall(&self, gaps: &[f64]) -> Option<usize> {
         let left = self.first.checked_sub(1);
@@ -88,7 +88,7 @@ impl Span {
         }
     }
 
-    /// Returns this span extended by its wall, the spring beside it that attaches next.
+    /// Returns this span extended by the spring `wall`, the spring beside it that attaches next.
     #[inline]
     pub fn with(&self, gaps: &[f64], wall: usize) -> Self {
         let mut span = *self;
@@ -101,7 +101,8 @@ impl Span {
         span
     }
 
-    /// Returns this span extended by its wall. If the span fills the profile, returns it unchanged.
+    /// Returns this span extended by the spring that attaches next. If the span fills the profile,
+    /// returns it unchanged.
     #[inline]
     pub fn grown(&self, gaps: &[f64]) -> Self {
         self.wall(gaps).map_or(*self, |wall| self.with(gaps, wall))
@@ -131,9 +132,9 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// Returns the growth of the share of a cell in contact with the level, in 1/m. `height` in m is
-/// the rise of the level from an empty cell to a full one. If `height` is so small that its inverse
-/// is infinite, returns zero.
+/// Returns the rate, in 1/m, at which the share of a cell that is in contact grows while the level
+/// rises. `height` in m is the rise of the level that brings the whole cell into contact. If
+/// `height` is so small that its inverse is infinite, returns zero.
 #[inline]
 fn growth_over(height: f64) -> f64 {
     let growth = height.recip();
@@ -144,7 +145,7 @@ fn growth_over(height: f64) -> f64 {
 /// indentation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
-    /// Length in contact within both cells, in cells.
+    /// Length in contact of both cells together, in cells.
     pub length: f64,
     /// Compression ∫ (d − c) dx over the length in contact, in cells times metres.
     pub compression: f64,
@@ -177,11 +178,11 @@ impl EdgeSum {
     }
 }
 
-/// Part of an edge cell that lies below the level of the edge. An edge cell lies between the last
-/// spring of a span and the first spring outside.
+/// Part of an edge cell that lies below the level of the edge. An edge cell lies between the
+/// outermost spring of a patch and the first spring outside.
 #[derive(Clone, Copy)]
 pub struct EdgeCell {
-    /// Gap in m of the first spring outside. It is infinite if the span reaches the end of the
+    /// Gap in m of the first spring outside. It is infinite if the patch reaches the end of the
     /// foundation, which is half a cell away from the last spring.
     outside: f64,
     /// Share of the cell that lies at or below the level.
@@ -197,8 +198,9 @@ pub struct EdgeCell {
 }
 
 impl EdgeCell {
-    /// Returns the left and the right edge cell of a span whose edges lie at `level` in m. The
-    /// level must lie between the largest gap of the span and the gap of its wall.
+    /// Returns the left and the right edge cell of a patch whose edges lie at the gap `level` in m.
+    /// The level must lie between the largest gap of the patch and the gap of the spring that
+    /// attaches next.
     #[inline]
     pub fn of_span(gaps: &[f64], span: &Span, level: f64) -> [Self; 2] {
         let before = if span.first > 0 {
@@ -213,8 +215,8 @@ impl EdgeCell {
         ]
     }
 
-    /// Creates the cell between the last spring of a span, with the gap `inside`, and the first
-    /// spring beside it, with the gap `outside`. The gaps and the level are in m.
+    /// Creates the cell between the outermost spring of a patch, with the gap `inside`, and the
+    /// first spring outside, with the gap `outside`. The gaps and the level are in m.
     #[inline]
     fn new(inside: f64, outside: f64, level: f64) -> Self {
         let height = outside - inside;
@@ -258,8 +260,9 @@ impl EdgeCell {
 }
 
 impl Levels {
-    /// Returns the length of a span as a function of its level, on a profile that is straight
-    /// between springs. Also returns the two edge cells at the lowest level.
+    /// Returns the length of a patch as a function of its level, the gap at which its edges lie.
+    /// The profile is straight between springs. Also returns the two edge cells at the lowest
+    /// level.
     #[inline]
     pub fn between_springs(gaps: &[f64], span: &Span) -> (Self, [EdgeCell; 2]) {
         let cells = EdgeCell::of_span(gaps, span, span.gap);
@@ -284,8 +287,9 @@ impl Levels {
         }
     }
 
-    /// Returns the height in m of the edges above the largest gap if the edges are free to move,
-    /// limited to the levels of the span. `above` is the indentation minus the largest gap in m.
+    /// Returns the height in m of free edges above the largest gap of the patch. The height is
+    /// limited to the levels at which the patch consists of the same springs. `above` is the
+    /// indentation minus the largest gap in m.
     #[inline]
     fn free_rise<R: DetachmentRule>(&self, rule: R, above: f64) -> f64 {
         let rise = rule.free_rise(self, above);
@@ -294,9 +298,9 @@ impl Levels {
         if rise < most { rise } else { most }
     }
 
-    /// Returns the indentation in m at which pinned edges begin to move. The edges are pinned at
-    /// the height `rise` in m above the largest gap. The second value is true if the edges then
-    /// slide, and false if they jump.
+    /// Returns the indentation in m at which pinned edges begin to move, and true if they then
+    /// slide or false if they jump. The edges are pinned at the height `rise` in m above the
+    /// largest gap.
     #[inline]
     pub fn release<R: DetachmentRule>(&self, rule: R, rise: f64) -> (f64, bool) {
         let length = self.length_at(rise);
@@ -306,13 +310,13 @@ impl Levels {
     }
 }
 
-/// The two edge cells of a span at all indentations. The edges either slide with the indentation or
-/// are pinned at one level.
+/// The two edge cells of a patch, for all indentations at which it consists of the same springs.
+/// The edges either slide with the indentation or are pinned at one level.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<R> {
     levels: Levels,
     rule: R,
-    /// Number of whole cells between the springs of the span.
+    /// Number of whole cells between the springs of the patch.
     cells: f64,
     /// Length in contact of both edge cells if the level equals the largest gap, in cells.
     edges: f64,
@@ -325,8 +329,8 @@ pub struct Slider<R> {
 }
 
 impl<R: DetachmentRule> Slider<R> {
-    /// Creates the edge cells of a span. If the edges are pinned, `pin` is their height in m above
-    /// the largest gap; if they slide, `pin` is `None`.
+    /// Creates the edge cells of a patch that consists of the springs of `span`. If the edges are
+    /// pinned, `pin` is their height in m above the largest gap; if they slide, `pin` is `None`.
     #[inline]
     pub fn new(gaps: &[f64], span: &Span, rule: R, pin: Option<f64>) -> Self {
         let (levels, [left, right]) = Levels::between_springs(gaps, span);

@@ -15,7 +15,7 @@ use std::ops::Range;
 ///
 /// A node closes when one of its two branches attaches the spring of the node. All springs of its
 /// subtree then belong to one patch. The threshold of node v is s_v = min over its branches u of
-/// max(s_u, φ on each span from u up to v). The module `run` defines φ.
+/// max(s_u, all φ of the patch while it grows from u to v). The module `run` defines φ.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes.
@@ -49,7 +49,7 @@ struct BranchStart {
 struct Reached {
     /// Indentation in m at which the branch attaches the spring at which it merges.
     closes: f64,
-    /// First and last spring that certainly belong to the smallest span of the branch.
+    /// First and last spring that certainly belong to the branch from its beginning on.
     known: [u32; 2],
 }
 
@@ -65,18 +65,18 @@ struct Visit {
     held: Range<usize>,
 }
 
-/// A walk up one branch of the contact tree, from span to span.
+/// A walk up one branch of the contact tree, on which the patch grows spring by spring.
 struct Ascent {
     branch: Branch,
     /// Indentation in m at which the branch becomes part of a larger patch.
     merges: f64,
     span: Span,
-    /// Smallest indentation in m at which the span is in contact.
+    /// Smallest indentation in m at which the springs of `span` are in contact.
     closes: f64,
     /// Height in m of the pinned edges above the largest gap, if the walk begins with a held patch
     /// that is pinned.
     pin: Option<f64>,
-    /// Levels of the next smaller span, if its run may continue on the present span.
+    /// Levels of the patch before it attached its last spring, if its run may continue.
     below: Option<Levels>,
 }
 
@@ -232,7 +232,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
     }
 
     /// Returns the beginning of a branch: the patch held on the branch, if there is one, otherwise
-    /// the span at which the branch closes.
+    /// the springs that are in contact when the branch closes.
     fn start(&self, branch: Branch, held: Option<&HeldPatch>) -> BranchStart {
         let ground = self.ground;
         if let Some(patch) = held {
@@ -347,7 +347,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the patch whose span fills the whole profile.
+    /// Lists the patch that fills the whole profile.
     fn list_full_contact(&mut self, ascent: &Ascent) -> Result<(), ContactError> {
         self.listed.end = ascent.closes;
         if ascent.closes < ascent.merges {
@@ -357,8 +357,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the patch on the present span of a walk. Returns the indentation in m at which the
-    /// span attaches its wall, the next spring. `wall_gap` is the gap of the wall in m.
+    /// Lists the patch with the present springs of a walk. Returns the indentation in m at which it
+    /// attaches the next spring, whose gap is `wall_gap` in m.
     #[inline]
     fn list_span(&mut self, ascent: &mut Ascent, wall_gap: f64) -> Result<f64, ContactError> {
         let ground = self.ground;
@@ -401,17 +401,17 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     /// Follows a branch from its beginning up to the spring `parent`. The branch attaches this
-    /// spring at the largest φ (m) of its spans, but not before the branch begins.
+    /// spring at the largest φ (m) on its way, but not before the branch begins.
     ///
-    /// On a span that contains at least n cells, φ at the gap b is at most b − Δl_max(n). With this
-    /// bound, most spans need no evaluation of the rule.
+    /// If a patch contains at least n cells, φ at the gap b is at most b − Δl_max(n). With this
+    /// bound, φ needs no evaluation for most springs on the way.
     #[inline(never)]
     fn climb(&self, start: BranchStart, parent: usize, evaluations: &mut u64) -> Reached {
         let gaps = self.gaps;
         let mut span = self.lowest(start);
         let known = span.ends();
         let mut closes = start.closes;
-        // The largest span first, because φ is mostly largest on this span.
+        // The largest patch of the branch first, because φ is mostly largest there.
         let top = self.below(&span, parent);
         if self.may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;
@@ -431,8 +431,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Reached { closes, known }
     }
 
-    /// Returns true if a span may attach a spring of this gap only above the indentation `closes`,
-    /// and false if it certainly does so at `closes`. Both values are in m.
+    /// Returns true if a patch may attach a spring of this gap only above the indentation `closes`.
+    /// Returns false if it certainly attaches the spring at `closes`. Both values are in m.
     #[inline]
     fn may_rise(&self, closes: f64, gap: f64, span: &Span) -> bool {
         let need = gap - closes;
@@ -442,8 +442,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 .surely_bears(need, self.least_length(span.first, span.last))
     }
 
-    /// Returns the smallest span of a branch. It contains the springs that attach at the beginning
-    /// of the branch.
+    /// Returns the smallest patch of a branch: the springs that attach at the beginning of the
+    /// branch, and their neighbours with smaller gaps.
     #[inline]
     fn lowest(&self, start: BranchStart) -> Span {
         let gap = start.gap;
@@ -458,7 +458,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Span { gap, first, last }
     }
 
-    /// Returns the largest span of a branch, which reaches up to the spring `parent`.
+    /// Returns the largest patch of a branch, which reaches up to the spring `parent`.
     fn below(&self, span: &Span, parent: usize) -> Span {
         let parent_gap = self.gaps[parent];
         let mut beside = *span;

@@ -199,8 +199,8 @@ impl SquaredStretch {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Returns the level in m of the edges of a span at an indentation in m, which must not be
-    /// above the end of its run.
+    /// Returns the level in m of the edges of a patch with the springs of `span`, at an indentation
+    /// in m. This indentation must not be above the end of the run.
     fn level_up_to(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         if let Some(rise) = pin {
             return span.gap + rise;
@@ -209,8 +209,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
             return span.gap;
         };
         let wall_gap = self.gaps[wall];
-        // When the wall attaches, the level is exactly the gap of the wall. The formula for the
-        // level would give a rounded value.
+        // When the next spring attaches, the level is exactly its gap. The formula for the level
+        // would give a rounded value.
         if !self.unloading && indentation >= self.attaches_at(span, wall_gap) {
             return wall_gap;
         }

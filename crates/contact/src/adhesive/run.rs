@@ -21,8 +21,8 @@ use crate::detachment::{DetachmentRule, Levels, ROUNDING};
 use crate::history::Patch;
 use crate::totals::ContactTotals;
 
-/// One patch over a range of indentations. In this range the patch grows from span to span. The
-/// range ends where the patch jumps, merges or splits.
+/// One patch over a range of indentations, in which it grows by one spring after the other without
+/// a jump. The range ends where the patch jumps, merges or splits.
 ///
 /// The runs of a motion are listed in the order of a walk through the contact tree from its root,
 /// right parts first. On each branch the larger patch comes first. A run therefore comes before the
@@ -38,9 +38,9 @@ pub struct Run {
     /// Height in m of pinned edges above the largest gap of the patch; NaN if the edges are free to
     /// move.
     pub pin: f64,
-    /// First and last spring of the smallest span of the run.
+    /// First and last spring of the patch at its smallest, at the lower end of the range.
     pub bottom: [u32; 2],
-    /// First and last spring of the largest span of the run.
+    /// First and last spring of the patch at its largest, at the upper end of the range.
     pub top: [u32; 2],
     pub branch: Branch,
 }
@@ -71,8 +71,8 @@ pub struct RunList {
 /// direction of motion.
 ///
 /// If `SLIDES` is true, edges move between springs, and the force is a curve between two events. If
-/// `SLIDES` is false, patches consist of whole springs: a patch has one length at all levels of a
-/// span, and no edge cells.
+/// `SLIDES` is false, patches consist of whole springs: the length of a patch depends only on the
+/// number of its springs, and there are no edge cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Ground<'a, const SLIDES: bool, R> {
     pub gaps: &'a [f64],
@@ -121,8 +121,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         let first = ends[0] as usize;
         let last = ends[1] as usize;
         let gap_at_ends = larger(self.gaps[first], self.gaps[last]);
-        // For a span that is larger than the smallest span of the branch, the largest gap is the
-        // gap of the outermost spring that attached last.
+        // If the patch has grown beyond its smallest size on the branch, its largest gap is the gap
+        // of the outermost spring that attached last.
         let gap = match branch.origin() {
             Ok(node) => larger(gap_at_ends, self.tree.nodes[node].gap),
             Err(_) => gap_at_ends,
@@ -140,29 +140,30 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Slider::new(self.gaps, span, self.rule, run.pin())
     }
 
-    /// Returns the smallest indentation in m at which a span attaches its wall, the next spring.
-    /// `wall` is the gap of the wall in m.
+    /// Returns the smallest indentation in m at which a patch with the springs of `span` attaches
+    /// the next spring, whose gap is `wall` in m.
     #[inline]
     pub fn attaches_at(&self, span: &Span, wall: f64) -> f64 {
         self.attachment(&self.levels(span), wall)
     }
 
-    /// Returns the level in m of the edges of a span at an indentation in m. `pin` is the height in
-    /// m of pinned edges above the largest gap; `None` if the edges are free.
+    /// Returns the level in m of the edges of a patch with the springs of `span`, at an indentation
+    /// in m. `pin` is the height in m of pinned edges above the largest gap; `None` if the edges
+    /// are free.
     #[inline]
     pub fn level(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         span.gap + self.rise(span, pin, indentation)
     }
 
-    /// Returns the height in m of the edges above the largest gap, at an indentation in m. `pin` is
-    /// this height if the edges are pinned; `None` if the edges are free.
+    /// Returns the height in m of the edges of a patch above its largest gap, at an indentation in
+    /// m. `pin` is this height if the edges are pinned; `None` if the edges are free.
     #[inline]
     pub fn rise(&self, span: &Span, pin: Option<f64>, indentation: f64) -> f64 {
         pin.unwrap_or_else(|| self.levels(span).rise(self.rule, indentation))
     }
 
-    /// Returns the totals of the whole cells of a span if `SLIDES` is true, otherwise of its
-    /// springs. The span counts as one patch.
+    /// Returns the totals of one patch with the springs of `span`. If `SLIDES` is true, the sums
+    /// are over its whole cells; otherwise over its springs.
     #[inline]
     pub fn totals(&self, span: &Span) -> ContactTotals {
         let end = span.last + usize::from(!SLIDES);
@@ -176,12 +177,12 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations at which the patch of a run is this span.
-    /// Above it the patch is the next larger span `above`.
+    /// Returns the upper end, in m, of the indentations at which the patch of a run has exactly the
+    /// springs of `span`. Above this indentation it has the springs of `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
-        // On unloading, the patch shrinks to this span when the span above no longer bears the
-        // stretch of its outermost spring.
+        // On unloading, the patch loses a spring when it no longer bears the stretch of its
+        // outermost spring. Its springs are then those of `span`.
         if self.unloading {
             self.holds_to(&self.levels(above))
         } else {
@@ -189,8 +190,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations at which the patch of a run is the span
-    /// `span`.
+    /// Returns the upper end, in m, of the indentations at which the patch of a run has exactly the
+    /// springs of `span`.
     #[inline]
     pub fn filled_up_to(&self, run: &Run, span: &Span) -> f64 {
         if span.ends() == run.top {
@@ -199,9 +200,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         self.upper_end(span, &span.grown(self.gaps))
     }
 
-    /// Returns a level in m. Every spring beside the span with a gap below this level certainly
-    /// belongs to the patch at this indentation in m, on loading and on unloading. This bound saves
-    /// evaluations of the rule of Hess.
+    /// Returns a bound for the gap in m of the springs beside a patch: a spring with a smaller gap
+    /// certainly belongs to the patch at this indentation in m, on loading and on unloading. The
+    /// bound saves evaluations of the rule of Hess.
     #[inline]
     pub fn sure_level(&self, span: &Span, indentation: f64) -> f64 {
         let stretch = self
@@ -210,9 +211,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         (indentation + stretch) - ROUNDING * (indentation.abs() + stretch)
     }
 
-    /// Calls `see` with each span of a run, from the smallest to the largest, and with the range of
-    /// indentations in m at which the patch is this span. Stops when `see` returns true. Ranges
-    /// below `low` (m) are left out, and a range that contains `low` begins at `low`.
+    /// Calls `see` for each size of the patch of a run, from the smallest to the largest. The
+    /// arguments are the springs of the patch and the range of indentations in m at which it has
+    /// exactly these springs. Stops when `see` returns true. Ranges below `low` (m) are left out,
+    /// and a range that contains `low` begins at `low`.
     #[inline]
     pub fn each_span(&self, run: &Run, low: f64, mut see: impl FnMut(&Span, f64, f64) -> bool) {
         let bottom = self.bottom(run);
@@ -228,8 +230,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the span of a run at an indentation in m. The search begins with the span `from`,
-    /// which must be the span of the run at a smaller indentation.
+    /// Returns the springs of the patch of a run at an indentation in m. The search begins with
+    /// `from`, the springs of the patch at a smaller indentation.
     pub fn filled(&self, run: &Run, from: Span, indentation: f64) -> Span {
         let mut span = from;
         while span.ends() != run.top {
@@ -248,7 +250,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         span
     }
 
-    /// Returns the span of a run at an indentation in m.
+    /// Returns the springs of the patch of a run at an indentation in m.
     #[inline]
     pub fn span_at(&self, run: &Run, indentation: f64) -> Span {
         self.filled(run, self.bottom(run), indentation)
@@ -256,7 +258,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Returns the length of a patch on this span as a function of its level.
+    /// Returns the length of a patch with the springs of `span`, as a function of its level.
     #[inline]
     pub fn levels(&self, span: &Span) -> Levels {
         if SLIDES {
@@ -271,16 +273,16 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns a lower bound, in cells, of the length of the span `first..=last` at its highest
-    /// level.
+    /// Returns a lower bound, in cells, of the length of a patch with the springs `first..=last`
+    /// just before it attaches the next spring.
     #[inline]
     pub fn least_length(&self, first: usize, last: usize) -> f64 {
-        // At the highest level, one of the two edge cells is full.
+        // Before the next spring attaches, one of the two edge cells is fully in contact.
         (last + usize::from(!SLIDES) - first).max(1) as f64
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels attaches its wall.
-    /// `wall` is the gap of the wall in m.
+    /// Returns the smallest indentation in m at which a patch attaches the next spring, whose gap
+    /// is `wall` in m. `levels` is the length of the patch as a function of its level.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES {
@@ -291,9 +293,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         wall - self.rule.largest_stretch(length)
     }
 
-    /// Returns the smallest indentation in m at which a span with these levels still bears the
-    /// stretch of its most stretched spring. The returned value is at most the largest gap of the
-    /// span.
+    /// Returns the smallest indentation in m at which a patch still bears the stretch of its most
+    /// stretched spring. `levels` is the length of the patch as a function of its level. The
+    /// returned value is at most the largest gap of the patch.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
@@ -318,16 +320,16 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         if holds < gap { holds } else { gap }
     }
 
-    /// Returns true if the edges pass without a jump from the span of `lower` to the next larger
-    /// span, whose levels are `upper`.
+    /// Returns true if a patch attaches its next spring without a jump of its edges. `lower` has
+    /// its levels before the attachment, and `upper` its levels afterwards.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {
             return true;
         }
-        // This is so if φ rises already at the lowest level of the upper span, and if the upper
-        // span begins with the length that the lower one has reached. The length differs if a cell
-        // with two equal gaps is added at once.
+        // There is no jump if φ rises already at the lowest level of `upper`, and if `upper` begins
+        // with the length that `lower` has reached. The length jumps if a cell with two equal gaps
+        // is added.
         let reached = lower.length_at(lower.top - lower.gap);
         self.rule.turning_length(upper.growth) < upper.length && upper.length - reached < 0.25
     }
@@ -368,7 +370,7 @@ pub struct SpanAtLevel {
 }
 
 impl SpanAtLevel {
-    /// Returns the number of cells between the springs of the span.
+    /// Returns the number of cells between the springs of the patch.
     fn whole_cells(&self) -> f64 {
         (self.span.last - self.span.first) as f64
     }

@@ -21,34 +21,35 @@ struct Part {
     is_whole: bool,
 }
 
-/// The smallest span of a branch of the contact tree. It lies around the node or the local minimum
-/// at which the branch begins.
+/// The smallest patch of a branch of the contact tree, around the node or the local minimum at
+/// which the branch begins.
 struct Bottom {
     /// Gap in m of the node at which the branch begins; −∞ if the branch begins at a local minimum.
     node_gap: f64,
     /// Smallest gap in m of all springs in the subtree of the branch.
     lowest: f64,
-    /// Spring at the node or at the local minimum. Of the smallest span, this spring detaches
-    /// first.
+    /// Spring at the node or at the local minimum. In the smallest patch of the branch, this spring
+    /// detaches first.
     spring: usize,
 }
 
-/// A walk down one branch of the contact tree, from its largest span to its smallest one.
+/// A walk down one branch of the contact tree, on which the patch shrinks from its largest to its
+/// smallest size.
 struct Descent {
     branch: Branch,
     first: usize,
     last: usize,
     bottom: Bottom,
-    /// Indentation in m at which the next larger span splits. Below this indentation the present
-    /// span is a patch.
+    /// Indentation in m at which the patch of the step before loses a spring or splits. Below this
+    /// indentation the present springs form the patch.
     opens: f64,
-    /// True for a patch that is in contact at the beginning of the unloading, until its first span
-    /// is listed.
+    /// True for a patch that is in contact at the beginning of the unloading, until it has been
+    /// listed once.
     is_whole: bool,
     /// Height in m of pinned edges above the largest gap of a patch that is in contact at the
     /// beginning of the unloading; `None` if the edges are free.
     pin: Option<f64>,
-    /// Levels of the next larger span, if its run may continue on the present span.
+    /// Levels of the patch of the step before, if its run may continue with the present springs.
     above: Option<Levels>,
 }
 
@@ -57,7 +58,7 @@ impl Descent {
         self.last + 1 - self.first
     }
 
-    /// Returns true if the present span is the smallest span of the branch.
+    /// Returns true if the patch has reached its smallest size on the branch.
     #[inline]
     fn is_at_bottom(&self, gaps: &[f64]) -> bool {
         if self.bottom.node_gap == f64::NEG_INFINITY {
@@ -66,7 +67,7 @@ impl Descent {
         gaps[self.first] < self.bottom.node_gap && gaps[self.last] <= self.bottom.node_gap
     }
 
-    /// Removes the outermost spring with the larger gap from the span.
+    /// Removes the outermost spring with the larger gap from the patch.
     #[inline]
     fn shrink(&mut self, gaps: &[f64]) {
         if gaps[self.first] >= gaps[self.last] {
@@ -143,8 +144,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the runs of one branch from its largest span down to its smallest one. Returns the two
-    /// parts that remain after the spring of its node has detached. `pin` is the height in m of
+    /// Lists the runs of one branch from its largest patch down to its smallest one. Returns the
+    /// two parts that remain after the spring of its node has detached. `pin` is the height in m of
     /// pinned edges above the largest gap of a patch that is in contact at the beginning.
     fn descend(
         &self,
@@ -190,8 +191,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the patch on the present span of a walk, for the indentations at which the span is a
-    /// patch. `gap` is the largest gap of the span in m.
+    /// Lists the patch with the present springs of a walk, for the indentations at which it exists.
+    /// `gap` is the largest gap of the patch in m.
     #[inline]
     fn list_span(
         &self,
@@ -243,8 +244,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 )?,
             }
         }
-        // A run continues on the next smaller span only if the level falls to the largest gap of
-        // the present span.
+        // A run continues with one spring less only if the level of the edges falls to the largest
+        // gap of the present patch.
         let goes_on = leaves == holds && leaves < to;
         descent.above = goes_on.then_some(levels);
         descent.opens = leaves;
@@ -253,8 +254,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Returns the two parts into which the smallest span of a branch splits when the spring of its
-    /// node detaches.
+    /// Returns the two parts into which the smallest patch of a branch splits when the spring of
+    /// its node detaches.
     fn parts_below(&self, descent: &Descent) -> [Option<Part>; 2] {
         let Ok(node) = descent.branch.origin() else {
             return [None; 2];

@@ -27,18 +27,18 @@ const NODES: usize = 16;
 /// Largest number of doublings or halvings until a search has enclosed the sought length.
 const MOST_DOUBLINGS: usize = 1000;
 
-/// Length of a patch on one span, in cells, as a function of its level t in m: `length + growth (t
-/// − gap)` for t from `gap` to `top`. A span is a range of springs that one patch contains, and the
-/// level is the gap at which the edges of the patch lie.
+/// Length of a patch in cells, as a function of its level t in m: `length + growth (t − gap)`. The
+/// level is the gap at which the edges of the patch lie. While the patch consists of the same
+/// springs, the level is between `gap` and `top`.
 #[derive(Clone, Copy, Debug)]
 pub struct Levels {
-    /// Largest gap of the span in m, the lowest level.
+    /// Largest gap of the patch in m, the lowest level.
     pub gap: f64,
     /// Length of the patch at the lowest level, in cells.
     pub length: f64,
     /// Growth of the length with the level in cells per metre.
     pub growth: f64,
-    /// Highest level in m: the gap of the next spring to attach; infinite if the span fills the
+    /// Highest level in m: the gap of the next spring to attach; infinite if the patch fills the
     /// profile.
     pub top: f64,
 }
@@ -57,7 +57,7 @@ impl Levels {
 ///
 /// 1. Δl never falls while ℓ grows.
 /// 2. The slope of Δl never grows while ℓ grows. Therefore φ(t) = t − Δl(ℓ(t)), the indentation at
-///    which a patch at the level t is in equilibrium, first falls and then rises on a span.
+///    which a patch at the level t is in equilibrium, first falls and then rises.
 /// 3. Δl to the power 5/4 is concave, so that the force is convex between two events. For Δl = s
 ///    ℓ^p this holds if p is at most 4/5.
 pub trait DetachmentRule: Copy + Debug + PartialEq {
@@ -118,8 +118,8 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
         0.0
     }
 
-    /// Returns true if the edges of a patch move with the indentation on a span. `growth` is the
-    /// growth of the length in cells per metre.
+    /// Returns true if the edges of a patch move with the indentation. They do so if the patch
+    /// bears a stretch and its length grows with the level. `growth` is in cells per metre.
     #[inline]
     fn slides(&self, growth: f64) -> bool {
         growth > 0.0 && !self.bears_no_stretch()
@@ -127,7 +127,7 @@ pub trait DetachmentRule: Copy + Debug + PartialEq {
 
     /// Returns the height in m above the largest gap at which free edges are in equilibrium.
     /// `above` is the indentation minus the largest gap in m. If the returned height is outside the
-    /// levels of the span, the edges lie at the nearest level of the span.
+    /// range of `levels`, the edges lie at the nearest level of this range.
     fn free_rise(&self, levels: &Levels, above: f64) -> f64 {
         if levels.growth <= 0.0 {
             return above + self.largest_stretch(levels.length);

@@ -19,8 +19,8 @@ const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// this number, the limit is four times the needed number.
 const MOST_TRIED: u64 = 1 << 21;
 
-/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or `0.1
-/// %`. Returns an error message unless the tolerance is above 0 and below 1.
+/// Parses a tolerance, the largest relative error that a result may have, such as `1e-3` or
+/// `0.1 %`. Returns an error message unless the tolerance is above 0 and below 1.
 ///
 /// ```
 /// use asperity_scene::discretisation::parse_tolerance;

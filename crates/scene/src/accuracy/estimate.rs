@@ -155,8 +155,8 @@ pub fn estimate(
             evidence: Evidence::ClosedForm,
         });
     }
-    // If a smaller number of springs is too small for the shortest wave, the further solutions have
-    // about 3/2 and about 2 times as many springs as the scene.
+    // If 7/8 or 2/3 of the springs of the scene are too few for the shortest wave, the further
+    // solutions have about 3/2 and about 2 times as many springs as the scene.
     let mut runs = Runs::new(folder, stop);
     let further = further_solutions(&target.only(scene).ok()?, &mut |scene| {
         runs.solve(scene).ok()

@@ -106,9 +106,9 @@ impl Regime {
         self.into()
     }
 
-    /// Returns a text with two regimes of the same body, such as `pressure-sensitive (d=0),
-    /// insensitive (F=0)`. The regime `self` follows from F_a(d=0), and the regime
-    /// `after_zero_force` from F_a(F=0).
+    /// Returns a text with two regimes of the same body, such as
+    /// `pressure-sensitive (d=0), insensitive (F=0)`. The regime `self` follows from F_a(d=0), and
+    /// the regime `after_zero_force` from F_a(F=0).
     pub fn by_protocols(self, after_zero_force: Option<Regime>) -> String {
         let name = self.name();
         match after_zero_force {

@@ -186,13 +186,13 @@ impl fmt::Display for SceneErrors {
 
 impl std::error::Error for SceneErrors {}
 
-/// Reason why a number of a scene cannot be set.
+/// Reason why a numerical value of a scene cannot be set.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NumberError {
-    /// The scene has no number at this path and cannot have one.
+    /// The scene has no numerical value at this path and cannot have one.
     #[error("the scene has no such number")]
     Missing,
-    /// The new number contradicts another number of the scene. The text names both fields.
+    /// The new value contradicts another value of the scene. The text names both fields.
     #[error("{0}")]
     Contradiction(String),
 }

@@ -266,11 +266,11 @@ pub const LEG_DISPLACEMENT: Field = row(
 .quantity("displacement of stage", "D", "m")
 .meaning("target: the stage ends at this displacement of the instrument, D = d + F/k");
 
-/// Descriptions of the numbers that end loading stages: force, indentation and displacement.
+/// Descriptions of the target values of loading stages: force, indentation and displacement.
 pub const LEG_FIELDS: [&Field; 3] = [&LEG_FORCE, &LEG_INDENTATION, &LEG_DISPLACEMENT];
 
-/// Returns the description of the number that ends a loading stage, and the number itself. Returns
-/// `None` for a stage without a number, such as separation.
+/// Returns the description of the target value of a loading stage, and the target value itself.
+/// Returns `None` for a stage without a target value, such as separation.
 pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     match stage {
         Move::ToForce(force) => Some((&LEG_FORCE, force)),

@@ -1,4 +1,4 @@
-//! Numbers of a scene by their paths, as studies read and set them.
+//! Numerical values of a scene, which studies read and set by their paths.
 
 use super::adhesion::Adhesion;
 use super::errors::NumberError;
@@ -6,8 +6,8 @@ use super::fields::FIELDS;
 use super::model::Scene;
 
 impl Scene {
-    /// Returns the number at a path, such as `form.radius`, `roughness.modes.0` or `loading.1.0`;
-    /// `None` if there is no number.
+    /// Returns the numerical value at a path, such as `form.radius`, `roughness.modes.0` or
+    /// `loading.1.0`. Returns `None` if the scene has no numerical value at this path.
     ///
     /// ```
     /// let sphere = asperity_scene::open("jkr-sphere")?;
@@ -21,12 +21,12 @@ impl Scene {
             .find_map(|field| field.value(self)?.number(field.inside_path(path)?))
     }
 
-    /// Sets the number at a path without checking its range. If the scene leaves this number out,
-    /// the number is added.
+    /// Sets the numerical value at a path without checking its range. If the scene leaves this
+    /// value out, the value is added.
     ///
     /// # Errors
-    /// Returns an error, and leaves the scene as it was, if the scene can have no number at this
-    /// path or if the number contradicts another one.
+    /// Returns an error if the scene cannot have a numerical value at this path, or if the new
+    /// value contradicts another value. The scene then stays unchanged.
     ///
     /// ```
     /// use asperity_scene::fields::NumberError;
@@ -48,8 +48,8 @@ impl Scene {
                 return Ok(());
             }
         }
-        // An adhesion contains either a work or a parameter, so the present values decide which
-        // numbers it may get.
+        // An adhesion contains either a work or a parameter, so its present values decide which
+        // values can be set.
         let name = path.strip_prefix("adhesion.").ok_or(NumberError::Missing)?;
         self.adhesion = Some(Adhesion::with_number(self.adhesion, name, number)?);
         Ok(())

@@ -160,8 +160,8 @@ fn counts(least: usize, most: usize) -> String {
     }
 }
 
-/// Returns the names of the choices as a phrase, with the word `last` before the last name: `Cone,
-/// Punch or None`.
+/// Returns the names of the choices as a phrase, with the word `last` before the last name:
+/// `Cone, Punch or None`.
 fn listed(choices: &[&str], last: &str) -> String {
     let names: Vec<&str> = choices.iter().map(|choice| choice_name(choice)).collect();
     match names.split_last() {

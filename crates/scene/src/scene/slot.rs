@@ -36,8 +36,9 @@ impl Value<'_> {
         }
     }
 
-    /// Returns the number at a path inside this value. The empty path is the number itself, `0` and
-    /// `1` are the numbers of a pair, and `2.0` is the number of the third loading stage.
+    /// Returns the numerical value at a path inside this value. The empty path means this value
+    /// itself, `0` and `1` are the two values of a pair, and `2.0` is the target value of the third
+    /// loading stage.
     pub(super) fn number(&self, inside: &str) -> Option<f64> {
         match (*self, inside) {
             (Value::Real(number), "") => Some(number),
@@ -55,7 +56,7 @@ impl Value<'_> {
     }
 }
 
-/// Returns the index of a loading stage from the path of its number inside the loading: 2 for
+/// Returns the index of a loading stage from the path of its target value inside the loading: 2 for
 /// `2.0`.
 fn stage_index(inside: &str) -> Option<usize> {
     inside.strip_suffix(".0")?.parse().ok()
@@ -67,14 +68,14 @@ pub(super) trait Slot {
     /// Returns the value; `None` if the scene leaves it out.
     fn value(&self) -> Option<Value<'_>>;
 
-    /// Sets the number at a path inside this slot; [`Value::number`] describes such paths. Returns
-    /// false if the slot has no number at this path.
+    /// Sets the numerical value at a path inside this slot; [`Value::number`] describes such paths.
+    /// Returns false if the slot has no numerical value at this path.
     fn set_number(&mut self, _inside: &str, _number: f64) -> bool {
         false
     }
 
-    /// Returns a slot that stores the number, if a slot of this type can be left out and is a
-    /// number; otherwise `None`.
+    /// Returns a slot with this numerical value, if the slot can be left out and its value is
+    /// numerical; otherwise `None`.
     fn of_number(_number: f64) -> Option<Self>
     where
         Self: Sized,
@@ -298,8 +299,8 @@ impl Place {
 }
 
 /// Makes the [`Place`] of a field. A member that every scene has is written as
-/// `place!(numerics.points)`, and a member that only some scenes have as `place!(form,
-/// Some(Form::Cone { angle }) => angle)`.
+/// `place!(numerics.points)`, and a member that only some scenes have as
+/// `place!(form, Some(Form::Cone { angle }) => angle)`.
 macro_rules! place {
     ($($member:ident).+) => {
         $crate::scene::slot::Place {

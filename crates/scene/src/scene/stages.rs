@@ -15,9 +15,11 @@ pub struct StageKind {
     example: &'static str,
     /// Name of what ends the stage, as users read it.
     word: &'static str,
-    /// SI unit of the number that ends the stage; empty for a kind without a number.
+    /// SI unit of the target value of a stage, such as N for a force; empty for a kind without a
+    /// target value, such as first touch.
     pub unit: &'static str,
-    /// Function that makes the stage from its number. A kind without a number ignores the argument.
+    /// Function that makes a stage from its target value. A kind without a target value ignores the
+    /// argument.
     pub stage: fn(f64) -> Move,
 }
 
@@ -62,8 +64,8 @@ impl StageKind {
         },
     ];
 
-    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the number that ends the
-    /// stage. The number is `None` for a kind without a number.
+    /// Returns the index of the kind of a stage in [`StageKind::ALL`], and the target value of the
+    /// stage. The target value is `None` for a kind that has none, such as first touch.
     pub fn of(stage: &Move) -> (usize, Option<f64>) {
         let kind = StageKind::ALL
             .iter()
@@ -117,8 +119,8 @@ pub(super) fn stages_in_ron(stages: &[Move]) -> String {
     format!("[{}]", stages.join(", "))
 }
 
-/// Returns a loading stage as text, such as `10 µN` or `touch`. `format` writes the number with its
-/// unit.
+/// Returns a loading stage as text, such as `10 µN` or `touch`. `format` writes the target value
+/// with its unit.
 fn stage_text(stage: &Move, format: fn(f64, &str) -> String) -> String {
     let (place, number) = StageKind::of(stage);
     let StageKind { word, unit, .. } = StageKind::ALL[place];
@@ -209,9 +211,9 @@ pub fn read_loading(text: &str) -> Result<Vec<Move>, QuantityError> {
     Ok(loading)
 }
 
-/// Reads a loading stage in the notation of [`loading_text`]. A number without a unit becomes a
-/// stage of the kind with the index `usual` in [`StageKind::ALL`]. If `usual` is `None`, the number
-/// is a force in N.
+/// Reads a loading stage in the notation of [`loading_text`]. If the text is a number without a
+/// unit, it becomes the target value of a stage of the kind with the index `usual` in
+/// [`StageKind::ALL`]. If `usual` is `None`, the number is a force in N.
 ///
 /// # Errors
 /// Returns an error if the text is not a stage.
@@ -241,8 +243,8 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
             return Ok((kind.stage)(0.0));
         }
     }
-    // The text has no name of a kind, so the unit of the number decides the kind. If no kind has
-    // this unit, the stage ends at a force.
+    // The text has no name of a kind, so the unit of the target value decides the kind. If no kind
+    // has this unit, the target is a force.
     let mut kinds: Vec<&StageKind> = Vec::new();
     kinds.extend(usual.map(|usual| &StageKind::ALL[usual]));
     kinds.extend(
@@ -279,7 +281,7 @@ mod tests {
     use super::*;
     use asperity_data::{exact_quantity, format_quantity};
 
-    /// A single stage, or a minor loop that is repeated. Some of the numbers occur often, so that
+    /// A single stage, or a minor loop that is repeated. Some target values occur often, so that
     /// stages may be equal.
     fn stages() -> impl Strategy<Value = Vec<Move>> {
         let number = prop_oneof![

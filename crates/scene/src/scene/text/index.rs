@@ -2,8 +2,8 @@
 //!
 //! Each value has a path of names and, in lists and tuples, of indices: `roughness.hurst`,
 //! `loading.0`, `roughness.modes.1`. The whole text has the empty path. Names of structs and
-//! variants are not part of a path, and neither is `Some(…)`: in `roughness: Some(SelfAffine(hurst:
-//! 0.7))` the number 0.7 has the path `roughness.hurst`.
+//! variants are not part of a path, and neither is `Some(…)`: in
+//! `roughness: Some(SelfAffine(hurst: 0.7))` the number 0.7 has the path `roughness.hurst`.
 
 use std::ops::Range;
 
