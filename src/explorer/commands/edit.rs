@@ -460,8 +460,8 @@ pub fn change(app: &mut App, path: &str, value: &str) {
     apply(app, changed)
 }
 
-/// Draws another random profile. Its seed has at most six digits, so that users can easily tell it
-/// to each other. The next seed follows from the present one, and no seed is repeated before all of
+/// Draws another random profile. Its seed has at most six digits, so that one user can easily read
+/// it out to another. The next seed follows from the present one, and no seed is repeated before all of
 /// them have been used.
 pub fn draw_seed(app: &mut App) {
     match app.edit.document.scene().seed() {

@@ -8,7 +8,7 @@ use super::printed::Digits;
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use crate::error::{Place, SurfaceError, refused};
-use asperity_data::{emptied, gathered, push, shown};
+use asperity_data::{Note, emptied, gathered, push, shown};
 use encoding_rs::{Encoding, UTF_8};
 use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
@@ -128,7 +128,7 @@ struct Surface<'a, 'input> {
     root: Node<'a, 'input>,
     axes: [Axis<'a>; 3],
     /// Messages about the file.
-    warnings: Vec<String>,
+    warnings: Vec<Note>,
 }
 
 impl<'a, 'input> Surface<'a, 'input> {
@@ -250,7 +250,7 @@ impl<'a, 'input> Surface<'a, 'input> {
         let allowed = format!("{expected} bytes for {points} points");
         let content = exactly(archive, link, expected, allowed)?;
         let changed = self.changed(link, &content, "MD5ChecksumPointData");
-        self.warnings.extend(changed);
+        self.warnings.extend(changed.map(Note::new));
 
         let mut data = Bytes::new(&content, Order::Little);
         let mut coordinates = [const { Vec::new() }; 3];
@@ -272,7 +272,7 @@ impl<'a, 'input> Surface<'a, 'input> {
             let link = trimmed(link);
             let valid = exactly(archive, link, points.div_ceil(8), allowed)?;
             let changed = self.changed(link, &valid, "MD5ChecksumValidPoints");
-            self.warnings.extend(changed);
+            self.warnings.extend(changed.map(Note::new));
             remove_invalid(&mut coordinates, &valid);
         }
         Ok(coordinates)
@@ -570,12 +570,13 @@ mod tests {
         let right = "f6050cdac59263109f2a853227bed520";
         let in_capitals = right.to_uppercase();
         for checksum in [right, &in_capitals, "", "none"] {
-            assert_eq!(stating(checksum).unwrap().warnings, [""; 0], "{checksum}");
+            assert_eq!(stating(checksum).unwrap().warnings, [], "{checksum}");
         }
         let wrong = "0".repeat(32);
         let [warning] = &stating(&wrong).unwrap().warnings[..] else {
             panic!("one warning");
         };
+        let warning = warning.to_string();
         assert!(
             warning.starts_with(&format!("bindata/data.bin has the MD5 {right}"))
                 && warning.contains(&wrong),

@@ -786,11 +786,12 @@ mod tests {
         scene.numerics.points = 64;
         let fit = found(&all, &scene, OPTIONS).unwrap();
         let mut names = Vec::new();
+        let checked = scene.checked().unwrap();
         for seed in 0..EnsembleFit::EXAMINED {
-            let single = scene.checked().unwrap().with(|scene| {
+            let single = checked.with(|scene| {
                 scene.adhesion = Some(Adhesion::by_work(fit.work.value));
                 scene.loading = vec![Move::ToForce(fit.preload), Move::ToSeparation];
-                scene.set_seed(seed_of(scene, seed));
+                scene.set_seed(seed_of(&checked, seed));
             });
             let outcome = Simulation::default().compute(&single.unwrap()).unwrap();
             names.extend(outcome.warnings.iter().map(Warning::name));
