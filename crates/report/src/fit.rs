@@ -164,21 +164,18 @@ impl FitReport<'_> {
         } else {
             "are by the scatter over parts of the curve"
         };
-        let misfit = format_rounded(fit.misfit, 3, "1");
-        let most = FitResult::MOST_MISFIT;
         let agreement = fit.agreement;
+        let misfit = if fit.misfit > FitResult::MOST_MISFIT {
+            let misfit = format_rounded(fit.misfit, 3, "1");
+            let most = FitResult::MOST_MISFIT;
+            format!(" It does not within the noise: the misfit is {misfit}, above {most}.")
+        } else {
+            String::new()
+        };
         let described = match fit.grade {
-            Grade::Well => format!(
-                "The model describes the curve {agreement}. Beyond its noise it does not: the misfit is {misfit}, above {most}."
-            ),
-            Grade::Roughly => format!(
-                "The model describes the curve roughly, {agreement}, but not within its noise: the misfit is {misfit}, above \
-                 {most}."
-            ),
-            Grade::WithinNoise => "The model describes the curve within its noise.".to_owned(),
-            _ => format!(
-                "The model does not describe the curve: the misfit is {misfit}, above {most}, and it agrees {agreement}."
-            ),
+            Grade::Roughly => format!("The model describes the curve roughly, {agreement}.{misfit}"),
+            Grade::No => format!("The model does not describe the curve: it agrees {agreement}.{misfit}"),
+            _ => format!("The model describes the curve {agreement}.{misfit}"),
         };
         Some(format!("{described} {reason} The intervals {intervals}."))
     }

@@ -18,13 +18,22 @@ const RATIO: f64 = 1.3;
 const FARTHEST: f64 = 0.5;
 /// Number of ends of the part without contact that are tried.
 const ENDS: usize = 60;
-/// Root mean square residual of a part that a drag describes, in units of the noise.
-const DESCRIBED: f64 = 1.3;
+/// Root mean square residual of many points that a drag describes, in units of the noise, and its
+/// allowance in standard errors for fewer points.
+const DESCRIBED: f64 = 1.05;
+const BY_CHANCE: f64 = 3.0;
 /// Mean of the last residuals of such a part, in standard errors.
 const DEVIATES: f64 = 3.5;
 /// Coefficient of a drag, in standard errors, above which it is found on the approach and on the
 /// retraction.
 const FOUND: [f64; 2] = [5.0, 3.0];
+/// Distance, in units of h₀, beyond which points are far from contact.
+const FAR: f64 = 1.0;
+/// Ratio of the coefficients of far points and of all points up to which both are one drag, on the
+/// approach and on the retraction.
+const ALIKE: [f64; 2] = [2.0, 3.0];
+/// Coefficient of the approach by far points alone, in standard errors, above which it is found.
+const FOUND_FAR: f64 = 2.5;
 /// Largest ratio of the drags on approach and retraction, which is that of their speeds.
 const SPEEDS: f64 = 10.0;
 
@@ -117,7 +126,8 @@ impl Side {
     fn is_described(&self, count: usize, pole: f64) -> bool {
         let residuals = self.residuals(count, pole);
         let root_mean_square = (dot(&residuals, &residuals) / count as f64).sqrt();
-        if root_mean_square > DESCRIBED * self.noise {
+        let most = DESCRIBED + BY_CHANCE / (2.0 * count as f64).sqrt();
+        if root_mean_square > most * self.noise {
             return false;
         }
         [2, count / 20, count / 10].into_iter().all(|last| {
@@ -188,7 +198,7 @@ impl Drag {
         };
         let drag = both.drag(both.best_pole(pole), before, after)?;
         let force = drag.pressed / (drag.pole - touch);
-        (force > pressed.noise).then_some(drag)
+        (force > pressed.noise && both.reaches_far(&drag)).then_some(drag)
     }
 
     /// Returns the drag at a point of the approach, or of the retraction, N.
@@ -297,6 +307,32 @@ impl BothSides<'_> {
             }
         }
         best
+    }
+
+    /// Returns true if far points alone show the same drag. A weak contact of a rough body grows as
+    /// fast, and may be adhesive on the retraction, but it ends at some distance.
+    fn reaches_far(&self, drag: &Drag) -> bool {
+        let reach = drag.pole - drag.touch;
+        let is_far =
+            |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;
+        let far = BothSides {
+            indices: self.indices.iter().copied().filter(is_far).collect(),
+            ..*self
+        };
+        if far.indices.len() < 2 * FEWEST {
+            return false;
+        }
+        let Some(coefficients) = least_squares(&far.columns(drag.pole), &far.forces()) else {
+            return false;
+        };
+        let [_, _, pressed, pulled, ..] = coefficients[..] else {
+            return false;
+        };
+        let [on_approach, on_retraction] = ALIKE;
+        let is_alike = |far: f64, all: f64, most: f64| (1.0 / most..=most).contains(&(far / all));
+        pressed.value > FOUND_FAR * pressed.error
+            && is_alike(pressed.value, drag.pressed, on_approach)
+            && is_alike(pulled.value, drag.pulled, on_retraction)
     }
 
     /// Returns the drag with this pole; `None` if its coefficients are not found, or do not have

@@ -3,23 +3,25 @@
 
 use crate::curve::numerics::Extent;
 use crate::curve::points::Points;
-use asperity_data::{between, format_rounded, mean};
+use asperity_data::{between, format_rounded, mean, median};
 use serde::Serialize;
 
 /// Smallest jump of the force, in units of the noise.
-const BEYOND_NOISE: f64 = 7.0;
+const BEYOND_NOISE: f64 = 6.0;
 /// Smallest jump of the force, as a share of its range.
 const OF_RANGE: f64 = 0.01;
 /// Largest number of steps between points over which a jump extends.
 const STEPS: usize = 3;
 /// Number of steps before and after a jump with which it is compared.
 const AROUND: usize = 4;
-/// Change of the force by a step of a jump, divided by that of a step around it.
+/// Change of the force by a jump, divided by the change over [`STEPS`] steps around it.
 const SHARP: f64 = 3.0;
 /// Number of displacements at which both branches are compared.
 const COMPARED: usize = 200;
 /// Smallest force at the turning point, in units of the noise, for which a hysteresis is stated.
 const PRESSED: f64 = 10.0;
+/// Share of the range of the displacement within which the points of a pause are compared.
+const STILL: f64 = 0.002;
 /// Share of the points of a pause of which its beginning and its end are means.
 const END: usize = 20;
 
@@ -28,7 +30,7 @@ const END: usize = 20;
 #[non_exhaustive]
 pub struct CurveFeatures {
     /// Number of jumps: places at which the force drops while the body is pressed, or rises while
-    /// it is pulled, within three points and by more than 7 times the noise and 1 % of the range of
+    /// it is pulled, within three points and by more than 6 times the noise and 1 % of the range of
     /// the force.
     pub jumps: usize,
     /// Largest number of jumps in one motion of the instrument. A sphere has at most one.
@@ -79,7 +81,9 @@ impl CurveFeatures {
     }
 }
 
+/// Returns a share in percent. A share below a ten-thousandth is rounding.
 fn percent(share: f64) -> String {
+    let share = if share.abs() < 5e-5 { 0.0 } else { share };
     format!("{} %", format_rounded(100.0 * share, 2, "1"))
 }
 
@@ -97,32 +101,52 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
     let mut jumps = 0;
     let mut place = 0;
     while place + 1 < forces.len() {
-        match steps_of_jump(&forces, place, least) {
-            Some(steps) => {
-                jumps += 1;
-                place += steps + STEPS;
-            }
-            None => place += 1,
-        }
+        let Some(jump) = jump_close_to(&forces, place, least) else {
+            place += 1;
+            continue;
+        };
+        jumps += 1;
+        // The means before the next places contain points before this jump.
+        place = jump + 2 * STEPS;
     }
     jumps
 }
 
-/// Returns the number of steps of a rise that begins at a place, if it is a jump of at least `least`.
-fn steps_of_jump(forces: &[f64], place: usize, least: f64) -> Option<usize> {
+/// Returns the mean of the next forces minus the mean of the forces up to a place. `gap` forces
+/// after the place are left out.
+fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
+    let before = &forces[(place + 1).saturating_sub(STEPS)..=place];
+    let start = (place + 1 + gap).min(forces.len() - 1);
+    let end = (start + STEPS).min(forces.len());
+    mean(&forces[start..end]) - mean(before)
+}
+
+/// Returns the place of a jump at this place or a few steps ahead: the force rises by more than
+/// `least` within [`STEPS`] steps after it, and much faster than around them.
+fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
     let last = forces.len() - 1;
-    let steps = (1..=STEPS.min(last - place))
-        .find(|steps| forces[place + steps] - forces[place] > least)?;
-    let before = place.saturating_sub(AROUND);
-    let end = place + steps;
-    // The jump may go on beyond its first steps.
-    let from = (end + STEPS - steps).min(last);
-    let after = (from + AROUND).min(last);
-    let slope = |start: usize, end: usize| {
-        (forces[end] - forces[start]) / (end - start).max(1) as f64
+    // The largest rise close by belongs to the place of the jump.
+    let ahead = (place + 2 * STEPS).min(last - 1);
+    let jump = (place..=ahead)
+        .max_by(|place, next| {
+            step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0))
+        })
+        .unwrap_or(place);
+    let rise = (0..STEPS).map(|gap| step_at(forces, jump, gap)).fold(0.0, f64::max);
+    if rise <= least {
+        return None;
+    }
+    let slope = |from: usize, to: usize| {
+        if to < from + STEPS {
+            0.0
+        } else {
+            (forces[to] - forces[from]) / (to - from) as f64
+        }
     };
-    let around = slope(before, place).max(slope(from, after)).max(0.0);
-    (slope(place, end) > SHARP * around).then_some(steps)
+    let before = slope(jump.saturating_sub(STEPS + AROUND), jump.saturating_sub(STEPS));
+    let from = (jump + 1 + STEPS).min(last);
+    let after = slope(from, (from + AROUND).min(last));
+    (rise > SHARP * STEPS as f64 * before.max(after).max(0.0)).then_some(jump)
 }
 
 /// Returns the points of a segment without pauses, with ascending displacements.
@@ -190,11 +214,18 @@ fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
 /// Returns the largest fall of the force in a pause in compression, as a share of the largest force.
 fn fall_in_pause(points: &Points, noise: f64) -> Option<f64> {
     let largest = Extent::of(points.force.iter().copied()).high;
+    let near = STILL * Extent::of(points.displacement.iter().copied()).width();
     let mut found: Option<f64> = None;
     let mut start = 0;
     for part in points.is_still.chunk_by(|still, next| still == next) {
-        let forces = &points.force[start..start + part.len()];
-        start += part.len();
+        let range = start..start + part.len();
+        start = range.end;
+        let mut displacements = points.displacement[range.clone()].to_vec();
+        let middle = median(&mut displacements)?;
+        let forces: Vec<f64> = range
+            .filter(|index| (points.displacement[*index] - middle).abs() <= near)
+            .map(|index| points.force[index])
+            .collect();
         let count = (forces.len() / END).max(1);
         if !part[0] || forces.len() < 2 * count {
             continue;
@@ -253,10 +284,9 @@ mod tests {
     /// A force that falls gradually while the body is pressed is no jump, however far it falls.
     #[test]
     fn a_gradual_change_is_no_jump() {
-        let gradual = of_spring(600).into_iter().enumerate().map(|(index, (d, f))| {
-            let share = if index < 300 { (d / 25.0).clamp(0.0, 1.0) } else { 1.0 };
-            (d, f - 60.0 * share * f64::from(u8::from(d > 0.0)))
-        });
+        let gradual = of_spring(600)
+            .into_iter()
+            .map(|(d, f)| (d, f - 60.0 * (d / 25.0).clamp(0.0, 1.0)));
         let features = features(gradual);
         assert_eq!(features.jumps, 0, "{features:?}");
     }

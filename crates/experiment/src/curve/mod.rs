@@ -647,7 +647,7 @@ mod tests {
         let curve = from_text(&text, &CurveOptions::default()).unwrap();
         assert_eq!((curve.missing, curve.points), (2, 100_000));
         assert!(
-            curve.force.len() <= MOST_POINTS && curve.statements.len() == 2,
+            curve.force.len() <= MOST_POINTS && curve.statements.len() == 3,
             "{:?}",
             curve.statements
         );

@@ -137,9 +137,10 @@ impl Compared<'_> {
 }
 
 impl Agreement {
-    /// Returns the grade of a model with this [misfit](crate::FitResult::misfit).
-    pub(crate) fn grade(&self, misfit: f64) -> Grade {
-        if misfit <= MISFIT {
+    /// Returns the grade of a model with this [misfit](crate::FitResult::misfit). `has_reason` is
+    /// true if another reason against the model was found.
+    pub(crate) fn grade(&self, misfit: f64, has_reason: bool) -> Grade {
+        if misfit <= MISFIT && !has_reason {
             Grade::WithinNoise
         } else if self.residual_over_largest_force <= WELL {
             Grade::Well
@@ -207,8 +208,8 @@ mod tests {
         assert_eq!(agreement.off_at_jumps, Some(3e-9));
         let text = agreement.to_string();
         assert!(text.starts_with("within 0.67 % of the largest force; 10 %"), "{text}");
-        assert_eq!(agreement.grade(20.0), Grade::Well);
-        assert_eq!(agreement.grade(1.0), Grade::WithinNoise);
+        assert_eq!(agreement.grade(20.0, true), Grade::Well);
+        assert_eq!(agreement.grade(1.0, false), Grade::WithinNoise);
         // Many points at jumps count as all others.
         for distance in &mut distances[50..54] {
             *distance = Some(1e-9);
@@ -216,6 +217,6 @@ mod tests {
         let agreement = compared(&distances).agreement;
         assert_eq!((agreement.at_jumps, agreement.off_at_jumps), (0.0, None));
         assert!(agreement.residual_over_largest_force > 0.2);
-        assert_eq!(agreement.grade(20.0), Grade::No);
+        assert_eq!(agreement.grade(20.0, true), Grade::No);
     }
 }

@@ -160,8 +160,8 @@ impl<'a> Model<'a> {
 
     /// Returns for each point of the curve the distance in m from the nearest jump of the model, if
     /// the point lies on the wrong side of the jump; otherwise `None`. Such points form a row that
-    /// begins at the jump. Each has a residual above `least` N, and a force nearer to the force of
-    /// the other side of the jump than to that of the model. `residuals` are the measured forces
+    /// begins at the jump. Each has a residual above `least` N, and a force inside the jump or nearer
+    /// to the force of its other side than to that of the model. `residuals` are the measured forces
     /// minus those of the model, N.
     pub fn distances_from_jumps(
         &mut self,
@@ -184,7 +184,8 @@ impl<'a> Model<'a> {
                 let is_wrong = |index: usize, other_side: f64| {
                     let force = force_at(segment, place(index)) + residuals[index];
                     let residual = residuals[index].abs();
-                    residual > least && (force - other_side).abs() < residual
+                    let is_inside = force > before.min(after) && force < before.max(after);
+                    residual > least && (is_inside || (force - other_side).abs() < residual)
                 };
                 let is_past = |index: &usize| sign * (place(*index) - jump.displacement) >= 0.0;
                 let first = points.clone().find(is_past).unwrap_or(points.end);

@@ -18,8 +18,8 @@ const EXPLAINS: f64 = 0.4;
 /// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
 /// allow.
 const STEEPER: f64 = 1.03;
-/// Share of the way from first touch to the turning point in which this slope is measured.
-const PRESSED: f64 = 0.2;
+/// Shares of the way from first touch to the turning point in which this slope is measured.
+const PRESSED: [f64; 2] = [0.2, 0.5];
 /// Smallest number of points from which this slope is measured.
 const FEWEST: usize = 5;
 /// Hysteresis in compression, as a share of the loading, that a smaller work of adhesion on closing
@@ -71,10 +71,10 @@ pub enum Reason {
         "The force has slopes over time and displacement where nothing touches: --drift remove --tilt remove takes them off."
     )]
     DriftAndTilt,
-    /// The measured forces before and after contact differ by this value in N.
+    /// The measured force after contact is higher by this value in N than before, which no drag
+    /// makes.
     #[error(
-        "The force differs by {} before and after contact, by drag of a fluid or the like: --segments 2 fits the retraction \
-         alone.",
+        "The force is higher by {} after contact than before: --segments 2 fits the retraction alone.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
@@ -285,11 +285,20 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
     largest
 }
 
-/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first
-/// approach or in the first fifth of a retraction, less what the noise may add; 0 for few points.
+/// Returns the slope of the force over the displacement in N/m where the body is pressed most, less
+/// what the noise may add; 0 for few points.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+    PRESSED
+        .into_iter()
+        .map(|share| slope_in_last(curve, share))
+        .fold(0.0, f64::max)
+}
+
+/// Returns this slope in the last share of the first approach or in the first share of a
+/// retraction.
+fn slope_in_last(curve: &MeasuredCurve, share: f64) -> f64 {
     let turn = curve.turns[0];
-    let least = turn - PRESSED * (turn - curve.touch);
+    let least = turn - share * (turn - curve.touch);
     let mut distances = Vec::new();
     let mut forces = Vec::new();
     for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
@@ -570,15 +579,31 @@ mod tests {
             matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope, 0.5) if slope > 0.5)
         );
         let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
-        assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
+        assert!(
+            matches!(found(stiffer.into_iter(), &[]), Reason::Relaxation { hysteresis, .. } if (0.11..0.15).contains(&hysteresis))
+        );
+        let shifted = curve(elastic, |at, _| hertz(2.2e6, at - 3e-8));
+        assert!(
+            matches!(found(shifted.into_iter(), &[]), Reason::HysteresisOfAdhesion(share) if (0.03..0.11).contains(&share))
+        );
+        let little = curve(elastic, |at, _| hertz(2.1e6, at - 2e-8));
+        assert_eq!(found(little.into_iter(), &[]), Reason::Branches);
+        let twice = curve(
+            |at, _| elastic(at, 0.0) - if at > 5e-7 { 2e-7 } else { 0.0 } - if at > 8e-7 { 2e-7 } else { 0.0 },
+            elastic,
+        );
+        assert_eq!(found(twice.into_iter(), &[]), Reason::SeveralContacts(2));
         let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
         assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Tilt);
         let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
         assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
-        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        let pushed = curve(elastic, |at, time| elastic(at, time) + 1e-7);
         assert!(
-            matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9)
+            matches!(found(pushed.into_iter(), &[]), Reason::Step(step) if (step - 1e-7).abs() < 1e-9)
         );
+        // A force that resists the motion is a drag, which was taken off.
+        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        assert_eq!(found(dragged.into_iter(), &[]), Reason::StiffnessOrForm);
         assert!(
             matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
         );

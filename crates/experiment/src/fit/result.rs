@@ -147,10 +147,10 @@ impl FitResult {
     /// Largest [`Self::misfit`] with which the model describes the curve.
     pub const MOST_MISFIT: f64 = MISFIT;
 
-    /// Returns true if [`Self::misfit`] is at most 1.5: the model then describes the curve within
-    /// its noise. [`Self::grade`] has further grades.
+    /// Returns true if the model describes the curve within its noise: [`Self::misfit`] is at most
+    /// 1.5, and no drift or tilt remains. [`Self::grade`] has further grades.
     pub fn describes(&self) -> bool {
-        self.misfit <= MISFIT
+        self.grade == Grade::WithinNoise
     }
 
     /// Returns true if the model does not describe the curve and the profile of the scene is

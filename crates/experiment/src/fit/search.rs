@@ -170,6 +170,26 @@ impl Search<'_> {
         scale(&member.contact_residuals(&residuals), WRONG_SIDE)
     }
 
+    /// Returns the residual without contact, in units of the noise of the curve, if a drift or a
+    /// tilt remains there; otherwise 0. It is as large in contact, where other parameters hide it.
+    fn remaining_line(&self, member: &Member) -> f64 {
+        let curve = self.space.curve;
+        if curve.remaining[..2] == [0.0; 2] {
+            return 0.0;
+        }
+        let residuals = self.lines.refined(&member.residuals, 1.0);
+        let points = residuals.iter().zip(&member.in_contact);
+        let free: Vec<f64> = points
+            .filter(|(_, in_contact)| !**in_contact)
+            .map(|(residual, _)| *residual)
+            .collect();
+        if free.is_empty() {
+            0.0
+        } else {
+            scale(&free, WRONG_SIDE)
+        }
+    }
+
     /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
     /// the [`loss`] of all points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
@@ -280,7 +300,8 @@ impl Search<'_> {
         mut population: Population,
         generator: &mut ChaCha8Rng,
     ) -> Result<SearchResult, ExperimentError> {
-        let noise = self.misfit(&population.best, population.noise).max(1.0);
+        let misfit = self.misfit(&population.best, population.noise);
+        let noise = misfit.max(self.remaining_line(&population.best)).max(1.0);
         self.set_noise(&mut population, noise);
         for _ in 0..MOVES {
             self.move_all(&mut population, generator)?;
