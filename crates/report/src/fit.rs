@@ -173,8 +173,12 @@ impl FitReport<'_> {
             String::new()
         };
         let described = match fit.grade {
-            Grade::Roughly => format!("The model describes the curve roughly, {agreement}.{misfit}"),
-            Grade::No => format!("The model does not describe the curve: it agrees {agreement}.{misfit}"),
+            Grade::Roughly => {
+                format!("The model describes the curve roughly, {agreement}.{misfit}")
+            }
+            Grade::No => {
+                format!("The model does not describe the curve: it agrees {agreement}.{misfit}")
+            }
             _ => format!("The model describes the curve {agreement}.{misfit}"),
         };
         Some(format!("{described} {reason} The intervals {intervals}."))
@@ -194,9 +198,9 @@ impl FitReport<'_> {
             let (low, high) = fitted.interval;
             let name = format!("{} {}", parameter.term, parameter.symbol);
             let start = format_quantity(fitted.start, parameter.unit);
-            if fitted.at_end.is_some() {
+            if let Some(bound) = fitted.bound() {
                 let none = "-".to_owned();
-                rows.push([name, bound_in_words(fitted), none.clone(), none, start]);
+                rows.push([name, bound, none.clone(), none, start]);
                 continue;
             }
             rows.push([
@@ -254,7 +258,8 @@ impl FitReport<'_> {
              in contact. {curves} curves were computed."
         ));
         let beyond = percent(agreement.beyond_one_percent, 2);
-        let mut parts = format!("{beyond} of these points deviate by more than 1 % of the largest force");
+        let mut parts =
+            format!("{beyond} of these points deviate by more than 1 % of the largest force");
         if let Some(distance) = agreement.off_at_jumps {
             let at_jumps = percent(agreement.at_jumps, 2);
             let distance = format_rounded(distance, 2, "m");
@@ -349,23 +354,12 @@ impl FitReport<'_> {
     }
 }
 
-/// Writes a bound of a parameter: `≥ 3 GPa`.
-fn bound_in_words(fitted: &FittedParameter) -> String {
-    let unit = fitted.parameter.row().unit;
-    let value = format_rounded(fitted.value, 2, unit);
-    match fitted.at_end {
-        Some(RangeEnd::Low) => format!("≤ {value}"),
-        Some(RangeEnd::High) => format!("≥ {value}"),
-        None => value,
-    }
-}
-
 /// Writes a fitted value with half the width of its interval: `γ = 50 ± 2 mJ/m²`, or a bound. No
 /// line breaks inside.
 fn with_half_width(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
-    if fitted.at_end.is_some() {
-        return format!("{symbol} {}", bound_in_words(fitted)).replace(' ', "\u{a0}");
+    if let Some(bound) = fitted.bound() {
+        return format!("{symbol} {bound}").replace(' ', "\u{a0}");
     }
     let (low, high) = fitted.interval;
     let value = fitted.text(fitted.value);

@@ -192,7 +192,9 @@ impl Drag {
         })?;
         let both = BothSides {
             points,
-            indices: (0..before).chain(points.force.len() - after..points.force.len()).collect(),
+            indices: (0..before)
+                .chain(points.force.len() - after..points.force.len())
+                .collect(),
             touch,
             options,
         };
@@ -313,8 +315,7 @@ impl BothSides<'_> {
     /// fast, and may be adhesive on the retraction, but it ends at some distance.
     fn reaches_far(&self, drag: &Drag) -> bool {
         let reach = drag.pole - drag.touch;
-        let is_far =
-            |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;
+        let is_far = |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;
         let far = BothSides {
             indices: self.indices.iter().copied().filter(is_far).collect(),
             ..*self

@@ -93,10 +93,14 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
     let least = (BEYOND_NOISE * noise).max(OF_RANGE * range);
     // The force of a jump changes against the force of a motion that is continuous.
     let sign = if number.is_multiple_of(2) { -1.0 } else { 1.0 };
-    let indices = points
-        .range_of(number)
-        .filter(|index| !points.is_still[*index]);
-    let forces: Vec<f64> = indices.map(|index| sign * points.force[index]).collect();
+    let mut forces = Vec::new();
+    let mut ways = Vec::new();
+    for index in points.range_of(number) {
+        if !points.is_still[index] {
+            forces.push(sign * points.force[index]);
+            ways.push(-sign * points.displacement[index]);
+        }
+    }
 
     let mut jumps = 0;
     let mut place = 0;
@@ -105,7 +109,10 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
             place += 1;
             continue;
         };
-        jumps += 1;
+        // Where the instrument moves back for a short way, the force changes with it.
+        let before = ways[(jump + 1).saturating_sub(STEPS)];
+        let after = ways[(jump + STEPS).min(ways.len() - 1)];
+        jumps += usize::from(after >= before);
         // The means before the next places contain points before this jump.
         place = jump + 2 * STEPS;
     }
@@ -128,11 +135,11 @@ fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
     // The largest rise close by belongs to the place of the jump.
     let ahead = (place + 2 * STEPS).min(last - 1);
     let jump = (place..=ahead)
-        .max_by(|place, next| {
-            step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0))
-        })
+        .max_by(|place, next| step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0)))
         .unwrap_or(place);
-    let rise = (0..STEPS).map(|gap| step_at(forces, jump, gap)).fold(0.0, f64::max);
+    let rise = (0..STEPS)
+        .map(|gap| step_at(forces, jump, gap))
+        .fold(0.0, f64::max);
     if rise <= least {
         return None;
     }
@@ -143,7 +150,10 @@ fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
             (forces[to] - forces[from]) / (to - from) as f64
         }
     };
-    let before = slope(jump.saturating_sub(STEPS + AROUND), jump.saturating_sub(STEPS));
+    let before = slope(
+        jump.saturating_sub(STEPS + AROUND),
+        jump.saturating_sub(STEPS),
+    );
     let from = (jump + 1 + STEPS).min(last);
     let after = slope(from, (from + AROUND).min(last));
     (rise > SHARP * STEPS as f64 * before.max(after).max(0.0)).then_some(jump)
@@ -175,7 +185,11 @@ fn force_at(branch: &[[f64; 2]], displacement: f64) -> f64 {
     let [from, force] = branch[next - 1];
     let [to, next_force] = branch[next];
     if to > from {
-        between(force, next_force, ((displacement - from) / (to - from)).clamp(0.0, 1.0))
+        between(
+            force,
+            next_force,
+            ((displacement - from) / (to - from)).clamp(0.0, 1.0),
+        )
     } else {
         force
     }
@@ -183,11 +197,11 @@ fn force_at(branch: &[[f64; 2]], displacement: f64) -> f64 {
 
 /// Returns the hysteresis of the loading to the largest force and of the unloading after it.
 fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
-    let largest_in = |number: usize| {
-        Extent::of(points.range_of(number).map(|index| points.force[index])).high
-    };
+    let largest_in =
+        |number: usize| Extent::of(points.range_of(number).map(|index| points.force[index])).high;
     let loadings = (points.segment[0]..points.last_segment()).filter(|number| number % 2 == 0);
-    let number = loadings.max_by(|number, next| largest_in(*number).total_cmp(&largest_in(*next)))?;
+    let number =
+        loadings.max_by(|number, next| largest_in(*number).total_cmp(&largest_in(*next)))?;
     let loading = branch(points, number);
     let unloading = branch(points, number + 1);
     if largest_in(number) < PRESSED * noise {
@@ -296,9 +310,19 @@ mod tests {
     fn hysteresis_is_a_share_of_the_loading() {
         let elastic = features(of_spring(600)).hysteresis.unwrap();
         assert!(elastic.abs() < 0.01, "{elastic}");
-        let lossy = of_spring(600).into_iter().enumerate().map(|(index, (d, f))| {
-            (d, if index < 300 { f } else { 1.0 + 0.9 * (f - 1.0) })
-        });
+        let lossy = of_spring(600)
+            .into_iter()
+            .enumerate()
+            .map(|(index, (d, f))| {
+                (
+                    d,
+                    if index < 300 {
+                        f
+                    } else {
+                        1.0 + 0.9 * (f - 1.0)
+                    },
+                )
+            });
         let share = features(lossy).hysteresis.unwrap();
         assert!((share - 0.1).abs() < 0.01, "{share}");
         let alone = of_spring(600).into_iter().skip(300);
@@ -313,7 +337,11 @@ mod tests {
         let features = features(points);
         let fall = features.fall_in_pause.unwrap();
         assert!((fall - 0.095).abs() < 0.01, "{fall}");
-        assert!(features.sentence().contains("in a pause"), "{}", features.sentence());
+        assert!(
+            features.sentence().contains("in a pause"),
+            "{}",
+            features.sentence()
+        );
         assert_eq!(super::tests::features(of_spring(600)).fall_in_pause, None);
     }
 }

@@ -443,4 +443,22 @@ mod tests {
             assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
         }
     }
+
+    /// In a loading by steps the first contact is the first step, though a later one is steeper.
+    #[test]
+    fn the_first_step_of_a_loading_is_the_contact() {
+        for seed in 1..=4 {
+            let force = |index: usize| {
+                let index = index as f64;
+                let snap = if index >= 150.0 { -3.0 } else { 0.0 };
+                let first = 0.1 * (index - 150.0).clamp(0.0, 20.0);
+                let second = 0.4 * (index - 240.0).clamp(0.0, 30.0);
+                let third = 0.6 * (index - 330.0).max(0.0);
+                snap + first + second + third
+            };
+            let values = noisy((0..380).map(force), 0.02, seed);
+            let free = free_count(&values, 0.0).unwrap();
+            assert!((145..=151).contains(&free), "{seed}: {free}");
+        }
+    }
 }

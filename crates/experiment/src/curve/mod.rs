@@ -300,7 +300,12 @@ impl MeasuredCurve {
             subtracted: SubtractedLines {
                 has_zero: self.subtracted.has_zero,
                 elsewhere: self.subtracted.elsewhere.clone(),
-                columns: self.subtracted.columns.iter().map(|column| thin(column)).collect(),
+                columns: self
+                    .subtracted
+                    .columns
+                    .iter()
+                    .map(|column| thin(column))
+                    .collect(),
             },
             turns: self.turns.clone(),
             statements: self.statements.clone(),
@@ -608,15 +613,28 @@ fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
     }
 }
 
+/// Returns the largest of the forces in N at the ends of the approaches, of which the first may be a
+/// partial loading.
+fn force_at_largest_turn(points: &Points) -> f64 {
+    let mut largest = f64::NEG_INFINITY;
+    for number in (0..=points.last_segment()).step_by(2) {
+        let range = points.range_of(number);
+        let count = (range.len() / 20).max(1);
+        if range.len() >= count {
+            largest = largest.max(mean(&points.force[range.end - count..range.end]));
+        }
+    }
+    largest
+}
+
 /// Returns an error if the force is negative where the body is pressed most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
-    let first = points.range_of(points.segment[0]);
-    let count = (first.len() / 20).max(1);
     let is_approach = points.begins_with_approach();
     let pressed = if is_approach {
-        mean(&points.force[first.end - count..first.end])
+        force_at_largest_turn(points)
     } else {
-        mean(&points.force[..count])
+        let first = points.range_of(points.segment[0]);
+        mean(&points.force[..(first.len() / 20).max(1)])
     };
     if options.negate.is_some() || pressed >= PULLS * noise {
         return Ok(());
@@ -822,5 +840,46 @@ mod tests {
                 "{said}: {error}"
             );
         }
+    }
+
+    /// A retraction that ends in tension has no pull-off force; with its free end it has one.
+    #[test]
+    fn a_curve_that_does_not_detach_has_no_pull_off_force() {
+        let adheres = |end: f64| {
+            let points = of_spring(600).into_iter().enumerate();
+            let pulled = points.filter_map(|(index, (d, f))| match (index < 300, d) {
+                (true, _) => Some((d, f)),
+                (false, d) if d < end => None,
+                (false, d) if d < -30.0 => Some((d, 1.0 + 0.1 * f64::from(index as u32 % 2))),
+                (false, d) => Some((d, 1.0 + 2.0 * d)),
+            });
+            from_text(&lines(pulled), &CurveOptions::default()).unwrap()
+        };
+        let whole = adheres(-100.0);
+        let force = whole.pull_off_force().unwrap();
+        assert!(
+            whole.detaches && (force / 60e-9 - 1.0).abs() < 0.02,
+            "{force:e}"
+        );
+        let held = adheres(-20.0);
+        assert!(!held.detaches && held.pull_off_force().is_none());
+    }
+
+    /// Short steps of a loading are motions, and a slow creep of a part without a name is a pause.
+    #[test]
+    fn short_steps_are_used() {
+        let spring = |d: f64, part: i32| (d, 2.0 * d.max(0.0) + 0.1 * f64::from(part % 2), part);
+        let mut points = Vec::new();
+        points.extend((-100..40).map(|d| spring(f64::from(d), 0)));
+        points.extend((0..50).map(|index| spring(40.0 + 0.001 * f64::from(index), 1)));
+        points.extend((40..44).map(|d| spring(f64::from(d), 2)));
+        points.extend((0..50).map(|index| spring(44.0 + 0.001 * f64::from(index), 3)));
+        points.extend((-100..44).rev().map(|d| spring(f64::from(d), 4)));
+        let text = points.iter().fold(
+            "displacement [nm],force [nN],segment\n".to_owned(),
+            |text, (d, f, part)| text + &format!("{d},{f},{part}\n"),
+        );
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        assert_eq!(curve.points, 140 + 4 + 144, "{:?}", curve.statements);
     }
 }

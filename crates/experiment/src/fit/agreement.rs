@@ -114,7 +114,9 @@ impl Compared<'_> {
         let count = others.len().max(1) as f64;
         let root_mean_square = (dot(&others, &others) / count).sqrt();
         let forces = self.curve.force.iter();
-        let largest = forces.map(|force| force.abs()).fold(self.curve.noise, f64::max);
+        let largest = forces
+            .map(|force| force.abs())
+            .fold(self.curve.noise, f64::max);
         let limit = NOTABLE * largest / self.curve.noise;
         let share_beyond = |limit: f64| {
             let beyond = others.iter().filter(|residual| residual.abs() > limit);
@@ -160,7 +162,10 @@ impl fmt::Display for Agreement {
         if let Some(distance) = self.off_at_jumps {
             let share = percent(self.at_jumps);
             let distance = format_rounded(distance, 2, "m");
-            write!(out, "; {share} % of the points in contact, at the jumps, are up to {distance} off")?;
+            write!(
+                out,
+                "; {share} % of the points in contact, at the jumps, are up to {distance} off"
+            )?;
         }
         Ok(())
     }
@@ -177,7 +182,10 @@ mod tests {
     #[test]
     fn points_at_jumps_count_apart() {
         let mut curve = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);
-        let largest = curve.force.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+        let largest = curve
+            .force
+            .iter()
+            .fold(0.0, |most: f64, force| most.max(force.abs()));
         curve.noise = 1e-3 * largest;
         let count = curve.force.len();
         let mut residuals = vec![500.0; count];
@@ -207,7 +215,10 @@ mod tests {
         assert!((agreement.beyond_one_percent - 1.0 / 9.0).abs() < 1e-12);
         assert_eq!(agreement.off_at_jumps, Some(3e-9));
         let text = agreement.to_string();
-        assert!(text.starts_with("within 0.67 % of the largest force; 10 %"), "{text}");
+        assert!(
+            text.starts_with("within 0.67 % of the largest force; 10 %"),
+            "{text}"
+        );
         assert_eq!(agreement.grade(20.0, true), Grade::Well);
         assert_eq!(agreement.grade(1.0, false), Grade::WithinNoise);
         // Many points at jumps count as all others.

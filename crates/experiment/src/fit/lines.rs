@@ -142,7 +142,11 @@ mod tests {
 
     #[test]
     fn equations_are_solved_and_undetermined_unknowns_are_0() {
-        let matrix = vec![vec![4.0, 2.0, 0.0], vec![2.0, 3.0, 1.0], vec![0.0, 1.0, 2.0]];
+        let matrix = vec![
+            vec![4.0, 2.0, 0.0],
+            vec![2.0, 3.0, 1.0],
+            vec![0.0, 1.0, 2.0],
+        ];
         let solution = solved(matrix, vec![8.0, 11.0, 8.0]);
         for (found, expected) in solution.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found - expected).abs() < 1e-12, "{solution:?}");
@@ -159,17 +163,22 @@ mod tests {
         let lines = Lines::new(&curve, false);
         let in_contact = curve.in_contact();
         let large = |size: f64| -> Vec<f64> {
-            in_contact.iter().map(|touches| if *touches { size } else { 0.0 }).collect()
+            in_contact
+                .iter()
+                .map(|touches| if *touches { size } else { 0.0 })
+                .collect()
         };
-        let zero = |residuals: &[f64], noise: f64| {
-            residuals[0] - lines.refined(residuals, noise)[0]
-        };
+        let zero =
+            |residuals: &[f64], noise: f64| residuals[0] - lines.refined(residuals, noise)[0];
         let free = in_contact.iter().filter(|touches| !**touches).count() as f64;
         let held = zero(&large(100.0), 100.0);
         assert!(held.abs() < 1.0 / free.sqrt(), "{held} {free}");
         let share = 1.0 - free / in_contact.len() as f64;
         assert!((zero(&large(2.0), 1.0) - 2.0 * share).abs() < 1e-12);
         assert_eq!(zero(&large(2.0), f64::INFINITY), 0.0);
-        assert_eq!(Lines::new(&curve, true).refined(&large(2.0), 1.0), large(2.0));
+        assert_eq!(
+            Lines::new(&curve, true).refined(&large(2.0), 1.0),
+            large(2.0)
+        );
     }
 }

@@ -189,7 +189,8 @@ fn result(
         Some(_) => None,
         None => governing.tabor_number(scene),
     };
-    let mut reason_of_misfit = slope.map(|slope| Reason::Stiffness(slope, best[Parameter::Stiffness as usize]));
+    let mut reason_of_misfit =
+        slope.map(|slope| Reason::Stiffness(slope, best[Parameter::Stiffness as usize]));
     let line_remains = curve.remaining[..2].iter().any(|change| *change != 0.0);
     if (searched.misfit > MISFIT || line_remains) && reason_of_misfit.is_none() {
         let residuals = &searched.residuals;
@@ -248,7 +249,6 @@ fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
         work.noise_error = work.noise_error.min(most - work.interval.0);
     }
 }
-
 
 /// Returns what the fit takes for granted, in sentences.
 fn assumptions(curve: &MeasuredCurve, free: &[Parameter]) -> Vec<String> {

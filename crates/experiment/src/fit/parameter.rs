@@ -105,7 +105,11 @@ impl Parameter {
         };
         let (least, most) = field(path, None)?.range.ends()?;
         // Young's modulus is at least 3/4 of the effective modulus.
-        let factor = if self == Parameter::Modulus { 4.0 / 3.0 } else { 1.0 };
+        let factor = if self == Parameter::Modulus {
+            4.0 / 3.0
+        } else {
+            1.0
+        };
         Some((factor * least, most))
     }
 

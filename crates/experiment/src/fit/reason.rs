@@ -589,7 +589,11 @@ mod tests {
         let little = curve(elastic, |at, _| hertz(2.1e6, at - 2e-8));
         assert_eq!(found(little.into_iter(), &[]), Reason::Branches);
         let twice = curve(
-            |at, _| elastic(at, 0.0) - if at > 5e-7 { 2e-7 } else { 0.0 } - if at > 8e-7 { 2e-7 } else { 0.0 },
+            |at, _| {
+                elastic(at, 0.0)
+                    - if at > 5e-7 { 2e-7 } else { 0.0 }
+                    - if at > 8e-7 { 2e-7 } else { 0.0 }
+            },
             elastic,
         );
         assert_eq!(found(twice.into_iter(), &[]), Reason::SeveralContacts(2));

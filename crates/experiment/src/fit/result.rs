@@ -5,7 +5,7 @@ use crate::fit::agreement::{Agreement, Grade};
 use crate::fit::parameter::Parameter;
 use crate::fit::reason::Reason;
 use crate::fit::search::MISFIT;
-use asperity_data::{Warning, format_within};
+use asperity_data::{Warning, format_rounded, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -59,6 +59,17 @@ impl FittedParameter {
         self.at_end = Some(end);
         self.interval = self.range;
         self.noise_error = self.range.1 - self.range.0;
+    }
+
+    /// Returns the bound that a value at the end of its range is, such as `≥ 3 GPa`; `None` for a
+    /// value inside its range.
+    pub fn bound(&self) -> Option<String> {
+        let sign = match self.at_end? {
+            RangeEnd::Low => "≤",
+            RangeEnd::High => "≥",
+        };
+        let value = format_rounded(self.value, 2, self.parameter.row().unit);
+        Some(format!("{sign} {value}"))
     }
 
     /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower

@@ -386,4 +386,42 @@ mod tests {
             );
         }
     }
+
+    /// A range that was not given is made wider at the end at which a place lies, up to the values
+    /// that scenes allow.
+    #[test]
+    fn ranges_are_reopened_up_to_what_scenes_allow() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let given: Vec<Free> = ["work", "modulus", "offset"]
+            .map(|one| one.parse().unwrap())
+            .to_vec();
+        let mut simulation = Simulation::default();
+        let mut ranges = given.clone();
+        let mut lowest = f64::INFINITY;
+        for _ in 0..20 {
+            let (_, space) =
+                Space::of(&curve, &document, &mut simulation, &ranges, &|| false).unwrap();
+            let mut place = space.start();
+            assert_eq!(space.extended(&place, &given, &ranges), None);
+            place[1] = space.coordinates[1].ends().0;
+            assert_eq!(space.end_at(1, &place), Some(RangeEnd::Low));
+            let Some(wider) = space.extended(&place, &given, &ranges) else {
+                break;
+            };
+            let before = space.coordinates[1].range;
+            let (low, high) = wider[1].range.unwrap();
+            assert!(low < before.0 && high == before.1 && low <= lowest);
+            lowest = low;
+            ranges = wider;
+        }
+        assert!((1.0..2.0).contains(&lowest), "{lowest}");
+        let bounded = ["work", "modulus=1MPa..2MPa", "offset"].map(|one| one.parse().unwrap());
+        let (_, space) =
+            Space::of(&curve, &document, &mut simulation, &bounded, &|| false).unwrap();
+        let mut place = space.start();
+        place[1] = space.coordinates[1].ends().1;
+        assert_eq!(space.extended(&place, &bounded, &bounded), None);
+        assert_eq!(space.end_at(1, &place), Some(RangeEnd::High));
+    }
 }
