@@ -27,12 +27,15 @@ extern crate self as asperity_experiment;
 mod common;
 
 pub use curve::MeasuredCurve;
+pub use curve::drag::DragForce;
+pub use curve::features::CurveFeatures;
 pub use error::{ExperimentError, Part};
 pub use fit::Fit;
+pub use fit::agreement::{Agreement, Grade};
 pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};
 pub use fit::ensemble::posterior::{CurveOfEnsemble, IntervalEstimate};
 pub use fit::ensemble::{EnsembleFit, EnsembleOptions, Prospect, Shares, fit_ensemble};
 pub use fit::parameter::{Free, Parameter, ParameterRow};
 pub use fit::reason::Reason;
-pub use fit::result::{FitResult, FittedParameter};
+pub use fit::result::{FitResult, FittedParameter, RangeEnd};
 pub use read::options::{CurveOptions, Drift, Negate, Tilt};

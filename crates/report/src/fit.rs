@@ -4,14 +4,22 @@ use crate::report::{Json, Report};
 use crate::sheet::Sheet;
 use crate::warnings::warnings_section;
 use crate::words::percent;
-use asperity_data::{AxisScale, Table, Wording, format_quantity, format_rounded, grouped};
-use asperity_experiment::{FitResult, FittedParameter, MeasuredCurve, Parameter};
+use asperity_data::{
+    AxisScale, Table, Wording, format_quantity, format_range, format_rounded, grouped,
+};
+use asperity_experiment::{
+    CurveFeatures, DragForce, FitResult, FittedParameter, Grade, MeasuredCurve, Parameter,
+    RangeEnd, Reason,
+};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
 use std::f64::consts::PI;
 
 const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
+
+/// Factor by which the range that a sentence proposes goes beyond the end of the range searched.
+const FARTHER: f64 = 1000.0;
 
 /// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
 /// figure with the measured curve, the computed curve and their difference.
@@ -34,6 +42,11 @@ struct FitJson<'a> {
     fit: &'a FitResult,
     described: bool,
     noise: f64,
+    /// Numbers of the curve by itself.
+    curve: CurveFeatures,
+    drag: Option<DragForce>,
+    /// Work of adhesion that the drag on the retraction would add to γ, if it had been left in.
+    drag_work: Option<f64>,
     pull_off_force: Option<f64>,
     pull_off_work: Option<f64>,
     points_used: usize,
@@ -57,6 +70,7 @@ impl Report for FitReport<'_> {
         self.add_parameters(&mut sheet);
         self.add_residual(&mut sheet);
         self.add_adhesion(&mut sheet);
+        self.add_drag(&mut sheet);
         if let Some(number) = fit.tabor {
             let number = format_quantity(number, "1");
             sheet.paragraph(&format!("Tabor number μ = {number}."));
@@ -75,6 +89,9 @@ impl Report for FitReport<'_> {
             described: self.fit.describes(),
             fit: self.fit,
             noise: self.curve.noise,
+            curve: self.curve.features,
+            drag: self.curve.drag,
+            drag_work: self.drag_work(),
             pull_off_force,
             pull_off_work: pull_off_force.and_then(|force| self.pull_off_work(force)),
             points_used: self.curve.points,
@@ -141,20 +158,34 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
-    /// Returns sentences on a curve that the model does not describe; `None` if it describes the
-    /// curve.
+    /// Returns sentences on a curve that the model does not describe within its noise; `None` if it
+    /// does.
     fn not_described(&self) -> Option<String> {
-        let reason = self.fit.reason.as_ref()?.note().in_words(self.wording);
-        let intervals = if self.fit.has_other_profile() {
+        let fit = self.fit;
+        let reason = fit.reason.as_ref()?.note().in_words(self.wording);
+        let intervals = if fit.has_other_profile() {
             "are the whole ranges of the search, since each profile gives other values"
         } else {
             "are by the scatter over parts of the curve"
         };
-        let misfit = format_rounded(self.fit.misfit, 3, "1");
-        let most = FitResult::MOST_MISFIT;
-        Some(format!(
-            "The model does not describe the curve: the misfit is {misfit}, above {most}. {reason} The intervals {intervals}."
-        ))
+        let agreement = fit.agreement;
+        let misfit = if fit.misfit > FitResult::MOST_MISFIT {
+            let misfit = format_rounded(fit.misfit, 3, "1");
+            let most = FitResult::MOST_MISFIT;
+            format!(" It does not within the noise: the misfit is {misfit}, above {most}.")
+        } else {
+            String::new()
+        };
+        let described = match fit.grade {
+            Grade::Roughly => {
+                format!("The model describes the curve roughly, {agreement}.{misfit}")
+            }
+            Grade::No => {
+                format!("The model does not describe the curve: it agrees {agreement}.{misfit}")
+            }
+            _ => format!("The model describes the curve {agreement}.{misfit}"),
+        };
+        Some(format!("{described} {reason} The intervals {intervals}."))
     }
 
     /// Returns what was assumed when the curve was read, and when it was fitted.
@@ -170,34 +201,81 @@ impl FitReport<'_> {
         for fitted in &self.fit.parameters {
             let parameter = fitted.parameter.row();
             let (low, high) = fitted.interval;
+            let name = format!("{} {}", parameter.term, parameter.symbol);
+            let start = format_quantity(fitted.start, parameter.unit);
+            if let Some(bound) = fitted.bound() {
+                let none = "-".to_owned();
+                rows.push([name, bound, none.clone(), none, start]);
+                continue;
+            }
             rows.push([
-                format!("{} {}", parameter.term, parameter.symbol),
+                name,
                 fitted.text(fitted.value),
                 format!("{} to {}", fitted.text(low), fitted.text(high)),
                 format_quantity(fitted.noise_error, parameter.unit),
-                format_quantity(fitted.start, parameter.unit),
+                start,
             ]);
         }
         sheet.table(&rows);
+        for fitted in &self.fit.parameters {
+            if let Some(sentence) = self.sentence_at_end(fitted) {
+                sheet.paragraph(&sentence);
+            }
+        }
     }
 
-    /// Adds sentences on the residual and on the misfit.
+    /// Returns the sentence on a parameter whose best value lies at the end of its range, unless
+    /// the curve cannot have it at all.
+    fn sentence_at_end(&self, fitted: &FittedParameter) -> Option<String> {
+        let end = fitted.at_end?;
+        if matches!(self.fit.reason, Some(Reason::Stiffness(..))) {
+            return None;
+        }
+        let row = fitted.parameter.row();
+        let (low, high) = fitted.range;
+        let (name, next) = match end {
+            RangeEnd::Low => ("lower", (low / FARTHER, 2.0 * low)),
+            RangeEnd::High => ("upper", (0.5 * high, high * FARTHER)),
+        };
+        let range = format_range(fitted.range, 3, row.unit);
+        let written = |value: f64| format_rounded(value, 2, row.unit).replace([' ', '\u{a0}'], "");
+        Some(format!(
+            "{} is at the {name} end of its range, {range}, and is no result. --free {}={}..{} searches beyond.",
+            row.symbol,
+            row.name,
+            written(next.0),
+            written(next.1)
+        ))
+    }
+
+    /// Adds sentences on the residual and on the misfit, all over the same points.
     fn add_residual(&self, sheet: &mut Sheet) {
         let fit = self.fit;
+        let agreement = fit.agreement;
         let residual = format_quantity(fit.residual, "N");
+        let of_force = percent(agreement.residual_over_largest_force, 2);
         let over_noise = format_quantity(fit.residual_over_noise, "1");
         let noise = format_quantity(self.curve.noise, "N");
-        let beyond = percent(fit.beyond_five_sigma, 2);
+        let points = grouped(agreement.points as u64);
         let curves = grouped(fit.evaluations as u64);
         sheet.heading(&format!(
-            "Residual {residual}, {over_noise} times the noise of {noise}; {beyond} of the points deviate by more than 5 times \
-             the noise. {curves} curves were computed."
+            "Residual {residual}, {of_force} of the largest force and {over_noise} times the noise of {noise}, over {points} points \
+             in contact. {curves} curves were computed."
         ));
+        let beyond = percent(agreement.beyond_one_percent, 2);
+        let mut parts =
+            format!("{beyond} of these points deviate by more than 1 % of the largest force");
+        if let Some(distance) = agreement.off_at_jumps {
+            let at_jumps = percent(agreement.at_jumps, 2);
+            let distance = format_rounded(distance, 2, "m");
+            parts += &format!("; {at_jumps} more, at the jumps, are up to {distance} off");
+        }
+        sheet.paragraph(&format!("{parts}."));
         let misfit = format_rounded(fit.misfit, 3, "1");
         let most = FitResult::MOST_MISFIT;
         sheet.paragraph(&format!(
             "Misfit {misfit}: residual in contact over the noise, in which points near jumps and outliers count less. Up to \
-             {most} the model describes the curve."
+             {most} the model describes the curve within its noise."
         ));
     }
 
@@ -224,6 +302,23 @@ impl FitReport<'_> {
         sheet.paragraph(&format!("Pull-off force of the curve {force}{work}."));
     }
 
+    /// Adds what the drag would do to the work of adhesion.
+    fn add_drag(&self, sheet: &mut Sheet) {
+        let Some(work) = self.drag_work() else {
+            return;
+        };
+        let work = format_quantity(work, "J/m²");
+        sheet.paragraph(&format!(
+            "The drag on the retraction was taken off. Left in, it would add about {work} to γ."
+        ));
+    }
+
+    /// Returns the work of adhesion in J/m² that the drag on the retraction would add; `None`
+    /// without a drag, or for another body than a smooth sphere.
+    fn drag_work(&self) -> Option<f64> {
+        self.pull_off_work(-self.curve.drag?.pulled)
+    }
+
     /// Adds the largest correlation, and the parameters that the curve does not separate.
     fn add_correlations(&self, sheet: &mut Sheet) {
         let fit = self.fit;
@@ -241,7 +336,12 @@ impl FitReport<'_> {
         for &(first, second) in &fit.not_distinguished {
             // The upper bound of the work of adhesion has a sentence of its own.
             let is_work = first == Parameter::Work && second == Parameter::Work;
-            if !(is_work && fit.work_at_most.is_some()) {
+            let is_at_end = first == second
+                && fit
+                    .parameters
+                    .iter()
+                    .any(|fitted| fitted.parameter == first && fitted.at_end.is_some());
+            if !(is_work && fit.work_at_most.is_some() || is_at_end) {
                 sheet.paragraph(&separation(first, second));
             }
         }
@@ -259,10 +359,13 @@ impl FitReport<'_> {
     }
 }
 
-/// Writes a fitted value with half the width of its interval: `γ = 50 ± 2 mJ/m²`. No line breaks
-/// inside.
+/// Writes a fitted value with half the width of its interval: `γ = 50 ± 2 mJ/m²`, or a bound. No
+/// line breaks inside.
 fn with_half_width(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
+    if let Some(bound) = fitted.bound() {
+        return format!("{symbol} {bound}").replace(' ', "\u{a0}");
+    }
     let (low, high) = fitted.interval;
     let value = fitted.text(fitted.value);
     let half_width = fitted.text(0.5 * (high - low));

@@ -8,9 +8,10 @@ use crate::warnings::{sentences_section, with_share};
 use crate::words::counted;
 use asperity_data::{AxisScale, Control, Kind, Note, Remedied, Remedy, Table, Warning, Wording};
 use asperity_data::{
-    format_quantity, format_range, format_within, grouped, one_unit, printable, quartiles,
+    format_quantity, format_range, format_rounded, format_within, grouped, one_unit, printable,
+    quartiles,
 };
-use asperity_experiment::{Fit, MeasuredCurve, Parameter};
+use asperity_experiment::{Fit, MeasuredCurve, Parameter, RangeEnd};
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Span};
 use asperity_scene::Scene;
 use serde::Serialize;
@@ -28,20 +29,19 @@ pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
     /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if
-    /// the curve was not fitted.
-    pub parameters: Vec<[f64; 3]>,
-    /// Pull-off force in N, work of adhesion in J/m² of a smooth sphere with this pull-off force,
-    /// rms residual divided by the noise of the force,
-    /// [misfit](asperity_experiment::FitResult::misfit), and this noise in N; `None` for an unknown
-    /// number.
-    pub facts: [Option<f64>; 5],
+    /// the curve was not fitted. A value at the end of its range is only a bound: it is the lower or
+    /// the upper end of the interval, and the others are `None`.
+    pub parameters: Vec<[Option<f64>; 3]>,
+    /// Numbers of the curve and of its fit in the order of [`FACTS`], in SI units; `None` for an
+    /// unknown number.
+    pub facts: [Option<f64>; FACTS.len()],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
     pub points: Option<u64>,
-    /// True if the model describes the curve, with a
-    /// [misfit](asperity_experiment::FitResult::misfit) of at most 1.5; `None` if the curve was not
-    /// fitted.
+    /// True if the model describes the curve within its noise; `None` if the curve was not fitted.
     pub described: Option<bool>,
-    /// Reason why the model does not describe the curve; empty if there is none.
+    /// [Grade](asperity_experiment::Grade) of the fit in words; empty if the curve was not fitted.
+    pub description: String,
+    /// Reason why the model does not describe the curve within its noise; empty if there is none.
     pub reason: String,
     /// Premises of the model that the scene with the fitted values does not meet.
     pub warnings: Vec<RowWarning>,
@@ -95,13 +95,19 @@ impl RowWarning {
     }
 }
 
-/// Names of the columns after the parameters.
-const FACTS: [&str; 5] = [
+/// Names of the columns after the parameters: pull-off force, work of adhesion of a smooth sphere
+/// with this pull-off force, residual in contact divided by the noise and by the largest force,
+/// misfit, noise, and the numbers of the curve by itself.
+pub const FACTS: [&str; 9] = [
     "pull_off_force",
     "pull_off_work",
     "residual_over_noise",
+    "residual_over_largest_force",
     "misfit",
     "noise",
+    "jumps",
+    "hysteresis",
+    "fall_in_pause",
 ];
 
 /// Endings of the names of the columns of a parameter: its value and both ends of its interval.
@@ -154,7 +160,11 @@ impl CurveRow {
         let mut parameters = Vec::with_capacity(fit.parameters.len());
         for fitted in &fit.parameters {
             let (low, high) = fitted.interval;
-            parameters.push([fitted.value, low, high]);
+            parameters.push(match fitted.at_end {
+                Some(RangeEnd::Low) => [None, None, Some(fitted.value)],
+                Some(RangeEnd::High) => [None, Some(fitted.value), None],
+                None => [Some(fitted.value), Some(low), Some(high)],
+            });
         }
         let reason = match &fit.reason {
             Some(reason) => reason.note().in_words(wording),
@@ -167,11 +177,16 @@ impl CurveRow {
                 force,
                 work,
                 Some(fit.residual_over_noise),
+                Some(fit.agreement.residual_over_largest_force),
                 Some(fit.misfit),
                 Some(curve.noise),
+                Some(curve.features.jumps as f64),
+                curve.features.hysteresis,
+                curve.features.fall_in_pause,
             ],
             points: Some(curve.points as u64),
             described: Some(fit.describes()),
+            description: fit.grade.to_string(),
             reason,
             warnings: fit.warnings.iter().map(RowWarning::of).collect(),
             error: String::new(),
@@ -183,26 +198,28 @@ impl CurveRow {
     pub fn from_line(line: &str, parameters: usize) -> Option<Self> {
         let cells = cells_of(line)?;
         let (file, cells) = cells.split_first()?;
-        if cells.len() != ENDINGS.len() * parameters + FACTS.len() + 5 {
+        if cells.len() != ENDINGS.len() * parameters + FACTS.len() + 6 {
             return None;
         }
         let (values, cells) = cells.split_at(ENDINGS.len() * parameters);
         let (facts, cells) = cells.split_at(FACTS.len());
-        let [points, described, reason, warnings, error] = cells else {
+        let [points, described, description, reason, warnings, error] = cells else {
             return None;
         };
+        let mut parameters = Vec::new();
         // A curve that was not fitted has no values.
-        let values: Vec<f64> = numbers_of(values)?.into_iter().flatten().collect();
-        let parameters = values
-            .chunks_exact(ENDINGS.len())
-            .map(|parameter| [parameter[0], parameter[1], parameter[2]])
-            .collect();
+        if error.is_empty() {
+            for parameter in numbers_of(values)?.chunks_exact(ENDINGS.len()) {
+                parameters.push([parameter[0], parameter[1], parameter[2]]);
+            }
+        }
         Some(CurveRow {
             file: file.clone(),
             parameters,
             facts: numbers_of(facts)?.try_into().ok()?,
             points: points.parse().ok(),
             described: described.parse().ok(),
+            description: description.clone(),
             reason: reason.clone(),
             warnings: RowWarning::in_cell(warnings)?,
             error: error.clone(),
@@ -356,7 +373,8 @@ impl FitsReport<'_> {
             } else {
                 counted(files.len() as u64, "curve")
             };
-            let sentence = format!("The model does not describe {curves}. {reason}");
+            let sentence =
+                format!("The model does not describe {curves} within the noise. {reason}");
             sentences.push(sentence.trim_end().to_owned());
         }
         sentences
@@ -400,7 +418,7 @@ impl FitsReport<'_> {
             others: Vec::new(),
         };
         for row in self.rows {
-            let Some([value, ..]) = row.parameters.first() else {
+            let Some([Some(value), ..]) = row.parameters.first() else {
                 continue;
             };
             match row.described {
@@ -451,20 +469,27 @@ impl FitsReport<'_> {
     fn text_row(&self, row: &CurveRow) -> [String; 4] {
         let mut value = String::new();
         let mut interval = String::new();
-        if let (Some(parameter), Some(&[fitted, low, high])) =
-            (self.free.first(), row.parameters.first())
+        if let Some(parameter) = self.free.first()
+            && let Some(found) = row.parameters.first()
         {
             let unit = parameter.row().unit;
-            let uncertainty = 0.5 * (high - low);
-            value = format_within(fitted, uncertainty, unit);
-            interval = one_unit([low, high].map(|end| format_within(end, uncertainty, unit)));
+            match *found {
+                [Some(fitted), Some(low), Some(high)] => {
+                    let uncertainty = 0.5 * (high - low);
+                    let ends = [low, high].map(|end| format_within(end, uncertainty, unit));
+                    value = format_within(fitted, uncertainty, unit);
+                    interval = one_unit(ends);
+                }
+                [_, Some(least), _] => value = format!("≥ {}", format_rounded(least, 2, unit)),
+                [_, _, Some(most)] => value = format!("≤ {}", format_rounded(most, 2, unit)),
+                _ => {}
+            }
         }
-        let described = match row.described {
-            Some(true) => "yes",
-            Some(false) => "no",
-            None => "-",
+        let described = match row.description.as_str() {
+            "" => "-".to_owned(),
+            description => description.to_owned(),
         };
-        [row.file.clone(), value, interval, described.to_owned()]
+        [row.file.clone(), value, interval, described]
     }
 }
 
@@ -512,7 +537,7 @@ impl Report for FitsReport<'_> {
             for (place, ending) in ENDINGS.into_iter().enumerate() {
                 let name = format!("{}{ending}", parameter.name());
                 table = table.with(name, Kind::Real, move |row: &&CurveRow| {
-                    row.parameters.get(index).map(|values| values[place])
+                    row.parameters.get(index).and_then(|values| values[place])
                 });
             }
         }
@@ -522,6 +547,7 @@ impl Report for FitsReport<'_> {
         let table = table
             .with("points_used", Kind::Whole, |row| row.points)
             .with("described", Kind::Text(0), |row| row.described)
+            .with("description", Kind::Text(0), |row| row.description.clone())
             .with("reason", Kind::Text(0), |row| row.reason.clone())
             .with("warnings", Kind::Text(0), |row| {
                 RowWarning::cell(&row.warnings)
@@ -664,10 +690,14 @@ mod tests {
     fn row(file: &str, work: f64, described: bool) -> CurveRow {
         CurveRow {
             file: file.to_owned(),
-            parameters: vec![[work, 0.9 * work, 1.1 * work], [2e6, 1e6, 3e6]],
-            facts: [Some(1e-6), None, Some(0.5), Some(0.75), Some(1e-9)],
+            parameters: vec![
+                [work, 0.9 * work, 1.1 * work].map(Some),
+                [None, Some(2e6), None],
+            ],
+            facts: [1e-6, 0.05, 0.5, 0.01, 0.75, 1e-9, 2.0, 0.04, 0.0].map(Some),
             points: Some(400),
             described: Some(described),
+            description: if described { "within the noise" } else { "no" }.to_owned(),
             reason: if described {
                 String::new()
             } else {

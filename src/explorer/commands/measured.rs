@@ -13,7 +13,7 @@ use crate::explorer::prompt::Purpose;
 use crate::explorer::studies::Study;
 use asperity_data::Remedied;
 use asperity_data::{Control, format_rounded, one_unit};
-use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Parameter};
+use asperity_experiment::{Fit, FitResult, FittedParameter, Free, Grade, Parameter};
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -221,12 +221,19 @@ fn sentence(fit: &FitResult) -> String {
         return format!("fit: {values}; u undoes");
     };
     let misfit = format_rounded(fit.misfit, 3, "1");
-    format!("the scene does not describe the curve, misfit {misfit}; {values}; {reason} u undoes")
+    let described = match fit.grade {
+        Grade::No => "the scene does not describe the curve".to_owned(),
+        _ => format!("the scene describes the curve {}", fit.agreement),
+    };
+    format!("{described}, misfit {misfit}; {values}; {reason} u undoes")
 }
 
 /// Returns a fitted parameter with its interval as text.
 fn value_in_words(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
+    if let Some(bound) = fitted.bound() {
+        return format!("{symbol} {bound}");
+    }
     let (low, high) = fitted.interval;
     let interval = one_unit([fitted.text(low), fitted.text(high)]);
     format!("{symbol} {} ({interval})", fitted.text(fitted.value))

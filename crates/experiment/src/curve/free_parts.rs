@@ -1,6 +1,6 @@
 //! The parts of a curve without contact, and the place at which the contact begins.
 
-use crate::curve::numerics::{Baseline, Extent, correlated, growing};
+use crate::curve::numerics::{Baseline, Extent, correlated, growing, noise_of_neighbours};
 use crate::curve::points::Points;
 use crate::error::{ExperimentError, refused};
 use crate::read::options::CurveOptions;
@@ -17,6 +17,11 @@ const GAIN: f64 = 40.0;
 /// Deviation of the last points from the line before them, in standard errors, above which these
 /// points are in contact.
 const DEVIATES: f64 = 4.0;
+/// Noise of a part without contact, divided by the noise between neighbouring points, above which a
+/// contact may have been counted as part without contact.
+const UNLIKE_NEIGHBOURS: f64 = 3.0;
+/// Share of this noise that must remain without the points of such a contact.
+const QUIETER: f64 = 0.3;
 /// Values of n: the last n-th of the points without contact is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
 /// A segment is in contact from its first point if the slope of its beginning exceeds this share of
@@ -42,31 +47,47 @@ pub(crate) enum NoFreePart {
 /// The contact begins where a straight line before it and a parabola after it describe the segment
 /// best. This place lies in the steep part of the contact. Its weak beginning is found by going
 /// back until the last points no longer deviate from the line through the points before.
+///
+/// Where the force has several steep parts, as in a loading by steps, this place may lie in a later
+/// one. The noise before it is then far above the differences of neighbouring points, and the
+/// contact is sought again in the points before.
 pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
+    let mut free = count_before_change(forces, least_noise)?;
+    loop {
+        let part = &forces[..free];
+        let noise = Baseline::through(part).noise;
+        if noise <= UNLIKE_NEIGHBOURS * noise_of_neighbours(part).max(least_noise) {
+            return Ok(free);
+        }
+        let Ok(earlier) = count_before_change(part, least_noise) else {
+            return Ok(free);
+        };
+        if Baseline::through(&part[..earlier]).noise > QUIETER * noise {
+            return Ok(free);
+        }
+        free = earlier;
+    }
+}
+
+/// Returns the number of forces before the change that a line and a parabola describe best.
+fn count_before_change(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let count = forces.len();
     if count < 2 * FEWEST {
         return Err(NoFreePart::Few);
     }
-    // Residuals of a line up to each place, and of a parabola from there.
-    let before = growing(forces.iter().copied(), 2);
-    let mut after = growing(forces.iter().rev().copied(), 3);
-    after.reverse();
     // Sums of squares below those of the least noise mean nothing.
     let floor = count as f64 * least_noise * least_noise;
-    let residual = |place: usize| before[place - 1] + after[place] + floor;
-    let places = FEWEST..=count - FEWEST_IN_CONTACT;
-    let contact = places
-        .min_by(|place, next| residual(*place).total_cmp(&residual(*next)))
-        .unwrap_or(FEWEST);
+    let before = growing(forces.iter().copied(), 2);
+    let change = steepest_change(forces, &before, floor);
     let whole = before[count - 1] + floor;
-    if count as f64 * (whole / residual(contact)).ln() < GAIN {
+    if count as f64 * (whole / change.squares).ln() < GAIN {
         return Err(NoFreePart::Straight {
             range: range_of(forces),
             noise: Baseline::through(forces).noise,
         });
     }
 
-    let free = without_weak_contact(forces, contact, least_noise);
+    let free = without_weak_contact(forces, change.place, least_noise);
     if free <= FEWEST
         || begins_steep(forces, free)
         || begins_curved(forces, free, before[free - 1], floor)
@@ -74,6 +95,38 @@ pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFr
         return Err(NoFreePart::InContact);
     }
     Ok(free)
+}
+
+/// Place at which a straight line ends and a parabola begins.
+struct Change {
+    place: usize,
+    /// Sum of the squared residuals of both.
+    squares: f64,
+}
+
+/// Returns the place at which a line before and a parabola after describe the forces best. `before`
+/// has the sums of squares of lines up to each place, and `floor` is added to all sums.
+fn steepest_change(forces: &[f64], before: &[f64], floor: f64) -> Change {
+    let mut after = growing(forces.iter().rev().copied(), 3);
+    after.reverse();
+    let mut best = Change {
+        place: FEWEST,
+        squares: f64::INFINITY,
+    };
+    for place in FEWEST..=forces.len() - FEWEST_IN_CONTACT {
+        let squares = before[place - 1] + after[place] + floor;
+        if squares < best.squares {
+            best = Change { place, squares };
+        }
+    }
+    best
+}
+
+/// Returns the number of forces before the steep part of a contact, of which the last may belong to
+/// its weak beginning.
+pub(crate) fn count_before_steep_part(forces: &[f64]) -> usize {
+    let before = growing(forces.iter().copied(), 2);
+    steepest_change(forces, &before, 0.0).place
 }
 
 fn range_of(forces: &[f64]) -> f64 {
@@ -371,6 +424,24 @@ mod tests {
             let free = free_count(&values, 0.0).unwrap();
             let noise = Baseline::through(&values[..free]).noise / 0.002;
             assert!((0.85..1.2).contains(&noise), "{seed}: {free} {noise}");
+        }
+    }
+
+    /// In a loading by steps the first contact is the first step, though a later one is steeper.
+    #[test]
+    fn the_first_step_of_a_loading_is_the_contact() {
+        for seed in 1..=4 {
+            let force = |index: usize| {
+                let index = index as f64;
+                let snap = if index >= 150.0 { -3.0 } else { 0.0 };
+                let first = 0.1 * (index - 150.0).clamp(0.0, 20.0);
+                let second = 0.4 * (index - 240.0).clamp(0.0, 30.0);
+                let third = 0.6 * (index - 330.0).max(0.0);
+                snap + first + second + third
+            };
+            let values = noisy((0..380).map(force), 0.02, seed);
+            let free = free_count(&values, 0.0).unwrap();
+            assert!((145..=151).contains(&free), "{seed}: {free}");
         }
     }
 }

@@ -1,19 +1,24 @@
 //! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing
 //! is positive.
 
+pub(crate) mod drag;
+pub(crate) mod features;
 pub(crate) mod free_parts;
 pub(crate) mod numerics;
 pub(crate) mod points;
 pub(crate) mod segments;
 pub(crate) mod zero;
 
+use crate::curve::drag::{Drag, DragForce};
+use crate::curve::features::CurveFeatures;
 use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
-use crate::curve::numerics::{Extent, right_angled};
+use crate::curve::numerics::{Extent, dot};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
+use crate::curve::zero::Subtracted;
 use crate::error::{ExperimentError, Part, refused, refused_with};
 use crate::read;
-use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
+use crate::read::options::{CurveOptions, Negate};
 use crate::read::points::Columns;
 use asperity_data::{Note, Remedy, format_quantity, grouped, mean};
 use asperity_surface::files::content;
@@ -27,6 +32,8 @@ const NO_NOISE: f64 = 1e-6;
 /// Force at the end of the approach, in standard deviations of the noise. A force below this value
 /// is a tension, so the sign of the file is in doubt.
 const PULLS: f64 = -5.0;
+/// Share of the largest tension up to which the end of a retraction is without contact.
+const STILL_HELD: f64 = 0.3;
 
 /// Measured force curve in SI units. The displacement grows when the body is pressed on. The force
 /// is positive in compression; before contact it is zero except for noise and drift.
@@ -43,11 +50,20 @@ pub struct MeasuredCurve {
     pub segment: Vec<usize>,
     /// Number of points at the beginning of the curve that lie before contact.
     pub(crate) free: usize,
+    /// Number of points at the end of the curve that lie after contact.
+    pub(crate) free_at_end: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
     /// Standard deviation of the noise of the force, N: from the points before contact, or
     /// [`CurveOptions::noise`].
     pub noise: f64,
+    /// Numbers of the curve by itself, such as its jumps.
+    pub features: CurveFeatures,
+    /// Drag of a fluid that the parts without contact show, and that was taken off; `None` if they
+    /// show none.
+    pub drag: Option<DragForce>,
+    /// True if the last retraction ends without contact.
+    pub detaches: bool,
     /// Number of points of the file that are used. It is larger than the number of values of
     /// [`Self::force`] if the curve is long, because neighbouring points are then averaged.
     pub points: usize,
@@ -58,11 +74,9 @@ pub struct MeasuredCurve {
     /// Changes of the force that remain in the curve without contact, in N: over time, over the
     /// displacement, and from before to after contact. A change that was not found is 0.
     pub(crate) remaining: [f64; 3],
-    /// Time and displacement of each point, as shares of the whole curve.
-    pub(crate) shares: [Vec<f64>; 2],
-    /// For the zero of the force, a drift and a tilt in this order: true if the correction was
-    /// estimated from the points without contact and subtracted.
-    pub(crate) is_estimated: [bool; 3],
+    /// Changes of the force at each point by the lines that were estimated from the points without
+    /// contact and subtracted: the zero, if it was estimated, and drift, tilt and drag.
+    pub(crate) subtracted: SubtractedLines,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement, if the column excludes the deflection of the
@@ -71,6 +85,18 @@ pub struct MeasuredCurve {
     /// Sentences on the assumptions and changes made when the curve was read, such as the columns
     /// and units.
     pub statements: Vec<Note>,
+}
+
+/// Lines that were estimated from the points without contact and subtracted from a curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct SubtractedLines {
+    /// True if the zero of the force was estimated.
+    pub has_zero: bool,
+    /// Values of all other lines at each point of the curve.
+    pub columns: Vec<Vec<f64>>,
+    /// Products of these columns, and first of the zero, summed over the points without contact
+    /// that the curve does not have, because their segment is not used.
+    pub elsewhere: Vec<Vec<f64>>,
 }
 
 impl MeasuredCurve {
@@ -179,7 +205,13 @@ impl MeasuredCurve {
             of_body = None;
         }
 
-        let free = FreeParts::of(&points, options, averaged, least_noise)?;
+        let mut free = FreeParts::of(&points, options, averaged, least_noise)?;
+        let drag = Drag::find(&points, &free, options);
+        if let Some(drag) = &drag {
+            drag.subtract(&mut points);
+            free.before = Some(drag.before);
+            free.after = drag.after;
+        }
         let found_noise = free.line(&points).noise;
         let noise = options.noise.unwrap_or(found_noise).max(least_noise);
         let subtracted = free.subtract_lines(&mut points, options, noise)?;
@@ -196,21 +228,38 @@ impl MeasuredCurve {
         assumed.extend(means_in_words(&points, averaged));
         statements.insert(0, format!("{}.", assumed.join("; ")).into());
         let noise_statement = noise_in_words(noise, options, &free);
-        statements.push(subtracted.statement.then(&noise_statement.into()));
+        statements.push(subtracted.statement.clone().then(&noise_statement.into()));
+        let drag_in_contact = drag_in_contact(drag.as_ref(), &subtracted);
+        statements.extend(
+            drag_in_contact
+                .as_ref()
+                .map(|drag| Note::new(drag_in_words(drag))),
+        );
+        let features = CurveFeatures::of(&points, noise);
+        statements.push(features.sentence().into());
+        let mut lines = subtracted.columns;
+        lines.extend(drag.iter().flat_map(|drag| drag.columns(&points)));
         let values_of = |values: &[f64]| kept.iter().map(|index| values[*index]).collect();
         Ok(MeasuredCurve {
             displacement: values_of(&points.displacement),
             force: values_of(&points.force),
             segment: kept.iter().map(|index| points.segment[*index]).collect(),
             free: count_before_contact(&kept, &free),
+            free_at_end: count_at_end(&kept, &points, &free),
             touch: free.contact_point(&points),
             noise,
+            features,
+            drag: drag_in_contact,
+            detaches: detaches(&points, noise),
             points: kept.iter().map(|index| points.counts[*index]).sum(),
             missing: columns.missing,
             turns: points.turns(last_turn(&points, options)),
             remaining: subtracted.remaining,
-            shares: free.shares.each_ref().map(|shares| values_of(shares)),
-            is_estimated: is_estimated(options),
+            subtracted: SubtractedLines {
+                has_zero: options.zero.is_none(),
+                elsewhere: products_elsewhere(&lines, &kept, &free),
+                columns: lines.iter().map(|line| values_of(line)).collect(),
+            },
             stiffness: columns.stiffness,
             of_body,
             statements,
@@ -226,8 +275,11 @@ impl MeasuredCurve {
     }
 
     /// Returns the largest tensile force during the retractions in N, as a positive number; `None`
-    /// if this force is at most 5 times the [`Self::noise`].
+    /// if this force is at most 5 times the [`Self::noise`], or if the body does not detach.
     pub fn pull_off_force(&self) -> Option<f64> {
+        if !self.detaches {
+            return None;
+        }
         let points = self.force.iter().zip(&self.segment);
         let pulled = points.filter(|(_, segment)| *segment % 2 == 1);
         let force = -Extent::of(pulled.map(|(force, _)| *force)).low;
@@ -241,13 +293,25 @@ impl MeasuredCurve {
         if step < 2 {
             return None;
         }
+        let end_of_contact = (self.force.len() - self.free_at_end).div_ceil(step);
+        let count = self.force.len().div_ceil(step);
         let thin = |values: &[f64]| values.iter().step_by(step).copied().collect::<Vec<f64>>();
         Some(MeasuredCurve {
             displacement: thin(&self.displacement),
             force: thin(&self.force),
             segment: self.segment.iter().step_by(step).copied().collect(),
             free: self.free.div_ceil(step),
-            shares: self.shares.each_ref().map(|shares| thin(shares)),
+            free_at_end: count - end_of_contact.min(count),
+            subtracted: SubtractedLines {
+                has_zero: self.subtracted.has_zero,
+                elsewhere: self.subtracted.elsewhere.clone(),
+                columns: self
+                    .subtracted
+                    .columns
+                    .iter()
+                    .map(|column| thin(column))
+                    .collect(),
+            },
             turns: self.turns.clone(),
             statements: self.statements.clone(),
             stiffness: self.stiffness.clone(),
@@ -256,32 +320,99 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns orthonormal columns for the zero of the force, the removed drift and the removed
-    /// tilt, if these were estimated from the curve. Each model refines the estimates. `has_zero`
-    /// is true if the zero is a free parameter.
+    /// Returns columns for the zero of the force and the other lines that were estimated from the
+    /// curve. Each model refines the estimates. `has_zero` is true if the zero is a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
-        let [time, displacement] = &self.shares;
-        let [zero, drift, tilt] = self.is_estimated;
         let mut columns = Vec::new();
-        if zero && !has_zero {
-            columns.push(vec![1.0; time.len()]);
+        if self.subtracted.has_zero && !has_zero {
+            columns.push(vec![1.0; self.force.len()]);
         }
-        if drift {
-            columns.push(time.clone());
-        }
-        if tilt {
-            columns.push(displacement.clone());
-        }
-        right_angled(&columns)
+        columns.extend(self.subtracted.columns.iter().cloned());
+        columns
+    }
+
+    /// Returns true for each point that the curve by itself has in contact.
+    pub(crate) fn in_contact(&self) -> Vec<bool> {
+        let end = self.force.len() - self.free_at_end;
+        (0..self.force.len())
+            .map(|index| (self.free..end).contains(&index))
+            .collect()
     }
 }
 
-/// Returns whether zero, drift and tilt are estimated from the points without contact.
-fn is_estimated(options: &CurveOptions) -> [bool; 3] {
-    let has_zero = options.zero.is_none();
-    let has_drift = options.drift == Drift::Remove;
-    let has_tilt = options.tilt == Tilt::Remove;
-    [has_zero, has_drift, has_tilt]
+/// Returns the sums of products of the columns, and first of a constant, over the points without
+/// contact that are not used.
+fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) -> Vec<Vec<f64>> {
+    let count = free.shares[0].len();
+    let before = 0..free.before.unwrap_or(0);
+    let after = count - free.after..count;
+    let indices: Vec<usize> = before
+        .chain(after)
+        .filter(|index| kept.binary_search(index).is_err())
+        .collect();
+    let mut values = vec![vec![1.0; indices.len()]];
+    for column in columns {
+        values.push(indices.iter().map(|index| column[*index]).collect());
+    }
+    values
+        .iter()
+        .map(|row| values.iter().map(|column| dot(row, column)).collect())
+        .collect()
+}
+
+/// Returns the number of the points used at the end of the curve that lie after contact.
+fn count_at_end(kept: &[usize], points: &Points, free: &FreeParts) -> usize {
+    let first = points.force.len() - free.after;
+    kept.len() - kept.partition_point(|index| *index < first)
+}
+
+/// Returns true if the last retraction ends without contact: its last forces are far from the
+/// largest tension, and from the force at its beginning.
+fn detaches(points: &Points, noise: f64) -> bool {
+    let last = points.last_segment();
+    if last.is_multiple_of(2) {
+        return false;
+    }
+    let forces = &points.force[points.moving(last)];
+    let count = (forces.len() / 50).clamp(3, 20).min(forces.len());
+    let end = mean(&forces[forces.len() - count..]);
+    let tension = -Extent::of(forces.iter().copied()).low;
+    end.abs() < (STILL_HELD * tension).max(PULLS.abs() * noise)
+}
+
+/// Returns the forces of a drag on a body in contact that was taken off, if there is one.
+fn drag_in_contact(drag: Option<&Drag>, subtracted: &Subtracted) -> Option<DragForce> {
+    let mut force = match drag {
+        Some(drag) => drag.in_contact(),
+        None => DragForce {
+            pressed: 0.0,
+            pulled: 0.0,
+            reach: None,
+        },
+    };
+    force.pulled += subtracted.step_of_retraction;
+    let has_drag = force.pressed != 0.0 || force.pulled != 0.0;
+    has_drag.then_some(force)
+}
+
+/// Returns the sentence on a drag that was taken off.
+fn drag_in_words(drag: &DragForce) -> String {
+    let pressed = format_quantity(drag.pressed, "N");
+    let pulled = format_quantity(drag.pulled, "N");
+    match drag.reach {
+        Some(reach) => {
+            let reach = format_quantity(reach, "m");
+            format!(
+                "Drag of a fluid, −c/(h + h₀) with h₀ = {reach} by the parts without contact, was taken off: {pressed} on the \
+                 approach and {pulled} on the retraction in contact."
+            )
+        }
+        None => format!(
+            "The force on the retraction is lower by {} than on the approach where nothing touches, as by drag: this was taken off \
+             the retraction.",
+            format_quantity(-drag.pulled, "N")
+        ),
+    }
 }
 
 /// Returns the number of means in place of the points of the file, if several are averaged.
@@ -488,15 +619,28 @@ fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
     }
 }
 
+/// Returns the largest of the forces in N at the ends of the approaches, of which the first may be a
+/// partial loading.
+fn force_at_largest_turn(points: &Points) -> f64 {
+    let mut largest = f64::NEG_INFINITY;
+    for number in (0..=points.last_segment()).step_by(2) {
+        let range = points.range_of(number);
+        let count = (range.len() / 20).max(1);
+        if range.len() >= count {
+            largest = largest.max(mean(&points.force[range.end - count..range.end]));
+        }
+    }
+    largest
+}
+
 /// Returns an error if the force is negative where the body is pressed most.
 fn check_sign(points: &Points, options: &CurveOptions, noise: f64) -> Result<(), ExperimentError> {
-    let first = points.range_of(points.segment[0]);
-    let count = (first.len() / 20).max(1);
     let is_approach = points.begins_with_approach();
     let pressed = if is_approach {
-        mean(&points.force[first.end - count..first.end])
+        force_at_largest_turn(points)
     } else {
-        mean(&points.force[..count])
+        let first = points.range_of(points.segment[0]);
+        mean(&points.force[..(first.len() / 20).max(1)])
     };
     if options.negate.is_some() || pressed >= PULLS * noise {
         return Ok(());
@@ -527,7 +671,7 @@ mod tests {
         let curve = from_text(&text, &CurveOptions::default()).unwrap();
         assert_eq!((curve.missing, curve.points), (2, 100_000));
         assert!(
-            curve.force.len() <= MOST_POINTS && curve.statements.len() == 2,
+            curve.force.len() <= MOST_POINTS && curve.statements.len() == 3,
             "{:?}",
             curve.statements
         );
@@ -702,5 +846,46 @@ mod tests {
                 "{said}: {error}"
             );
         }
+    }
+
+    /// A retraction that ends in tension has no pull-off force; with its free end it has one.
+    #[test]
+    fn a_curve_that_does_not_detach_has_no_pull_off_force() {
+        let adheres = |end: f64| {
+            let points = of_spring(600).into_iter().enumerate();
+            let pulled = points.filter_map(|(index, (d, f))| match (index < 300, d) {
+                (true, _) => Some((d, f)),
+                (false, d) if d < end => None,
+                (false, d) if d < -30.0 => Some((d, 1.0 + 0.1 * f64::from(index as u32 % 2))),
+                (false, d) => Some((d, 1.0 + 2.0 * d)),
+            });
+            from_text(&lines(pulled), &CurveOptions::default()).unwrap()
+        };
+        let whole = adheres(-100.0);
+        let force = whole.pull_off_force().unwrap();
+        assert!(
+            whole.detaches && (force / 60e-9 - 1.0).abs() < 0.02,
+            "{force:e}"
+        );
+        let held = adheres(-20.0);
+        assert!(!held.detaches && held.pull_off_force().is_none());
+    }
+
+    /// Short steps of a loading are motions, and a slow creep of a part without a name is a pause.
+    #[test]
+    fn short_steps_are_used() {
+        let spring = |d: f64, part: i32| (d, 2.0 * d.max(0.0) + 0.1 * f64::from(part % 2), part);
+        let mut points = Vec::new();
+        points.extend((-100..40).map(|d| spring(f64::from(d), 0)));
+        points.extend((0..50).map(|index| spring(40.0 + 0.001 * f64::from(index), 1)));
+        points.extend((40..44).map(|d| spring(f64::from(d), 2)));
+        points.extend((0..50).map(|index| spring(44.0 + 0.001 * f64::from(index), 3)));
+        points.extend((-100..44).rev().map(|d| spring(f64::from(d), 4)));
+        let text = points.iter().fold(
+            "displacement [nm],force [nN],segment\n".to_owned(),
+            |text, (d, f, part)| text + &format!("{d},{f},{part}\n"),
+        );
+        let curve = from_text(&text, &CurveOptions::default()).unwrap();
+        assert_eq!(curve.points, 140 + 4 + 144, "{:?}", curve.statements);
     }
 }

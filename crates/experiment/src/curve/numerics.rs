@@ -1,7 +1,10 @@
 //! Least-squares lines, polynomials and combinations of columns.
 
-use asperity_data::mean;
+use asperity_data::{mean, median};
+use std::f64::consts::SQRT_2;
 
+/// Standard deviation of a normal distribution divided by the median of its magnitude.
+pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
 /// Smallest number of independent ranges that a curve is assumed to have.
 const RANGES: usize = 20;
 
@@ -47,6 +50,16 @@ impl Baseline {
             .map(|(index, value)| value - self.mean - self.slope * (index as f64 - middle))
             .collect()
     }
+}
+
+/// Returns the standard deviation of the noise of values by the median difference of neighbours,
+/// which slow changes and single jumps do not increase.
+pub(crate) fn noise_of_neighbours(values: &[f64]) -> f64 {
+    let mut differences: Vec<f64> = values
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .collect();
+    median(&mut differences).unwrap_or(0.0) * MEDIAN_TO_DEVIATION / SQRT_2
 }
 
 /// Returns the sums of squared residuals of least-squares polynomials with `terms` terms. The first

@@ -10,6 +10,9 @@ const TURN: f64 = 0.05;
 const SMOOTHING: f64 = 1e-3;
 /// Share of the range of the displacement within which a pause stays.
 const STILL: f64 = 0.01;
+/// Share of the range of the displacement above which a part with one label is a motion, if it is
+/// as fast as others.
+const SHORTEST: f64 = 0.002;
 /// Smallest number of points of a pause.
 const FEWEST: usize = 10;
 /// Least ratio of the points of a pause to the points of a motion over the same way.
@@ -144,10 +147,25 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
+/// Returns the largest way from point to point in m, as a mean over a part with one label.
+fn fastest_part(labels: &[Label], displacement: &[f64]) -> f64 {
+    let mut fastest = 0.0_f64;
+    let mut start = 0;
+    for part in labels.chunk_by(|label, next| label == next) {
+        let last = start + part.len() - 1;
+        let way = (displacement[last] - displacement[start]).abs();
+        fastest = fastest.max(way / part.len() as f64);
+        start += part.len();
+    }
+    fastest
+}
+
 /// Finds segments by the labels of a file. Neighbouring parts in one direction are one segment, and
 /// parts without motion are pauses. Returns `None` if the labels do not separate the directions.
 fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
-    let least = TURN * Extent::of(displacement.iter().copied()).width();
+    let range = Extent::of(displacement.iter().copied()).width();
+    let least = TURN * range;
+    let fastest = fastest_part(labels, displacement);
     let mut segments = Segments {
         numbers: Vec::with_capacity(labels.len()),
         is_still: Vec::with_capacity(labels.len()),
@@ -164,7 +182,10 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         if !is_pause && width > 2.0 * moved.abs().max(least) {
             return None;
         }
-        let stays = is_pause || moved.abs() < least;
+        // A short step of a loading by steps moves as fast as its other parts.
+        let is_step = moved.abs() > (SHORTEST * range).max(width - moved.abs())
+            && MORE * moved.abs() > fastest * part.len() as f64;
+        let stays = is_pause || moved.abs() < least && !is_step;
         if !stays {
             let presses = moved > 0.0;
             if pressed_before == Some(!presses) {

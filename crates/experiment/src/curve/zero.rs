@@ -135,6 +135,10 @@ impl Residual {
 pub(crate) struct Subtracted {
     /// Drift, tilt and step that remain, N; 0 for each that was not found.
     pub remaining: [f64; 3],
+    /// Step of the force by drag, N, taken off the retractions; 0 if there is none.
+    pub step_of_retraction: f64,
+    /// Values at each point of the lines that were subtracted, without the zero.
+    pub columns: Vec<Vec<f64>>,
     /// Sentences on all of them.
     pub statement: Note,
 }
@@ -173,9 +177,25 @@ impl FreeParts {
             let line = drift * (time[index] - middle_time)
                 + tilt * (displacement[index] - middle_displacement);
             *force -= zero + line;
+            if points.segment[index] % 2 == 1 {
+                *force -= lines.step_of_retraction();
+            }
+        }
+        let mut columns = Vec::new();
+        if lines.removed.drift {
+            columns.push(time.clone());
+        }
+        if lines.removed.tilt {
+            columns.push(displacement.clone());
+        }
+        if lines.step_of_retraction() != 0.0 {
+            let is_pulled = points.segment.iter().map(|segment| (segment % 2) as f64);
+            columns.push(is_pulled.collect());
         }
         Ok(Subtracted {
             remaining: lines.remaining(),
+            step_of_retraction: lines.step_of_retraction(),
+            columns,
             statement: lines.statement(zero),
         })
     }
@@ -317,6 +337,15 @@ impl<'a> Lines<'a> {
         }
     }
 
+    /// Returns the step in N that is taken off the retractions, since a drag makes it: the force on
+    /// the retraction is lower. 0 without such a step, or for a retraction with its own zero.
+    fn step_of_retraction(&self) -> f64 {
+        match self.with_step {
+            Some(slopes) if self.step_of_zero() == 0.0 => slopes.step.value.min(0.0),
+            _ => 0.0,
+        }
+    }
+
     /// Returns true for a drift that stays in the curve.
     fn keeps_drift(&self) -> bool {
         self.remains(self.stated.drift) && !self.removed.drift
@@ -329,7 +358,8 @@ impl<'a> Lines<'a> {
 
     /// Returns drift, tilt and step that remain, N.
     fn remaining(&self) -> [f64; 3] {
-        let mut remaining = [0.0, 0.0, self.stated.step.value];
+        let step = self.stated.step.value - self.step_of_retraction();
+        let mut remaining = [0.0, 0.0, step];
         if self.free.has_both() {
             if self.keeps_drift() {
                 remaining[0] = self.stated.drift.value;

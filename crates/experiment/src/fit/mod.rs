@@ -1,7 +1,9 @@
 //! Fit of the parameters of a scene to a measured curve, with the errors of the parameters. The fit
 //! also finds the parameters that the curve cannot separate.
 
+pub(crate) mod agreement;
 pub(crate) mod ensemble;
+pub(crate) mod lines;
 pub(crate) mod model;
 pub(crate) mod parameter;
 pub(crate) mod population;
@@ -15,24 +17,30 @@ pub(crate) mod start;
 pub(crate) mod statistics;
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::dot;
 use crate::error::ExperimentError;
+use crate::fit::agreement::Compared;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Free, Parameter};
 use crate::fit::population::WRONG_SIDE;
 use crate::fit::posterior::Posterior;
-use crate::fit::reason::reason;
-use crate::fit::result::FitResult;
+use crate::fit::reason::{Reason, reason, steeper_slope};
+use crate::fit::result::{FitResult, FittedParameter, RangeEnd};
 use crate::fit::scene::{with_values, wrong};
 use crate::fit::search::{MISFIT, Search, SearchResult};
 use crate::fit::space::Space;
+use crate::fit::statistics::scale;
 use asperity_data::{Control, Note, Remedy, format_rounded};
-use asperity_scene::{Document, Simulation};
+use asperity_scene::{CheckedScene, Document, Simulation};
 use asperity_surface::lines::MeasuredRoughness;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Number of points that are enough for a curve whose residuals are more than noise.
 const ENOUGH: usize = 400;
+/// Largest number of times that ranges are made wider.
+const EXTENSIONS: usize = 4;
+/// Noise, in standard deviations, that a bound of the work of adhesion by the pull-off allows for.
+const ALLOWED_NOISE: f64 = 3.0;
 
 /// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the
 /// computed force of the scene with a [`MeasuredCurve`].
@@ -138,8 +146,8 @@ impl<'a> Fit<'a> {
 
 /// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
 ///
-/// If the best work of adhesion lies at the end of a range that was not given, the fit is repeated
-/// with a wider range.
+/// While the best value lies at the end of a range that was not given, the fit is repeated with a
+/// wider range.
 fn find(
     curve: &MeasuredCurve,
     given: &Document,
@@ -149,55 +157,124 @@ fn find(
     report: &mut dyn FnMut(usize),
 ) -> Result<FitResult, ExperimentError> {
     let (_, instrument) = curve.with_instrument(given).map_err(wrong)?;
-    let (document, space) = Space::of(curve, given, simulation, free, stop)?;
-    let searched = search(curve, &document, simulation, &space, report)?;
-    if let Some(wider) = space.extended(&searched.result.best.place, free) {
-        let before = searched.evaluations;
-        let mut report_all = |computed| report(before + computed);
-        let mut fit = find(curve, given, &wider, simulation, stop, &mut report_all)?;
-        fit.evaluations += before;
-        return Ok(fit);
+    let mut ranges = free.to_vec();
+    let mut computed = 0;
+    let mut extensions = 0;
+    loop {
+        let (document, space) = Space::of(curve, given, simulation, &ranges, stop)?;
+        let mut report_all = |evaluations: usize| report(computed + evaluations);
+        let mut searched = search(curve, &document, simulation, &space, &mut report_all)?;
+        computed += searched.evaluations;
+        if extensions < EXTENSIONS
+            && let Some(wider) = space.extended(&searched.result.best.place, free, &ranges)
+        {
+            ranges = wider;
+            extensions += 1;
+            continue;
+        }
+        searched.evaluations = computed;
+        let mut result = result(&document, simulation, &space, searched)?;
+        result.assumptions.splice(..0, instrument.map(Note::new));
+        return Ok(result);
     }
+}
 
+/// Makes the result of a search in a space.
+fn result(
+    document: &Document,
+    simulation: &mut Simulation,
+    space: &Space<'_>,
+    searched: Searched,
+) -> Result<FitResult, ExperimentError> {
+    let curve = space.curve;
     let free = space.parameters();
     let has_other_profile = searched.misfit > MISFIT && document.scene().seed().is_some();
-    let posterior = Posterior::new(&space, &searched.result, has_other_profile);
-    let parameters = posterior.parameters();
+    let posterior = Posterior::new(space, &searched.result, has_other_profile);
+    let best = &posterior.best;
     let is_free = |parameter| free.contains(&parameter);
-    let fitted = with_values(&document, &posterior.best, is_free, curve)?;
-    let (_, governing) = simulation.contact(fitted.scene())?;
-    let tabor = governing.tabor_number(fitted.scene());
-    let mut reason_of_misfit = None;
-    if searched.misfit > MISFIT {
-        let best = &posterior.best;
-        let scene = fitted.scene();
-        let reason = reason(curve, scene, simulation, best, &free, tabor)?;
+    let fitted = with_values(document, best, is_free, curve)?;
+    let scene = fitted.scene();
+    let mut parameters = posterior.parameters();
+    let most_work = most_work_by_pull_off(curve, scene);
+    let slope = steeper_slope(curve, best, &free);
+    for fitted in &mut parameters {
+        match fitted.parameter {
+            Parameter::Work => limit_work(fitted, most_work),
+            Parameter::Modulus if slope.is_some() => fitted.set_at_end(RangeEnd::High),
+            _ => {}
+        }
+    }
+    let work_at_most = posterior.work_at_most(&parameters);
+    let (_, governing) = simulation.contact(scene)?;
+    // Without adhesion the Tabor number is that of the noise.
+    let tabor = match work_at_most {
+        Some(_) => None,
+        None => governing.tabor_number(scene),
+    };
+    let mut reason_of_misfit =
+        slope.map(|slope| Reason::Stiffness(slope, best[Parameter::Stiffness as usize]));
+    let line_remains = curve.remaining[..2].iter().any(|change| *change != 0.0);
+    if (searched.misfit > MISFIT || line_remains) && reason_of_misfit.is_none() {
+        let residuals = &searched.residuals;
+        let reason = reason(curve, scene, simulation, best, residuals, &free, tabor)?;
         reason_of_misfit = Some(reason);
     }
-
-    let residual_over_noise = searched.root_mean_square();
+    let comparison = searched.compared(curve).comparison();
     Ok(FitResult {
-        work_at_most: posterior.work_at_most(&parameters),
+        work_at_most,
         parameters,
-        residual: curve.noise * residual_over_noise,
+        residual: comparison.agreement.residual,
         misfit: searched.misfit,
-        residual_over_noise,
-        beyond_five_sigma: searched.share_beyond(WRONG_SIDE),
+        residual_over_noise: comparison.residual_over_noise,
+        beyond_five_sigma: comparison.beyond_five_sigma,
+        grade: comparison
+            .agreement
+            .grade(searched.misfit, reason_of_misfit.is_some()),
+        agreement: comparison.agreement,
         tabor,
         reason: reason_of_misfit,
-        warnings: simulation.compute(fitted.scene())?.warnings,
+        warnings: simulation.compute(scene)?.warnings,
         correlations: posterior.correlations(),
         not_distinguished: posterior.not_distinguished(),
-        assumptions: assumptions(curve, instrument, &free),
+        assumptions: assumptions(curve, &free),
         evaluations: searched.evaluations,
         model: searched.model_forces(curve),
         document: fitted,
     })
 }
 
+/// Returns the largest work of adhesion in J/m² with which a smooth sphere can have the tension of
+/// the curve (Johnson, Kendall and Roberts), with an allowance for noise and for the distance of
+/// points; `None` for another body, and for a curve that does not show the pull-off.
+fn most_work_by_pull_off(curve: &MeasuredCurve, scene: &CheckedScene) -> Option<f64> {
+    let radius = scene.form.as_ref()?.sphere_radius()?;
+    if scene.roughness.is_some() || !curve.detaches {
+        return None;
+    }
+    let is_pulled = |index: &usize| curve.segment[*index] % 2 == 1;
+    let lowest = (0..curve.force.len())
+        .filter(is_pulled)
+        .min_by(|index, next| curve.force[*index].total_cmp(&curve.force[*next]))?;
+    let tension = -curve.force[lowest];
+    let before = curve.force[lowest.saturating_sub(1)];
+    let tension = tension.max(0.0) + (before + tension).abs() + ALLOWED_NOISE * curve.noise;
+    Some(tension / (1.5 * PI * radius))
+}
+
+/// Limits the interval of the work of adhesion by what the pull-off allows.
+fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
+    let Some(most) = most else {
+        return;
+    };
+    if work.interval.1 > most && work.value <= most {
+        work.interval.1 = most;
+        work.noise_error = work.noise_error.min(most - work.interval.0);
+    }
+}
+
 /// Returns what the fit takes for granted, in sentences.
-fn assumptions(curve: &MeasuredCurve, instrument: Option<String>, free: &[Parameter]) -> Vec<Note> {
-    let mut assumptions = Vec::from_iter(instrument.map(Note::new));
+fn assumptions(curve: &MeasuredCurve, free: &[Parameter]) -> Vec<Note> {
+    let mut assumptions = Vec::new();
     if !free.contains(&Parameter::Offset) {
         assumptions.push(fixed_contact_point(curve));
     }
@@ -229,6 +306,10 @@ struct Searched {
     result: SearchResult,
     /// Residuals of all points of the curve, in units of the noise.
     residuals: Vec<f64>,
+    /// True for each point at which the body touches, in the measurement or in the model.
+    in_contact: Vec<bool>,
+    /// Distance from the jump for each point on the wrong side of a jump, m.
+    distances_from_jumps: Vec<Option<f64>>,
     /// [`FitResult::misfit`] of the residuals.
     misfit: f64,
     /// Number of curves computed.
@@ -236,18 +317,13 @@ struct Searched {
 }
 
 impl Searched {
-    fn root_mean_square(&self) -> f64 {
-        (dot(&self.residuals, &self.residuals) / self.residuals.len() as f64).sqrt()
-    }
-
-    /// Returns the share of the residuals that are larger than `limit`.
-    fn share_beyond(&self, limit: f64) -> f64 {
-        let beyond = self
-            .residuals
-            .iter()
-            .filter(|residual| residual.abs() > limit)
-            .count();
-        beyond as f64 / self.residuals.len() as f64
+    fn compared<'a>(&'a self, curve: &'a MeasuredCurve) -> Compared<'a> {
+        Compared {
+            curve,
+            residuals: &self.residuals,
+            in_contact: &self.in_contact,
+            distances_from_jumps: &self.distances_from_jumps,
+        }
     }
 
     /// Returns the forces of the model in N at the points of the curve.
@@ -301,11 +377,24 @@ fn search(
         Some(result) => result,
         None => search.find()?,
     };
-    let best = &result.best.place;
-    let residuals = search.residuals(best, WRONG_SIDE * result.noise)?;
-    let misfit = space.misfit(&search.beyond_jumps(best, &residuals)?);
+    let best = search.exact(&result.best.place)?;
+    let residuals = search.lines.refined(&best.residuals, result.noise);
+    let beyond_jumps = search.beyond_jumps(&best.place, &residuals)?;
+    let misfit = scale(&best.contact_residuals(&beyond_jumps), WRONG_SIDE);
+    let in_newtons: Vec<f64> = residuals
+        .iter()
+        .map(|residual| residual * curve.noise)
+        .collect();
+    let values = space.values(&best.place);
+    let least_jump = WRONG_SIDE * curve.noise;
+    let distances_from_jumps =
+        search
+            .model
+            .distances_from_jumps(&values, &in_newtons, least_jump)?;
     Ok(Searched {
         residuals,
+        in_contact: best.in_contact,
+        distances_from_jumps,
         misfit,
         evaluations: computed + search.model.evaluations,
         result,
@@ -318,7 +407,7 @@ mod tests {
     use crate::common::{
         Made, fit_from, fitted, gauss, measured, on_rubber, random, read, rubber, rubber_of, truth,
     };
-    use crate::fit::reason::Reason;
+    use crate::curve::numerics::dot;
     use crate::read::options::Drift;
     use asperity_contact::Move;
 
@@ -352,12 +441,15 @@ mod tests {
         let fit = fitted(&curve, &made, "work,modulus,offset");
         assert_found(&made, &fit);
         // The forces of the model, with the zero and drift of the curve, leave the residual.
+        let in_contact = curve.in_contact();
         let squares = curve
             .force
             .iter()
             .zip(&fit.model)
-            .map(|(force, model)| (force - model).powi(2));
-        let residual = (squares.sum::<f64>() / curve.force.len() as f64).sqrt();
+            .zip(&in_contact)
+            .filter(|(_, touches)| **touches)
+            .map(|((force, model), _)| (force - model).powi(2));
+        let residual = (squares.sum::<f64>() / fit.agreement.points as f64).sqrt();
         assert!(
             (residual / fit.residual - 1.0).abs() < 1e-9,
             "{residual} {}",
@@ -425,11 +517,23 @@ mod tests {
         let inside = with(&[jump]);
         assert!(
             inside.describes() && inside.misfit < 1.02 * clean.misfit,
-            "{inside:?}"
+            "{} {}",
+            inside.misfit,
+            clean.misfit
         );
         assert!(
-            inside.beyond_five_sigma > 0.0 && inside.evaluations < clean.evaluations * 5 / 4,
-            "{inside:?}"
+            inside.evaluations < clean.evaluations * 5 / 4,
+            "{} {}",
+            inside.evaluations,
+            clean.evaluations
+        );
+        let mut before = curve.clone();
+        before.force[jump - 1] += half;
+        let before = fitted(&before, &made, "work,modulus,offset").agreement;
+        let residual = clean.agreement.residual;
+        assert!(
+            before.at_jumps > 0.0 && before.residual < 1.05 * residual,
+            "{before:?} {residual:e}"
         );
         let apart: Vec<usize> = (1..11).map(|step| jump - 10 * step).collect();
         assert!(with(&apart).misfit > 1.2 * clean.misfit);

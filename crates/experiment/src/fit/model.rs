@@ -158,6 +158,49 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
+    /// Returns for each point of the curve the distance in m from the nearest jump of the model, if
+    /// the point lies on the wrong side of the jump; otherwise `None`. Such points form a row that
+    /// begins at the jump. Each has a residual above `least` N, and a force inside the jump or nearer
+    /// to the force of its other side than to that of the model. `residuals` are the measured forces
+    /// minus those of the model, N.
+    pub fn distances_from_jumps(
+        &mut self,
+        values: &Values,
+        residuals: &[f64],
+        least: f64,
+    ) -> Result<Vec<Option<f64>>, ExperimentError> {
+        self.evaluations += 1;
+        let curve = self.curve;
+        let mut distances = vec![None; curve.force.len()];
+        self.each_segment(values, |segment, points, offset| {
+            let place = |index: usize| curve.displacement[index] - offset;
+            let number = curve.segment.get(points.start).copied().unwrap_or(0);
+            let sign = if number % 2 == 0 { 1.0 } else { -1.0 };
+            for jump in jumps_of(segment) {
+                let [before, after] = jump.forces;
+                if (after - before).abs() < least {
+                    continue;
+                }
+                let is_wrong = |index: usize, other_side: f64| {
+                    let force = force_at(segment, place(index)) + residuals[index];
+                    let residual = residuals[index].abs();
+                    let is_inside = force > before.min(after) && force < before.max(after);
+                    residual > least && (is_inside || (force - other_side).abs() < residual)
+                };
+                let is_past = |index: &usize| sign * (place(*index) - jump.displacement) >= 0.0;
+                let first = points.clone().find(is_past).unwrap_or(points.end);
+                let past = (first..points.end).take_while(|index| is_wrong(*index, before));
+                let ahead = (points.start..first)
+                    .rev()
+                    .take_while(|index| is_wrong(*index, after));
+                for index in past.chain(ahead) {
+                    distances[index] = Some((place(index) - jump.displacement).abs());
+                }
+            }
+        })?;
+        Ok(distances)
+    }
+
     /// Computes the curve of each segment. Calls `take` with the curve, the index range of its
     /// points in the measured curve, and the displacement at first touch.
     fn each_segment(

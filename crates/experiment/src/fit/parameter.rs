@@ -3,6 +3,7 @@
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
+use asperity_scene::fields::field;
 use asperity_scene::text::did_you_mean;
 use serde::{Serialize, Serializer};
 use std::str::FromStr;
@@ -92,6 +93,24 @@ impl Parameter {
     /// Returns true for a parameter that may have either sign.
     pub(crate) fn is_signed(self) -> bool {
         matches!(self, Parameter::Offset | Parameter::Zero)
+    }
+
+    /// Returns the least and the largest value that a scene may have for the parameter; `None` for a
+    /// parameter without such limits, or one that no search comes close to.
+    pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
+        let path = match self {
+            Parameter::Modulus => "material.youngs_modulus",
+            Parameter::Stiffness => "loading_stiffness",
+            _ => return None,
+        };
+        let (least, most) = field(path, None)?.range.ends()?;
+        // Young's modulus is at least 3/4 of the effective modulus.
+        let factor = if self == Parameter::Modulus {
+            4.0 / 3.0
+        } else {
+            1.0
+        };
+        Some((factor * least, most))
     }
 
     /// Returns true for a work of adhesion, which may be 0.

@@ -13,6 +13,20 @@ pub(crate) const WRONG_SIDE: f64 = 5.0;
 pub(crate) struct Member {
     pub place: Vec<f64>,
     pub residuals: Vec<f64>,
+    /// True for each point of the curve at which the body touches, in the measurement or in the
+    /// model.
+    pub in_contact: Vec<bool>,
+}
+
+impl Member {
+    /// Returns those of the residuals that belong to points in contact.
+    pub fn contact_residuals(&self, residuals: &[f64]) -> Vec<f64> {
+        let points = residuals.iter().zip(&self.in_contact);
+        points
+            .filter(|(_, in_contact)| **in_contact)
+            .map(|(residual, _)| *residual)
+            .collect()
+    }
 }
 
 /// Members with their costs at a noise.

@@ -48,10 +48,15 @@ impl<'a> Posterior<'a> {
 
     /// Returns all free parameters with their errors.
     pub fn parameters(&self) -> Vec<FittedParameter> {
-        let coordinates = self.space.coordinates.iter();
-        coordinates
-            .map(|coordinate| self.fitted(coordinate))
-            .collect()
+        let mut parameters = Vec::with_capacity(self.space.coordinates.len());
+        for (index, coordinate) in self.space.coordinates.iter().enumerate() {
+            let mut fitted = self.fitted(coordinate);
+            if let Some(end) = self.space.end_at(index, &self.result.best.place) {
+                fitted.set_at_end(end);
+            }
+            parameters.push(fitted);
+        }
+        parameters
     }
 
     fn fitted(&self, coordinate: &Coordinate) -> FittedParameter {
@@ -86,6 +91,7 @@ impl<'a> Posterior<'a> {
             noise_error,
             start: coordinate.start,
             range: coordinate.range,
+            at_end: None,
         }
     }
 

@@ -5,7 +5,7 @@ use crate::curve::numerics::{Extent, dot, least_squares, right_angled, subtract_
 use crate::error::ExperimentError;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Parameter, Values};
-use asperity_data::{Note, Remedy, Warning, format_quantity, median};
+use asperity_data::{Note, Remedy, Warning, format_quantity, format_rounded, median};
 use asperity_scene::{CheckedScene, Simulation};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
@@ -18,10 +18,16 @@ const EXPLAINS: f64 = 0.4;
 /// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
 /// allow.
 const STEEPER: f64 = 1.03;
-/// Share of the way from first touch to the turning point in which this slope is measured.
-const PRESSED: f64 = 0.2;
+/// Shares of the way from first touch to the turning point in which this slope is measured.
+const PRESSED: [f64; 2] = [0.2, 0.5];
 /// Smallest number of points from which this slope is measured.
 const FEWEST: usize = 5;
+/// Hysteresis in compression, as a share of the loading, that a smaller work of adhesion on closing
+/// makes.
+const OF_ADHESION: (f64, f64) = (0.03, 0.11);
+/// Hysteresis in compression above which a body relaxes, and fall of the force in a pause.
+const RELAXES: f64 = 0.08;
+const FALLS: f64 = 0.02;
 /// Relative step of a numerical derivative.
 const STEP: f64 = 1e-3;
 /// Change of the force in this step, divided by the range of the force, above which it is a jump
@@ -60,9 +66,10 @@ pub enum Reason {
     /// The measured force without contact changes over time and also over the displacement.
     #[error("The force has slopes over time and displacement where nothing touches.")]
     DriftAndTilt,
-    /// The measured forces before and after contact differ by this value in N.
+    /// The measured force after contact is higher by this value in N than before, which no drag
+    /// makes.
     #[error(
-        "The force differs by {} before and after contact, by drag of a fluid or the like.",
+        "The force is higher by {} after contact than before.",
         format_quantity(*.0, "N")
     )]
     Step(f64),
@@ -83,13 +90,45 @@ pub enum Reason {
          on closing."
     )]
     Branches,
-    /// The measured force rises over the displacement with this slope in N/m, which is larger than
-    /// the stiffness of the instrument in the scene.
+    /// The measured force rises over the displacement with the first slope in N/m, which is larger
+    /// than the second one, the stiffness of the instrument. No modulus follows from such a curve.
     #[error(
-        "The force rises by {} over the displacement, more than the loading_stiffness of the scene allows.",
-        format_quantity(*.0, "N/m")
+        "The force rises by {} over the displacement, and an instrument of {} allows no more than its stiffness: the stiffness, \
+         the sensitivity of the force or the column of the height is wrong, and E* cannot be found.",
+        format_quantity(*.0, "N/m"),
+        format_quantity(*.1, "N/m")
     )]
-    Stiffness(f64),
+    Stiffness(f64, f64),
+    /// The force of a smooth body jumps more than once in one motion. The value is the number of
+    /// jumps of the curve.
+    #[error(
+        "The curve has {} jumps, and a smooth sphere has one on loading and one on unloading: the body has another form or \
+         several contacts, on which γ and E* depend.",
+        .0
+    )]
+    SeveralContacts(usize),
+    /// The hysteresis in compression is that of a body that adheres less on closing. The value is
+    /// its share of the loading.
+    #[error(
+        "The hysteresis in compression is {} % of the loading, and an elastic body with one work of adhesion has none. Such \
+         curves need a smaller work of adhesion on closing.",
+        format_rounded(100.0 * .0, 2, "1")
+    )]
+    HysteresisOfAdhesion(f64),
+    /// The body relaxes: its hysteresis in compression is large, or its force falls in a pause. The
+    /// values are the shares of the loading and of the largest force.
+    #[error(
+        "The hysteresis in compression is {} % of the loading{}: the body relaxes (viscoelasticity). E* by the loading is that of \
+         its speed. The retraction alone gives γ.",
+        format_rounded(100.0 * .hysteresis, 2, "1"),
+        in_pause(*.fall_in_pause)
+    )]
+    Relaxation {
+        /// Hysteresis in compression divided by the loading.
+        hysteresis: f64,
+        /// Largest fall of the force in a pause divided by the largest force; 0 without a pause.
+        fall_in_pause: f64,
+    },
     /// Approach and retraction deviate from the model in the same way. The stiffness of the
     /// instrument, the form or the profile of the scene is likely to be wrong.
     #[error(
@@ -120,12 +159,15 @@ impl Reason {
             Reason::Step(_) => vec![Remedy::Segment(2)],
             Reason::OtherProfile => vec![Remedy::ManyProfiles],
             Reason::Branches => vec![free(Parameter::ClosingWork), Remedy::Segment(2)],
+            Reason::Stiffness(..) => vec![Remedy::Columns],
+            Reason::HysteresisOfAdhesion(_) => vec![free(Parameter::ClosingWork)],
+            Reason::Relaxation { .. } => vec![Remedy::Segment(2)],
             Reason::StiffnessOrForm => vec![free(Parameter::Stiffness)],
             Reason::ShortProfile(_)
             | Reason::CoarseProfile(_)
             | Reason::Rigid(_)
             | Reason::TaborNumber(_)
-            | Reason::Stiffness(_)
+            | Reason::SeveralContacts(_)
             | Reason::Form => Vec::new(),
         }
     }
@@ -141,8 +183,17 @@ impl Serialize for Reason {
     }
 }
 
+fn in_pause(fall: f64) -> String {
+    if fall <= 0.0 {
+        return String::new();
+    }
+    let fall = format_rounded(100.0 * fall, 2, "1");
+    format!(", and the force falls by {fall} % in a pause")
+}
+
 /// Finds the reason why a scene with these values and free parameters does not describe a curve.
-/// `tabor` is its Tabor number.
+/// `residuals` are those of the curve in units of its noise, and `tabor` is the Tabor number of the
+/// scene if the curve shows adhesion.
 ///
 /// # Errors
 /// A computation fails.
@@ -151,6 +202,7 @@ pub(crate) fn reason(
     scene: &CheckedScene,
     simulation: &mut Simulation,
     values: &Values,
+    residuals: &[f64],
     free: &[Parameter],
     tabor: Option<f64>,
 ) -> Result<Reason, ExperimentError> {
@@ -164,7 +216,7 @@ pub(crate) fn reason(
     {
         return Ok(Reason::Rigid(jump));
     }
-    let mut misfit = Misfit::new(curve, scene, simulation, values, free)?;
+    let mut misfit = Misfit::new(curve, scene, simulation, values, residuals, free)?;
     if let Some(reason) = misfit.change_without_contact() {
         return Ok(reason);
     }
@@ -174,14 +226,13 @@ pub(crate) fn reason(
     {
         return Ok(Reason::TaborNumber(number));
     }
-    let stiffness = values[Parameter::Stiffness as usize];
-    let is_stiffness_stated = stiffness.is_finite() && !is_stiffness_free;
-    let slope = slope_when_pressed(curve);
-    if is_stiffness_stated && slope > STEEPER * stiffness {
-        return Ok(Reason::Stiffness(slope));
-    }
     if scene.seed().is_some() {
         return Ok(Reason::OtherProfile);
+    }
+    if scene.roughness.is_none()
+        && let Some(reason) = of_features(curve, free)
+    {
+        return Ok(reason);
     }
     if has_two_directions(curve) && misfit.branches_differ()? {
         return Ok(Reason::Branches);
@@ -189,10 +240,44 @@ pub(crate) fn reason(
     if let Some(number) = low_tabor {
         return Ok(Reason::TaborNumber(number));
     }
-    if is_stiffness_stated {
+    let is_stiffness_stated = scene.loading_stiffness.is_some() && !is_stiffness_free;
+    if is_stiffness_stated && has_two_directions(curve) {
         return Ok(Reason::StiffnessOrForm);
     }
     Ok(Reason::Form)
+}
+
+/// Returns the reason that the curve of a smooth body shows by itself.
+fn of_features(curve: &MeasuredCurve, free: &[Parameter]) -> Option<Reason> {
+    let features = curve.features;
+    if features.jumps_in_one_motion > 1 {
+        return Some(Reason::SeveralContacts(features.jumps));
+    }
+    let hysteresis = features.hysteresis?;
+    let fall_in_pause = features.fall_in_pause.unwrap_or(0.0);
+    let is_closing_free = free.contains(&Parameter::ClosingWork);
+    let is_of_adhesion = (OF_ADHESION.0..OF_ADHESION.1).contains(&hysteresis);
+    if is_of_adhesion && fall_in_pause < FALLS && !is_closing_free && has_two_directions(curve) {
+        return Some(Reason::HysteresisOfAdhesion(hysteresis));
+    }
+    let relaxes = hysteresis > RELAXES || fall_in_pause > FALLS;
+    relaxes.then_some(Reason::Relaxation {
+        hysteresis,
+        fall_in_pause,
+    })
+}
+
+/// Returns the slope of the loading over the displacement in N/m, if it is larger than the
+/// stiffness of the instrument, which is not free.
+pub(crate) fn steeper_slope(
+    curve: &MeasuredCurve,
+    values: &Values,
+    free: &[Parameter],
+) -> Option<f64> {
+    let stiffness = values[Parameter::Stiffness as usize];
+    let slope = slope_when_pressed(curve);
+    let is_stated = stiffness.is_finite() && !free.contains(&Parameter::Stiffness);
+    (is_stated && slope > STEEPER * stiffness).then_some(slope)
 }
 
 fn has_two_directions(curve: &MeasuredCurve) -> bool {
@@ -228,11 +313,20 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
     largest
 }
 
-/// Returns the slope of the force over the displacement in N/m, in the last fifth of the first
-/// approach or in the first fifth of a retraction, less what the noise may add; 0 for few points.
+/// Returns the slope of the force over the displacement in N/m where the body is pressed most, less
+/// what the noise may add; 0 for few points.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
+    PRESSED
+        .into_iter()
+        .map(|share| slope_in_last(curve, share))
+        .fold(0.0, f64::max)
+}
+
+/// Returns this slope in the last share of the first approach or in the first share of a
+/// retraction.
+fn slope_in_last(curve: &MeasuredCurve, share: f64) -> f64 {
     let turn = curve.turns[0];
-    let least = turn - PRESSED * (turn - curve.touch);
+    let least = turn - share * (turn - curve.touch);
     let mut distances = Vec::new();
     let mut forces = Vec::new();
     for ((displacement, force), segment) in curve.points().zip(&curve.segment) {
@@ -270,14 +364,16 @@ impl<'a> Misfit<'a> {
         scene: &CheckedScene,
         simulation: &'a mut Simulation,
         values: &'a Values,
+        residuals: &[f64],
         free: &'a [Parameter],
     ) -> Result<Self, ExperimentError> {
         let mut model = Model::new(curve, scene, simulation);
         let forces = model.forces(values)?;
-        let points = curve.force.iter().zip(&forces);
-        let mut residuals: Vec<f64> = points.map(|(force, model)| force - model).collect();
-        let lines = curve.lines(free.contains(&Parameter::Zero));
-        subtract_all(&mut residuals, &lines);
+        let residuals = residuals
+            .iter()
+            .map(|residual| residual * curve.noise)
+            .collect();
+        let lines = right_angled(&curve.lines(free.contains(&Parameter::Zero)));
         Ok(Misfit {
             curve,
             model,
@@ -442,11 +538,24 @@ mod tests {
         let values = values_of(document.scene(), &governing);
         let tabor = governing.tabor_number(document.scene());
         let free = [Parameter::Modulus, Parameter::Offset];
+        if let Some(slope) = steeper_slope(&curve, &values, &free) {
+            return Reason::Stiffness(slope, values[Parameter::Stiffness as usize]);
+        }
+        let forces = Model::new(&curve, document.scene(), &mut simulation)
+            .forces(&values)
+            .unwrap();
+        let residuals: Vec<f64> = curve
+            .force
+            .iter()
+            .zip(&forces)
+            .map(|(force, model)| (force - model) / curve.noise)
+            .collect();
         reason(
             &curve,
             document.scene(),
             &mut simulation,
             &values,
+            &residuals,
             &free,
             tabor,
         )
@@ -495,18 +604,38 @@ mod tests {
             Reason::Form
         );
         assert!(
-            matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope) if slope > 0.5)
+            matches!(found(both(), &[("loading_stiffness", "0.5")]), Reason::Stiffness(slope, 0.5) if slope > 0.5)
         );
         let stiffer = curve(elastic, |at, _| hertz(2.6e6, at - 1e-7));
-        assert_eq!(found(stiffer.into_iter(), &[]), Reason::Branches);
+        assert!(
+            matches!(found(stiffer.into_iter(), &[]), Reason::Relaxation { hysteresis, .. } if (0.11..0.15).contains(&hysteresis))
+        );
+        let shifted = curve(elastic, |at, _| hertz(2.2e6, at - 3e-8));
+        assert!(
+            matches!(found(shifted.into_iter(), &[]), Reason::HysteresisOfAdhesion(share) if (0.03..0.11).contains(&share))
+        );
+        let little = curve(elastic, |at, _| hertz(2.1e6, at - 2e-8));
+        assert_eq!(found(little.into_iter(), &[]), Reason::Branches);
+        let twice = curve(
+            |at, _| {
+                elastic(at, 0.0)
+                    - if at > 5e-7 { 2e-7 } else { 0.0 }
+                    - if at > 8e-7 { 2e-7 } else { 0.0 }
+            },
+            elastic,
+        );
+        assert_eq!(found(twice.into_iter(), &[]), Reason::SeveralContacts(2));
         let tilted = |at: f64, time: f64| elastic(at, time) + 0.1 * at;
         assert_eq!(found(curve(tilted, tilted).into_iter(), &[]), Reason::Tilt);
         let drifts = |at: f64, time: f64| elastic(at, time) - 1e-7 * time;
         assert_eq!(found(curve(drifts, drifts).into_iter(), &[]), Reason::Drift);
-        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        let pushed = curve(elastic, |at, time| elastic(at, time) + 1e-7);
         assert!(
-            matches!(found(dragged.into_iter(), &[]), Reason::Step(step) if (step + 1e-7).abs() < 1e-9)
+            matches!(found(pushed.into_iter(), &[]), Reason::Step(step) if (step - 1e-7).abs() < 1e-9)
         );
+        // A force that resists the motion is a drag, which was taken off.
+        let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
+        assert_eq!(found(dragged.into_iter(), &[]), Reason::StiffnessOrForm);
         assert!(
             matches!(found(both(), &[("length", "2e-6")]), Reason::ShortProfile(length) if (length - 2e-6).abs() < 1e-9)
         );

@@ -1,10 +1,11 @@
 //! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
 //! scene that was found.
 
+use crate::fit::agreement::{Agreement, Grade};
 use crate::fit::parameter::Parameter;
 use crate::fit::reason::Reason;
 use crate::fit::search::MISFIT;
-use asperity_data::{Note, Warning, format_within};
+use asperity_data::{Note, Warning, format_rounded, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -30,6 +31,19 @@ pub struct FittedParameter {
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
+    /// End of the range at which the best value lies, so that the value is only a bound;
+    /// [`Self::interval`] is then the whole range. `None` for a value inside the range.
+    pub at_end: Option<RangeEnd>,
+}
+
+/// End of a range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RangeEnd {
+    /// Lower end: the value is at most that of the end.
+    Low,
+    /// Upper end: the value is at least that of the end.
+    High,
 }
 
 fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Result<S::Ok, S::Error> {
@@ -40,6 +54,24 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
+    /// States that the curve gives no more than a bound.
+    pub(crate) fn set_at_end(&mut self, end: RangeEnd) {
+        self.at_end = Some(end);
+        self.interval = self.range;
+        self.noise_error = self.range.1 - self.range.0;
+    }
+
+    /// Returns the bound that a value at the end of its range is, such as `≥ 3 GPa`; `None` for a
+    /// value inside its range.
+    pub fn bound(&self) -> Option<String> {
+        let sign = match self.at_end? {
+            RangeEnd::Low => "≤",
+            RangeEnd::High => "≥",
+        };
+        let value = format_rounded(self.value, 2, self.parameter.row().unit);
+        Some(format!("{sign} {value}"))
+    }
+
     /// Returns `value` as text with the unit of the parameter, such as `50.02 mJ/m²`. The narrower
     /// the [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
@@ -61,24 +93,31 @@ pub struct FitResult {
     /// Free parameters of the fit with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square of the residuals of all points, in N.
+    /// Root mean square of the residuals in contact without the points at jumps, in N; see
+    /// [`Agreement`]. The residuals of the points that are in contact neither in the measurement
+    /// nor in the model are noise, and do not count.
     pub residual: f64,
     /// [`Self::residual`] divided by the [noise](crate::MeasuredCurve::noise) of the force.
     pub residual_over_noise: f64,
-    /// Share of the points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
+    /// Share of these points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
     pub beyond_five_sigma: f64,
-    /// Robust root mean square of the residuals divided by the noise, without the points before
-    /// contact. Points near a jump of the force and outliers count less. The model describes the
-    /// curve if the value is at most 1.5.
+    /// Robust root mean square of the residuals in contact divided by the noise. Points near a jump
+    /// of the force and outliers count less. The model describes the curve within its noise if the
+    /// value is at most 1.5.
     pub misfit: f64,
+    /// Agreement of the model with the curve in contact, as shares of the largest force.
+    pub agreement: Agreement,
+    /// How well the model describes the curve.
+    #[serde(rename = "description")]
+    pub grade: Grade,
     /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is
     /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values; `None` without adhesion or without a
-    /// radius of curvature, as for a cone.
+    /// Tabor number of the scene with the fitted values; `None` if the curve shows no adhesion, or
+    /// without a radius of curvature, as for a cone.
     pub tabor: Option<f64>,
-    /// Reason why the model does not describe the curve; `None` if [`Self::misfit`] is at most 1.5.
+    /// Reason why the model does not describe the curve within its noise; `None` if it does.
     pub reason: Option<Reason>,
     /// Premises of the model that the scene with the found values does not meet.
     pub warnings: Vec<Warning>,
@@ -119,9 +158,10 @@ impl FitResult {
     /// Largest [`Self::misfit`] with which the model describes the curve.
     pub const MOST_MISFIT: f64 = MISFIT;
 
-    /// Returns true if [`Self::misfit`] is at most 1.5: the model then describes the curve.
+    /// Returns true if the model describes the curve within its noise: [`Self::misfit`] is at most
+    /// 1.5, and no drift or tilt remains. [`Self::grade`] has further grades.
     pub fn describes(&self) -> bool {
-        self.misfit <= MISFIT
+        self.grade == Grade::WithinNoise
     }
 
     /// Returns true if the model does not describe the curve and the profile of the scene is

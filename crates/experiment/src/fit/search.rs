@@ -13,10 +13,12 @@
 
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
+use crate::fit::lines::Lines;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
 use crate::fit::population::{Member, Population, WRONG_SIDE, drawn, loss, share_of};
 use crate::fit::space::Space;
+use crate::fit::statistics::scale;
 use asperity_contact::ContactError;
 use asperity_data::Remedy;
 use rand::rngs::ChaCha8Rng;
@@ -53,6 +55,8 @@ const SYSTEMATIC: f64 = 5.0;
 const BETTER: f64 = 0.9;
 /// Mean square residual, in units of the noise, beyond which another population is made.
 const EXPECTED: f64 = 1.2;
+/// Standard deviations by which the cost of few points may exceed the expected one by chance.
+const CHANCE: f64 = 3.0;
 /// Largest number of populations.
 const ATTEMPTS: usize = 3;
 /// Difference of costs by which a start must be better than a population to count as missed.
@@ -77,7 +81,7 @@ const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 pub(crate) struct SearchResult {
     /// The member with the smallest residuals.
     pub best: Member,
-    /// Residuals of the best member after a fit of the lines, in units of the noise.
+    /// Residuals of the best member in contact after a fit of the lines, in units of the noise.
     pub residuals: Vec<f64>,
     /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1
     /// where the residual is.
@@ -101,7 +105,7 @@ struct Cooling {
 pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
-    pub lines: Vec<Vec<f64>>,
+    pub lines: Lines,
     /// Receives the number of curves computed so far.
     pub report: &'a mut dyn FnMut(usize),
 }
@@ -113,37 +117,28 @@ impl Search<'_> {
         }
         (self.report)(self.model.evaluations);
         let curve = self.space.curve;
-        let forces = self.model.forces(&self.space.values(&place))?;
+        let values = self.space.values(&place);
+        let zero = values[Parameter::Zero as usize];
+        let forces = self.model.forces(&values)?;
         let mut residuals = Vec::with_capacity(forces.len());
-        for (measured, model) in curve.force.iter().zip(&forces) {
-            let residual = (measured - model) / curve.noise;
+        let mut in_contact = curve.in_contact();
+        for (index, force) in forces.iter().enumerate() {
+            let residual = (curve.force[index] - force) / curve.noise;
             residuals.push(if residual.is_finite() { residual } else { FAR });
+            // The model of a separated body has exactly the force before contact.
+            in_contact[index] |= *force != zero;
         }
-        Ok(Member { place, residuals })
+        Ok(Member {
+            place,
+            residuals,
+            in_contact,
+        })
     }
 
-    /// Returns the residuals after a fit of the lines of zero and drift. In this fit residuals
-    /// above `limit` count as `limit`.
-    fn refined(&self, residuals: &[f64], limit: f64) -> Vec<f64> {
-        let clamped: Vec<f64> = residuals
-            .iter()
-            .map(|residual| residual.clamp(-limit, limit))
-            .collect();
-        let mut refined = residuals.to_vec();
-        for line in &self.lines {
-            let component = dot(&clamped, line);
-            for (residual, direction) in refined.iter_mut().zip(line) {
-                *residual -= component * direction;
-            }
-        }
-        refined
-    }
-
-    /// Computes the residuals at a place after a fit of the lines, in units of the noise.
-    pub fn residuals(&mut self, place: &[f64], limit: f64) -> Result<Vec<f64>, ExperimentError> {
+    /// Computes the member at a place, with exact forces.
+    pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
         self.model.noise = 1.0;
-        let member = self.member(place.to_vec())?;
-        Ok(self.refined(&member.residuals, limit))
+        self.member(place.to_vec())
     }
 
     /// Returns residuals in which points inside a jump count as described. A residual above
@@ -170,29 +165,48 @@ impl Search<'_> {
     }
 
     /// Returns the residual in contact, in units of the noise of the curve, after a fit of the
-    /// lines at this noise; see [`Space::misfit`].
+    /// lines at this noise; see [`scale`].
     fn misfit(&self, member: &Member, noise: f64) -> f64 {
-        self.space
-            .misfit(&self.refined(&member.residuals, WRONG_SIDE * noise))
+        let residuals = self.lines.refined(&member.residuals, noise);
+        scale(&member.contact_residuals(&residuals), WRONG_SIDE)
+    }
+
+    /// Returns the residual without contact, in units of the noise of the curve, if a drift or a
+    /// tilt remains there; otherwise 0. It is as large in contact, where other parameters hide it.
+    fn remaining_line(&self, member: &Member) -> f64 {
+        let curve = self.space.curve;
+        if curve.remaining[..2] == [0.0; 2] {
+            return 0.0;
+        }
+        let residuals = self.lines.refined(&member.residuals, 1.0);
+        let points = residuals.iter().zip(&member.in_contact);
+        let free: Vec<f64> = points
+            .filter(|(_, in_contact)| !**in_contact)
+            .map(|(residual, _)| *residual)
+            .collect();
+        if free.is_empty() {
+            0.0
+        } else {
+            scale(&free, WRONG_SIDE)
+        }
     }
 
     /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
     /// the [`loss`] of all points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
-        self.refined(&member.residuals, WRONG_SIDE * noise)
+        self.lines
+            .refined(&member.residuals, noise)
             .iter()
             .map(|residual| loss(residual / noise))
             .sum()
     }
 
-    /// Returns the costs of a member at this noise, for each block of the curve.
-    fn block_costs(&self, member: &Member, noise: f64) -> Vec<f64> {
-        let residuals = self.refined(&member.residuals, WRONG_SIDE * noise);
-        let mut costs = Vec::new();
-        for block in self.space.blocks() {
-            let losses = residuals[block]
-                .iter()
-                .map(|residual| loss(residual / noise));
+    /// Returns the costs of a member at this noise, for each block of points.
+    fn block_costs(&self, member: &Member, noise: f64, blocks: &[Vec<usize>]) -> Vec<f64> {
+        let residuals = self.lines.refined(&member.residuals, noise);
+        let mut costs = Vec::with_capacity(blocks.len());
+        for block in blocks {
+            let losses = block.iter().map(|index| loss(residuals[*index] / noise));
             costs.push(losses.sum());
         }
         costs
@@ -272,10 +286,13 @@ impl Search<'_> {
 
     /// Returns true if the residuals of a member, apart from points inside jumps, exceed the noise.
     fn is_poor(&mut self, member: &Member) -> Result<bool, ExperimentError> {
-        let residuals = self.refined(&member.residuals, WRONG_SIDE);
+        let residuals = self.lines.refined(&member.residuals, 1.0);
         let residuals = self.beyond_jumps(&member.place, &residuals)?;
+        let residuals = member.contact_residuals(&residuals);
         let cost: f64 = residuals.iter().map(|residual| loss(*residual)).sum();
-        Ok(cost > EXPECTED * 0.5 * residuals.len() as f64)
+        // The cost of noise is half the number of points, with a standard deviation of the root of it.
+        let expected = 0.5 * residuals.len() as f64;
+        Ok(cost > (EXPECTED * expected).max(expected + CHANCE * expected.sqrt()))
     }
 
     /// Samples the coordinates at the noise of the curve, or at the residual if it is larger.
@@ -284,19 +301,21 @@ impl Search<'_> {
         mut population: Population,
         generator: &mut ChaCha8Rng,
     ) -> Result<SearchResult, ExperimentError> {
-        let noise = self.misfit(&population.best, population.noise).max(1.0);
+        let misfit = self.misfit(&population.best, population.noise);
+        let noise = misfit.max(self.remaining_line(&population.best)).max(1.0);
         self.set_noise(&mut population, noise);
         for _ in 0..MOVES {
             self.move_all(&mut population, generator)?;
         }
         let mut samples = Vec::new();
         let mut blocks = Vec::new();
+        let parts = self.space.blocks(&population.best.in_contact);
         for _ in 0..LAST_MOVES {
             self.move_all(&mut population, generator)?;
             for member in &population.members {
                 samples.push(member.place.clone());
                 if noise > MISFIT {
-                    blocks.push(self.block_costs(member, noise));
+                    blocks.push(self.block_costs(member, noise, &parts));
                 }
             }
         }
@@ -309,7 +328,8 @@ impl Search<'_> {
             return refused_with(found, allowed, [Remedy::FreeRange, Remedy::Noise]);
         }
         let without_adhesion = self.without_adhesion(&population, &samples)?;
-        let residuals = self.refined(&population.best.residuals, WRONG_SIDE * noise);
+        let residuals = self.lines.refined(&population.best.residuals, noise);
+        let residuals = population.best.contact_residuals(&residuals);
         Ok(SearchResult {
             best: population.best,
             residuals,

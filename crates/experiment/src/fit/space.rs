@@ -3,17 +3,19 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
 use crate::error::{ExperimentError, refused};
+use crate::fit::lines::Lines;
 use crate::fit::parameter::{Coordinate, Free, Parameter, Values};
-use crate::fit::population::WRONG_SIDE;
+use crate::fit::result::RangeEnd;
 use crate::fit::scene::{most_on_closing, radius_of, values_of, written_out, wrong};
 use crate::fit::start::{Known, Starts};
-use crate::fit::statistics::{PARTS, scale};
+use crate::fit::statistics::PARTS;
 use asperity_data::format_quantity;
 use asperity_scene::{Document, Governing, Scene, Simulation, Solver};
-use std::ops::Range;
 
 /// Ratio between the start and the ends of a range that is not given.
 const FACTOR: f64 = 30.0;
+/// Smallest ratio of the ends of a range that the limits of a scene leave.
+const NARROWEST: f64 = 2.0;
 /// Share of a range within which a value counts as lying at the end of the range.
 const AT_END: f64 = 0.01;
 
@@ -105,7 +107,7 @@ impl Ranges<'_> {
                 values[parameter as usize] = start;
             }
         }
-        values[Parameter::Offset as usize] = self.curve.touch;
+        values[Parameter::Offset as usize] = self.starts.touch;
         if is_free(self.free, Parameter::ClosingWork) {
             values[Parameter::ClosingWork as usize] = values[Parameter::Work as usize];
         }
@@ -122,7 +124,7 @@ impl Ranges<'_> {
             };
             let range = match free.range {
                 Some(range) => range,
-                None => self.range_of(parameter, values),
+                None => within_scene(parameter, self.range_of(parameter, values)),
             };
             if parameter == Parameter::ClosingWork && range.0 > most_work {
                 let least = format_quantity(range.0, "J/m²");
@@ -170,7 +172,7 @@ impl Ranges<'_> {
         match parameter {
             Parameter::Work => self.starts.least_work,
             Parameter::Zero => 0.1 * self.extent_of_force,
-            _ => 0.1 * (self.curve.turns[0] - self.curve.touch),
+            _ => 0.1 * self.starts.way,
         }
     }
 }
@@ -255,24 +257,53 @@ impl<'a> Space<'a> {
             })
     }
 
-    /// Returns the free parameters with a larger range of the work of adhesion, if its range was
-    /// not given and a place lies at its end. Rough bodies may be pulled off by a small part of the
-    /// force of smooth bodies.
-    pub fn extended(&self, place: &[f64], free: &[Free]) -> Option<Vec<Free>> {
-        let is_work = |coordinate: &Coordinate| coordinate.parameter == Parameter::Work;
-        let index = self.coordinates.iter().position(is_work)?;
+    /// Returns the free parameters with larger ranges, if a place lies at the end of a range that
+    /// was not given; `None` if it does not, or if the scene allows no larger range. Rough bodies
+    /// may be pulled off by a small part of the force of smooth bodies, and curves with a drag or a
+    /// drift may have another modulus than their start. `given` are the free parameters as they
+    /// were asked for, and `free` those of the search.
+    pub fn extended(&self, place: &[f64], given: &[Free], free: &[Free]) -> Option<Vec<Free>> {
+        let mut wider = free.to_vec();
+        let mut is_wider = false;
+        for (index, coordinate) in self.coordinates.iter().enumerate() {
+            let parameter = coordinate.parameter;
+            let has_own_range = parameter.is_signed() || parameter == Parameter::ClosingWork;
+            let is_given = given
+                .iter()
+                .any(|free| free.parameter == parameter && free.range.is_some());
+            let Some(end) = self.end_at(index, place) else {
+                continue;
+            };
+            if has_own_range || is_given {
+                continue;
+            }
+            let (low, high) = coordinate.range;
+            let range = match end {
+                RangeEnd::Low => (low / FACTOR, high),
+                RangeEnd::High => (low, high * FACTOR),
+            };
+            let free = wider.iter_mut().find(|free| free.parameter == parameter)?;
+            let range = within_scene(parameter, range);
+            is_wider |= range != coordinate.range;
+            free.range = Some(range);
+        }
+        is_wider.then_some(wider)
+    }
+
+    /// Returns the end of the range of a coordinate at which a place lies; `None` if it lies inside
+    /// or at an end that a parameter may have: no work of adhesion, or a work on closing of that on
+    /// opening.
+    pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
-        let is_at_end = place[index] > high - AT_END * (high - low);
-        if !is_at_end {
-            return None;
+        let room = AT_END * (high - low);
+        let value = place[index];
+        let is_closing = coordinate.parameter == Parameter::ClosingWork;
+        if value > high - room && !is_closing {
+            return Some(RangeEnd::High);
         }
-        let mut free = free.to_vec();
-        let work = free
-            .iter_mut()
-            .find(|free| free.parameter == Parameter::Work && free.range.is_none())?;
-        work.range = Some((coordinate.range.0, FACTOR * coordinate.range.1));
-        Some(free)
+        let may_be_low = is_closing || coordinate.is_work_from_zero();
+        (value < low + room && !may_be_low).then_some(RangeEnd::Low)
     }
 
     /// Returns the place at which the search begins.
@@ -283,34 +314,38 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns consecutive parts of each segment in contact. Parts depend on each other less than
-    /// points do.
-    pub fn blocks(&self) -> Vec<Range<usize>> {
+    /// Returns consecutive parts of the points of each segment that are in contact. Parts depend on
+    /// each other less than points do.
+    pub fn blocks(&self, in_contact: &[bool]) -> Vec<Vec<usize>> {
         let mut blocks = Vec::new();
-        let mut start = self.curve.free;
-        for segment in self.curve.segment[start..].chunk_by(|number, next| number == next) {
+        let mut start = 0;
+        for segment in self.curve.segment.chunk_by(|number, next| number == next) {
+            let range = start..start + segment.len();
+            start = range.end;
+            let points: Vec<usize> = range.filter(|index| in_contact[*index]).collect();
             for part in 0..PARTS {
-                let from = start + segment.len() * part / PARTS;
-                let to = start + segment.len() * (part + 1) / PARTS;
-                blocks.push(from..to);
+                let from = points.len() * part / PARTS;
+                let to = points.len() * (part + 1) / PARTS;
+                blocks.push(points[from..to].to_vec());
             }
-            start += segment.len();
         }
         blocks
     }
 
-    /// Returns the straight lines of the curve that each model refines; see
-    /// [`MeasuredCurve::lines`].
-    pub fn lines(&self) -> Vec<Vec<f64>> {
+    /// Returns the lines of the curve that each model refines.
+    pub fn lines(&self) -> Lines {
         let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
-        self.curve.lines(self.coordinates.iter().any(is_zero))
+        Lines::new(self.curve, self.coordinates.iter().any(is_zero))
     }
+}
 
-    /// Returns the root mean square residual in contact, in units of the noise of the curve; see
-    /// [`scale`].
-    pub fn misfit(&self, residuals: &[f64]) -> f64 {
-        scale(&residuals[self.curve.free..], WRONG_SIDE)
-    }
+/// Returns the part of a range that a scene may have.
+fn within_scene(parameter: Parameter, range: (f64, f64)) -> (f64, f64) {
+    let Some((least, most)) = parameter.allowed_by_scenes() else {
+        return range;
+    };
+    let low = range.0.clamp(least, most / NARROWEST);
+    (low, range.1.clamp(NARROWEST * low, most))
 }
 
 #[cfg(test)]
@@ -350,5 +385,43 @@ mod tests {
                 "{form}: {range:?}"
             );
         }
+    }
+
+    /// A range that was not given is made wider at the end at which a place lies, up to the values
+    /// that scenes allow.
+    #[test]
+    fn ranges_are_reopened_up_to_what_scenes_allow() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let document = on_rubber(1e-3, 2e6);
+        let given: Vec<Free> = ["work", "modulus", "offset"]
+            .map(|one| one.parse().unwrap())
+            .to_vec();
+        let mut simulation = Simulation::default();
+        let mut ranges = given.clone();
+        let mut lowest = f64::INFINITY;
+        for _ in 0..20 {
+            let (_, space) =
+                Space::of(&curve, &document, &mut simulation, &ranges, &|| false).unwrap();
+            let mut place = space.start();
+            assert_eq!(space.extended(&place, &given, &ranges), None);
+            place[1] = space.coordinates[1].ends().0;
+            assert_eq!(space.end_at(1, &place), Some(RangeEnd::Low));
+            let Some(wider) = space.extended(&place, &given, &ranges) else {
+                break;
+            };
+            let before = space.coordinates[1].range;
+            let (low, high) = wider[1].range.unwrap();
+            assert!(low < before.0 && high == before.1 && low <= lowest);
+            lowest = low;
+            ranges = wider;
+        }
+        assert!((1.0..2.0).contains(&lowest), "{lowest}");
+        let bounded = ["work", "modulus=1MPa..2MPa", "offset"].map(|one| one.parse().unwrap());
+        let (_, space) =
+            Space::of(&curve, &document, &mut simulation, &bounded, &|| false).unwrap();
+        let mut place = space.start();
+        place[1] = space.coordinates[1].ends().1;
+        assert_eq!(space.extended(&place, &bounded, &bounded), None);
+        assert_eq!(space.end_at(1, &place), Some(RangeEnd::High));
     }
 }

@@ -2,10 +2,11 @@
 //! the scene for free parameters have no effect.
 
 use crate::curve::MeasuredCurve;
-use crate::curve::numerics::Extent;
+use crate::curve::numerics::{Extent, dot};
 use crate::error::ExperimentError;
 use asperity_contact::motion::Leg;
 use asperity_contact::{Contact, Modulus};
+use asperity_data::mean;
 use std::f64::consts::PI;
 
 /// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the
@@ -14,6 +15,10 @@ const LINEAR: f64 = 0.01;
 /// Smallest share of the way from first touch to the turning point that indents the body. The
 /// deflection of the instrument takes the rest.
 const LEAST: f64 = 0.05;
+/// Share of the largest force above which a loading determines the modulus.
+const HALF: f64 = 0.5;
+/// Smallest number of points of such a loading.
+const FEWEST: usize = 5;
 /// Stiffness of an instrument divided by the mean slope of the force.
 const STIFFER: f64 = 10.0;
 
@@ -40,11 +45,14 @@ pub(crate) struct Starts {
     pub work: f64,
     /// Work of adhesion that the noise hides, J/m².
     pub least_work: f64,
-    /// Effective modulus, Pa, with which the body without adhesion would carry the largest force at
-    /// the turning point.
+    /// Effective modulus, Pa, by the upper half of a loading of the body without adhesion.
     pub modulus: f64,
     /// Stiffness of the instrument, N/m.
     pub stiffness: f64,
+    /// Displacement at first touch, m.
+    pub touch: f64,
+    /// Way of the instrument from first touch to the largest force, m.
+    pub way: f64,
 }
 
 impl Starts {
@@ -56,23 +64,125 @@ impl Starts {
         let force = Extent::of(curve.force.iter().copied());
         let pull_off = curve.noise.max(-force.low);
         let preload = force.high.max(curve.noise);
-        let way = curve.turns[0] - curve.touch;
-        let deflection = match known.stiffness {
-            Some(stiffness) => preload / stiffness,
-            None => 0.0,
+        // A tension acts on the body like a further compression; see JKR theory at a large force.
+        let carried = preload + 2.0 * pull_off;
+        let loading = Loading::of(curve, known.stiffness, 2.0 * pull_off);
+        let mut whole_way = loading.turn - curve.touch;
+        if whole_way <= 0.0 {
+            whole_way = curve.turns[0] - curve.touch;
+        }
+        let exponent = exponent(contact, LEAST * whole_way)?;
+        let mut starts = Starts {
+            work: 0.0,
+            least_work: 0.0,
+            modulus: 0.0,
+            stiffness: STIFFER * preload / whole_way,
+            touch: curve.touch,
+            way: whole_way,
         };
-        let indentation = (way - deflection).max(LEAST * way);
-        let found_modulus =
-            (preload + 2.0 * pull_off) / force_of_unit_modulus(contact, indentation)?;
+        let indentation = match loading.indentation(exponent) {
+            Some(indentation) => {
+                let deflection = loading.turn - loading.last_indentation();
+                let extrapolated = loading.last_indentation() - indentation;
+                let is_near = (extrapolated - curve.touch).abs() < indentation;
+                if !is_near && extrapolated < loading.turn {
+                    starts.touch = extrapolated;
+                    starts.way = indentation + deflection.max(0.0);
+                }
+                indentation
+            }
+            None => (whole_way - preload / known.stiffness.unwrap_or(f64::INFINITY))
+                .max(LEAST * whole_way),
+        };
+        let found_modulus = carried / force_of_unit_modulus(contact, indentation)?;
         let modulus = known.modulus.unwrap_or(found_modulus);
         let least_pull_off = curve.noise.max(LINEAR * pull_off);
-        Ok(Starts {
-            work: known.work_of_smooth_body(pull_off, modulus),
-            least_work: known.work_of_smooth_body(least_pull_off, modulus),
-            modulus,
-            stiffness: STIFFER * preload / way,
-        })
+        starts.work = known.work_of_smooth_body(pull_off, modulus);
+        starts.least_work = known.work_of_smooth_body(least_pull_off, modulus);
+        starts.modulus = modulus;
+        Ok(starts)
     }
+}
+
+/// Upper half of the loading that reaches the largest force of a curve, or of the unloading from
+/// it.
+struct Loading {
+    /// Displacement at the largest force, m.
+    turn: f64,
+    /// Displacements of the body, m, which are without the deflection of a known instrument.
+    indentations: Vec<f64>,
+    /// Forces, N, with a tension added.
+    forces: Vec<f64>,
+}
+
+impl Loading {
+    /// `tension` is added to the forces, in N. Unknown stiffnesses count as infinite.
+    fn of(curve: &MeasuredCurve, stiffness: Option<f64>, tension: f64) -> Self {
+        let points = curve.force.iter().enumerate();
+        let highest = points.max_by(|(_, force), (_, next)| force.total_cmp(next));
+        let top = highest.map_or(0, |(index, _)| index);
+        let half = HALF * curve.force[top];
+        let belongs = |index: &usize| {
+            curve.segment[*index] == curve.segment[top] && curve.force[*index] >= half
+        };
+        let is_pressed = curve.segment[top] % 2 == 0;
+        let indices: Vec<usize> = if is_pressed {
+            let mut indices: Vec<usize> = (0..=top).rev().take_while(belongs).collect();
+            indices.reverse();
+            indices
+        } else {
+            (top..curve.force.len()).take_while(belongs).collect()
+        };
+        let compliance = 1.0 / stiffness.unwrap_or(f64::INFINITY);
+        let mut loading = Loading {
+            turn: curve.displacement[top],
+            indentations: Vec::with_capacity(indices.len()),
+            forces: Vec::with_capacity(indices.len()),
+        };
+        for index in indices {
+            let force = curve.force[index];
+            loading
+                .indentations
+                .push(curve.displacement[index] - compliance * force);
+            loading.forces.push(force + tension);
+        }
+        loading
+    }
+
+    fn last_indentation(&self) -> f64 {
+        Extent::of(self.indentations.iter().copied()).high
+    }
+
+    /// Returns the indentation in m at the largest force, by a straight line of F^(1/n) over the
+    /// displacement of the body; `None` if the points determine no rising line. The line needs no
+    /// first touch.
+    fn indentation(&self, exponent: f64) -> Option<f64> {
+        if self.forces.len() < FEWEST {
+            return None;
+        }
+        let roots: Vec<f64> = self
+            .forces
+            .iter()
+            .map(|force| force.max(0.0).powf(1.0 / exponent))
+            .collect();
+        let middle = mean(&self.indentations);
+        let distances: Vec<f64> = self.indentations.iter().map(|at| at - middle).collect();
+        let slope = dot(&distances, &roots) / dot(&distances, &distances);
+        let indentation = mean(&roots) / slope + self.last_indentation() - middle;
+        (slope > 0.0 && slope.is_finite() && indentation.is_finite()).then_some(indentation)
+    }
+}
+
+/// Returns the exponent n of F ~ dⁿ for the body without adhesion about an indentation in m.
+fn exponent(contact: &Contact, indentation: f64) -> Result<f64, ExperimentError> {
+    let once = force_of_unit_modulus(contact, indentation)?;
+    let twice = force_of_unit_modulus(contact, 2.0 * indentation)?;
+    let exponent = (twice / once).log2();
+    Ok(if exponent.is_finite() {
+        exponent.clamp(1.0, 3.0)
+    } else {
+        1.5
+    })
 }
 
 /// Returns the force in N at an indentation in m of the body without adhesion, if its effective

@@ -25,14 +25,14 @@ pub(crate) const QUANTITIES: [Quantity; 2] = [
         names: "displacement heightmeasured measuredheight smoothedmeasuredheight straingaugeheight smoothedstraingaugeheight \
          capacitivesensorheight zsense zsensor zsnsr piezo piezoposition piezodisplacement piezoz zpiezo calcramp ramp \
          stageposition stagedisplacement motorposition position height distance heightpiezo zposition zheight indentation \
-         tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth d z x",
+         tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth z d x",
     },
     Quantity {
         term: "force",
         si_unit: "N",
         unit_example: "nN",
         names: "force normalforce load appliedload vdeflection verticaldeflection deflection defl dfl cantileverdeflection \
-         cantilever memsdisplacement memsdispl tb fn f",
+         cantilever memsdisplacement memsdispl tb fn f forceavg avgforce averageforce meanforce forcemean favg fmean",
     },
 ];
 /// Names of columns with the displacement of the body, without the deflection of the instrument.

@@ -4,6 +4,7 @@
 
 pub(crate) mod bodies;
 pub(crate) mod specimens;
+pub(crate) mod sphere;
 
 use asperity_contact::{CurvePoint, LegRecord, Move};
 use asperity_data::Control;

@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod conditions;
 mod ensembles;
 mod ensembles_of_other_bodies;
 mod single_curves;

@@ -94,7 +94,7 @@ impl Branches {
             .map(|point| (point.force - zero).abs())
             .fold(0.0, f64::max);
         let noise = standard_deviation(&before, zero).max(LEAST_NOISE * largest);
-        if curve.is_estimated[0] {
+        if curve.subtracted.has_zero {
             for point in approach.iter_mut().chain(&mut retraction) {
                 point.force -= zero;
             }

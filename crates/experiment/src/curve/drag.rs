@@ -1,0 +1,364 @@
+//! Drag of a fluid on the body and the instrument, from the points without contact. It resists the
+//! motion, so that its sign is that of pressing on the approach and that of tension on the
+//! retraction. Close to the surface the fluid is squeezed out of a narrow gap, and the drag grows as
+//! c/(h + h₀), where h is the distance to first touch.
+
+use crate::curve::free_parts::{FEWEST, FreeParts, count_before_steep_part};
+use crate::curve::numerics::{
+    Baseline, Coefficient, dot, least_squares, right_angled, subtract_all,
+};
+use crate::curve::points::Points;
+use crate::read::options::{CurveOptions, Drift, Tilt};
+use serde::Serialize;
+
+/// Number of lengths h₀ that are tried, and the ratio of neighbouring ones.
+const REACHES: i32 = 24;
+const RATIO: f64 = 1.3;
+/// Largest length h₀ as a share of the way before contact. A drag that reaches farther is a line.
+const FARTHEST: f64 = 0.5;
+/// Number of ends of the part without contact that are tried.
+const ENDS: usize = 60;
+/// Root mean square residual of many points that a drag describes, in units of the noise, and its
+/// allowance in standard errors for fewer points.
+const DESCRIBED: f64 = 1.05;
+const BY_CHANCE: f64 = 3.0;
+/// Mean of the last residuals of such a part, in standard errors.
+const DEVIATES: f64 = 3.5;
+/// Coefficient of a drag, in standard errors, above which it is found on the approach and on the
+/// retraction.
+const FOUND: [f64; 2] = [5.0, 3.0];
+/// Distance, in units of h₀, beyond which points are far from contact.
+const FAR: f64 = 1.0;
+/// Ratio of the coefficients of far points and of all points up to which both are one drag, on the
+/// approach and on the retraction.
+const ALIKE: [f64; 2] = [2.0, 3.0];
+/// Coefficient of the approach by far points alone, in standard errors, above which it is found.
+const FOUND_FAR: f64 = 2.5;
+/// Largest ratio of the drags on approach and retraction, which is that of their speeds.
+const SPEEDS: f64 = 10.0;
+
+/// Forces of a drag on a body in contact. They were taken off the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct DragForce {
+    /// Force on the approach in N, relative to the force far before contact.
+    pub pressed: f64,
+    /// Force on the retraction in N, relative to the force far before contact.
+    pub pulled: f64,
+    /// Length h₀ in m over which the drag falls to a half; `None` for a drag that does not depend
+    /// on the distance.
+    pub reach: Option<f64>,
+}
+
+/// Drag that both parts without contact show.
+pub(crate) struct Drag {
+    /// Displacement in m at which the drag would be infinite, beyond first touch by h₀.
+    pole: f64,
+    /// Displacement at first touch, m.
+    touch: f64,
+    /// Force on the retraction minus force on the approach far from contact, N.
+    step: f64,
+    /// Coefficients c on the approach and on the retraction, N m.
+    pressed: f64,
+    pulled: f64,
+    /// Numbers of points before and after contact that the drag describes.
+    pub before: usize,
+    pub after: usize,
+}
+
+/// Points of one segment from far away to the contact.
+struct Side {
+    displacements: Vec<f64>,
+    forces: Vec<f64>,
+    /// Noise far from contact, N.
+    noise: f64,
+    /// True if a tilt over the displacement is fitted with the drag.
+    has_tilt: bool,
+}
+
+impl Side {
+    fn new(points: &Points, indices: &[usize], far: usize, options: &CurveOptions) -> Self {
+        let displacements = indices.iter().map(|index| points.displacement[*index]);
+        let forces: Vec<f64> = indices.iter().map(|index| points.force[*index]).collect();
+        Side {
+            displacements: displacements.collect(),
+            noise: Baseline::through(&forces[..far.min(forces.len())]).noise,
+            forces,
+            has_tilt: options.tilt == Tilt::Remove,
+        }
+    }
+
+    /// Returns the residuals of the first `count` points, in N, about a drag with this pole.
+    fn residuals(&self, count: usize, pole: f64) -> Vec<f64> {
+        let displacements = &self.displacements[..count];
+        let mut columns = vec![vec![1.0; count], inverse_distances(displacements, pole)];
+        if self.has_tilt {
+            columns.push(displacements.to_vec());
+        }
+        let mut residuals = self.forces[..count].to_vec();
+        subtract_all(&mut residuals, &right_angled(&columns));
+        residuals
+    }
+
+    /// Returns the pole that describes the first `count` points best.
+    fn best_pole(&self, count: usize) -> f64 {
+        let first = self.displacements[0];
+        let last = self.displacements[count - 1];
+        let squares = |pole: f64| {
+            let residuals = self.residuals(count, pole);
+            dot(&residuals, &residuals)
+        };
+        let farthest = FARTHEST * (last - first).abs();
+        let mut best = last + farthest;
+        let mut least = squares(best);
+        for power in 1..REACHES {
+            let pole = last + farthest * RATIO.powi(-power);
+            let sum = squares(pole);
+            if sum < least {
+                least = sum;
+                best = pole;
+            }
+        }
+        best
+    }
+
+    /// Returns true if a drag with this pole describes the first `count` points to their end.
+    fn is_described(&self, count: usize, pole: f64) -> bool {
+        let residuals = self.residuals(count, pole);
+        let root_mean_square = (dot(&residuals, &residuals) / count as f64).sqrt();
+        let most = DESCRIBED + BY_CHANCE / (2.0 * count as f64).sqrt();
+        if root_mean_square > most * self.noise {
+            return false;
+        }
+        [2, count / 20, count / 10].into_iter().all(|last| {
+            let last = last.max(2);
+            let sum: f64 = residuals[count - last..].iter().sum();
+            sum.abs() <= DEVIATES * self.noise * (last as f64).sqrt()
+        })
+    }
+
+    /// Returns numbers of points up to which the side may be without contact, the largest first.
+    fn ends(&self, fewest: usize) -> Vec<usize> {
+        let count = self.forces.len();
+        let most = (count_before_steep_part(&self.forces) + 2).min(count);
+        let fewest = fewest.clamp(FEWEST, most);
+        let step = ((most - fewest) / ENDS).max(1);
+        (fewest..=most).rev().step_by(step).collect()
+    }
+}
+
+/// Returns 1/(pole − D) for displacements D.
+fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
+    displacements
+        .iter()
+        .map(|displacement| 1.0 / (pole - displacement))
+        .collect()
+}
+
+impl Drag {
+    /// Finds the drag of a curve with an approach and a retraction; `None` if its points without
+    /// contact show none. The coefficients of approach and retraction have opposite signs, which
+    /// neither a tilt nor a weak contact has.
+    pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
+        let before = free.before?;
+        let last = points.last_segment();
+        if options.free_points.is_some() || last.is_multiple_of(2) || before < 2 * FEWEST {
+            return None;
+        }
+        let approach: Vec<usize> = points.moving(0).collect();
+        let retraction: Vec<usize> = points.moving(last).rev().collect();
+        if approach.len() < 2 * FEWEST || retraction.len() < 2 * FEWEST {
+            return None;
+        }
+        let pressed = Side::new(points, &approach, before, options);
+        let pulled = Side::new(points, &retraction, free.after.max(FEWEST), options);
+
+        let mut found = None;
+        for end in pressed.ends(before) {
+            let pole = pressed.best_pole(end);
+            if pressed.is_described(end, pole) {
+                found = Some((end, pole));
+                break;
+            }
+        }
+        let (before, pole) = found?;
+        let touch = points.displacement[(before).min(approach.len() - 1)];
+        let pole = pole.max(touch + RATIO.powi(-REACHES) * (touch - points.displacement[0]));
+        let ends = pulled.ends(free.after);
+        let after = ends.into_iter().find(|end| {
+            // The pole is beyond all points without contact.
+            pulled.displacements[..*end].iter().all(|at| *at < pole)
+                && pulled.is_described(*end, pole)
+        })?;
+        let both = BothSides {
+            points,
+            indices: (0..before)
+                .chain(points.force.len() - after..points.force.len())
+                .collect(),
+            touch,
+            options,
+        };
+        let drag = both.drag(both.best_pole(pole), before, after)?;
+        let force = drag.pressed / (drag.pole - touch);
+        (force > pressed.noise && both.reaches_far(&drag)).then_some(drag)
+    }
+
+    /// Returns the drag at a point of the approach, or of the retraction, N.
+    fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
+        let distance = self.distance(displacement);
+        if is_pulled {
+            self.step + self.pulled / distance
+        } else {
+            self.pressed / distance
+        }
+    }
+
+    /// Returns h + h₀ in m. In contact h is 0.
+    fn distance(&self, displacement: f64) -> f64 {
+        self.pole - displacement.min(self.touch)
+    }
+
+    /// Takes the drag off the forces of points.
+    pub fn subtract(&self, points: &mut Points) {
+        for index in 0..points.force.len() {
+            let is_pulled = points.segment[index] % 2 == 1;
+            points.force[index] -= self.force(points.displacement[index], is_pulled);
+        }
+    }
+
+    /// Returns changes of the force at points by small changes of the numbers of the drag.
+    pub fn columns(&self, points: &Points) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::new(); 4];
+        for (displacement, segment) in points.displacement.iter().zip(&points.segment) {
+            let inverse = 1.0 / self.distance(*displacement);
+            let is_pulled = segment % 2 == 1;
+            columns[0].push(f64::from(u8::from(is_pulled)));
+            columns[1].push(if is_pulled { 0.0 } else { inverse });
+            columns[2].push(if is_pulled { inverse } else { 0.0 });
+            let coefficient = if is_pulled { self.pulled } else { self.pressed };
+            columns[3].push(coefficient * inverse * inverse);
+        }
+        columns
+    }
+
+    /// Returns the forces of the drag on a body in contact.
+    pub fn in_contact(&self) -> DragForce {
+        DragForce {
+            pressed: self.force(self.touch, false),
+            pulled: self.force(self.touch, true),
+            reach: Some(self.pole - self.touch),
+        }
+    }
+}
+
+/// Points without contact of the approach and of the retraction.
+struct BothSides<'a> {
+    points: &'a Points,
+    indices: Vec<usize>,
+    touch: f64,
+    options: &'a CurveOptions,
+}
+
+impl BothSides<'_> {
+    /// Returns the columns of zero, step and both coefficients, and of tilt and drift if these are
+    /// removed.
+    fn columns(&self, pole: f64) -> Vec<Vec<f64>> {
+        let points = self.points;
+        let mut columns = vec![Vec::with_capacity(self.indices.len()); 6];
+        for &index in &self.indices {
+            let displacement = points.displacement[index];
+            let is_pulled = points.segment[index] % 2 == 1;
+            let pulled = f64::from(u8::from(is_pulled));
+            let inverse = 1.0 / (pole - displacement.min(self.touch));
+            columns[0].push(1.0);
+            columns[1].push(pulled);
+            columns[2].push((1.0 - pulled) * inverse);
+            columns[3].push(pulled * inverse);
+            columns[4].push(displacement - self.touch);
+            columns[5].push(index as f64);
+        }
+        if self.options.drift != Drift::Remove {
+            columns.remove(5);
+        }
+        if self.options.tilt != Tilt::Remove {
+            columns.remove(4);
+        }
+        columns
+    }
+
+    fn forces(&self) -> Vec<f64> {
+        self.indices
+            .iter()
+            .map(|index| self.points.force[*index])
+            .collect()
+    }
+
+    /// Returns the best pole near `pole`.
+    fn best_pole(&self, pole: f64) -> f64 {
+        let reach = pole - self.touch;
+        let mut least = f64::INFINITY;
+        let mut best = pole;
+        for power in -REACHES..=REACHES {
+            let tried = self.touch + reach * RATIO.powf(0.25 * f64::from(power));
+            let mut residuals = self.forces();
+            subtract_all(&mut residuals, &right_angled(&self.columns(tried)));
+            let squares = dot(&residuals, &residuals);
+            if squares < least {
+                least = squares;
+                best = tried;
+            }
+        }
+        best
+    }
+
+    /// Returns true if far points alone show the same drag. A weak contact of a rough body grows as
+    /// fast, and may be adhesive on the retraction, but it ends at some distance.
+    fn reaches_far(&self, drag: &Drag) -> bool {
+        let reach = drag.pole - drag.touch;
+        let is_far = |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;
+        let far = BothSides {
+            indices: self.indices.iter().copied().filter(is_far).collect(),
+            ..*self
+        };
+        if far.indices.len() < 2 * FEWEST {
+            return false;
+        }
+        let Some(coefficients) = least_squares(&far.columns(drag.pole), &far.forces()) else {
+            return false;
+        };
+        let [_, _, pressed, pulled, ..] = coefficients[..] else {
+            return false;
+        };
+        let [on_approach, on_retraction] = ALIKE;
+        let is_alike = |far: f64, all: f64, most: f64| (1.0 / most..=most).contains(&(far / all));
+        pressed.value > FOUND_FAR * pressed.error
+            && is_alike(pressed.value, drag.pressed, on_approach)
+            && is_alike(pulled.value, drag.pulled, on_retraction)
+    }
+
+    /// Returns the drag with this pole; `None` if its coefficients are not found, or do not have
+    /// the signs of a drag.
+    fn drag(&self, pole: f64, before: usize, after: usize) -> Option<Drag> {
+        let coefficients = least_squares(&self.columns(pole), &self.forces())?;
+        let [_, step, pressed, pulled, ..] = coefficients[..] else {
+            return None;
+        };
+        let [by_approach, by_retraction] = FOUND;
+        let is_beyond = |coefficient: Coefficient, sign: f64, errors: f64| {
+            sign * coefficient.value > errors * coefficient.error
+        };
+        let ratio = -pulled.value / pressed.value;
+        let is_drag = is_beyond(pressed, 1.0, by_approach)
+            && is_beyond(pulled, -1.0, by_retraction)
+            && (1.0 / SPEEDS..=SPEEDS).contains(&ratio);
+        is_drag.then_some(Drag {
+            pole,
+            touch: self.touch,
+            step: step.value,
+            pressed: pressed.value,
+            pulled: pulled.value,
+            before,
+            after,
+        })
+    }
+}

@@ -1,0 +1,347 @@
+//! Numbers of a measured curve that need no model: its jumps, its hysteresis in compression, and how
+//! far the force falls in a pause.
+
+use crate::curve::numerics::Extent;
+use crate::curve::points::Points;
+use asperity_data::{between, format_rounded, mean, median};
+use serde::Serialize;
+
+/// Smallest jump of the force, in units of the noise.
+const BEYOND_NOISE: f64 = 6.0;
+/// Smallest jump of the force, as a share of its range.
+const OF_RANGE: f64 = 0.01;
+/// Largest number of steps between points over which a jump extends.
+const STEPS: usize = 3;
+/// Number of steps before and after a jump with which it is compared.
+const AROUND: usize = 4;
+/// Change of the force by a jump, divided by the change over [`STEPS`] steps around it.
+const SHARP: f64 = 3.0;
+/// Number of displacements at which both branches are compared.
+const COMPARED: usize = 200;
+/// Smallest force at the turning point, in units of the noise, for which a hysteresis is stated.
+const PRESSED: f64 = 10.0;
+/// Share of the range of the displacement within which the points of a pause are compared.
+const STILL: f64 = 0.002;
+/// Share of the points of a pause of which its beginning and its end are means.
+const END: usize = 20;
+
+/// Numbers of a measured curve by itself, before any fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct CurveFeatures {
+    /// Number of jumps: places at which the force drops while the body is pressed, or rises while
+    /// it is pulled, within three points and by more than 6 times the noise and 1 % of the range of
+    /// the force.
+    pub jumps: usize,
+    /// Largest number of jumps in one motion of the instrument. A sphere has at most one.
+    pub jumps_in_one_motion: usize,
+    /// Area between loading and unloading where both are compressive, divided by the area under the
+    /// loading there. `None` if the curve has not both branches in compression.
+    pub hysteresis: Option<f64>,
+    /// Largest fall of the force in a pause in contact, divided by the largest force; `None`
+    /// without such a pause.
+    pub fall_in_pause: Option<f64>,
+}
+
+impl CurveFeatures {
+    pub(crate) fn of(points: &Points, noise: f64) -> Self {
+        let first = points.segment[0];
+        let mut features = CurveFeatures::default();
+        for number in first..=points.last_segment() {
+            let jumps = jumps_in(points, number, noise);
+            features.jumps += jumps;
+            features.jumps_in_one_motion = features.jumps_in_one_motion.max(jumps);
+        }
+        features.hysteresis = hysteresis(points, noise);
+        features.fall_in_pause = fall_in_pause(points, noise);
+        features
+    }
+
+    /// Returns these numbers as a sentence.
+    pub(crate) fn sentence(&self) -> String {
+        let jumps = match self.jumps {
+            0 => "No jump of the force".to_owned(),
+            1 => "1 jump of the force".to_owned(),
+            count => format!("{count} jumps of the force"),
+        };
+        let mut parts = vec![jumps];
+        if let Some(hysteresis) = self.hysteresis {
+            parts.push(format!(
+                "hysteresis in compression {} of the loading",
+                percent(hysteresis)
+            ));
+        }
+        if let Some(fall) = self.fall_in_pause {
+            parts.push(format!(
+                "the force falls by {} of the largest force in a pause",
+                percent(fall)
+            ));
+        }
+        format!("{}.", parts.join("; "))
+    }
+}
+
+/// Returns a share in percent. A share below a ten-thousandth is rounding.
+fn percent(share: f64) -> String {
+    let share = if share.abs() < 5e-5 { 0.0 } else { share };
+    format!("{} %", format_rounded(100.0 * share, 2, "1"))
+}
+
+/// Returns the number of jumps in the motion of one segment.
+fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
+    let range = Extent::of(points.force.iter().copied()).width();
+    let least = (BEYOND_NOISE * noise).max(OF_RANGE * range);
+    // The force of a jump changes against the force of a motion that is continuous.
+    let sign = if number.is_multiple_of(2) { -1.0 } else { 1.0 };
+    let mut forces = Vec::new();
+    let mut ways = Vec::new();
+    for index in points.range_of(number) {
+        if !points.is_still[index] {
+            forces.push(sign * points.force[index]);
+            ways.push(-sign * points.displacement[index]);
+        }
+    }
+
+    let mut jumps = 0;
+    let mut place = 0;
+    while place + 1 < forces.len() {
+        let Some(jump) = jump_close_to(&forces, place, least) else {
+            place += 1;
+            continue;
+        };
+        // Where the instrument moves back for a short way, the force changes with it.
+        let before = ways[(jump + 1).saturating_sub(STEPS)];
+        let after = ways[(jump + STEPS).min(ways.len() - 1)];
+        jumps += usize::from(after >= before);
+        // The means before the next places contain points before this jump.
+        place = jump + 2 * STEPS;
+    }
+    jumps
+}
+
+/// Returns the mean of the next forces minus the mean of the forces up to a place. `gap` forces
+/// after the place are left out.
+fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
+    let before = &forces[(place + 1).saturating_sub(STEPS)..=place];
+    let start = (place + 1 + gap).min(forces.len() - 1);
+    let end = (start + STEPS).min(forces.len());
+    mean(&forces[start..end]) - mean(before)
+}
+
+/// Returns the place of a jump at this place or a few steps ahead: the force rises by more than
+/// `least` within [`STEPS`] steps after it, and much faster than around them.
+fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
+    let last = forces.len() - 1;
+    // The largest rise close by belongs to the place of the jump.
+    let ahead = (place + 2 * STEPS).min(last - 1);
+    let jump = (place..=ahead)
+        .max_by(|place, next| step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0)))
+        .unwrap_or(place);
+    let rise = (0..STEPS)
+        .map(|gap| step_at(forces, jump, gap))
+        .fold(0.0, f64::max);
+    if rise <= least {
+        return None;
+    }
+    let slope = |from: usize, to: usize| {
+        if to < from + STEPS {
+            0.0
+        } else {
+            (forces[to] - forces[from]) / (to - from) as f64
+        }
+    };
+    let before = slope(
+        jump.saturating_sub(STEPS + AROUND),
+        jump.saturating_sub(STEPS),
+    );
+    let from = (jump + 1 + STEPS).min(last);
+    let after = slope(from, (from + AROUND).min(last));
+    (rise > SHARP * STEPS as f64 * before.max(after).max(0.0)).then_some(jump)
+}
+
+/// Returns the points of a segment without pauses, with ascending displacements.
+fn branch(points: &Points, number: usize) -> Vec<[f64; 2]> {
+    let mut branch: Vec<[f64; 2]> = points
+        .range_of(number)
+        .filter(|index| !points.is_still[*index])
+        .map(|index| [points.displacement[index], points.force[index]])
+        .collect();
+    branch.sort_by(|point, next| point[0].total_cmp(&next[0]));
+    branch
+}
+
+/// Returns the index of the first point from which on all forces are compressive.
+fn compression_begins(branch: &[[f64; 2]]) -> usize {
+    branch
+        .iter()
+        .rposition(|point| point[1] <= 0.0)
+        .map_or(0, |last| last + 1)
+}
+
+fn force_at(branch: &[[f64; 2]], displacement: f64) -> f64 {
+    let next = branch
+        .partition_point(|point| point[0] < displacement)
+        .clamp(1, branch.len() - 1);
+    let [from, force] = branch[next - 1];
+    let [to, next_force] = branch[next];
+    if to > from {
+        between(
+            force,
+            next_force,
+            ((displacement - from) / (to - from)).clamp(0.0, 1.0),
+        )
+    } else {
+        force
+    }
+}
+
+/// Returns the hysteresis of the loading to the largest force and of the unloading after it.
+fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
+    let largest_in =
+        |number: usize| Extent::of(points.range_of(number).map(|index| points.force[index])).high;
+    let loadings = (points.segment[0]..points.last_segment()).filter(|number| number % 2 == 0);
+    let number =
+        loadings.max_by(|number, next| largest_in(*number).total_cmp(&largest_in(*next)))?;
+    let loading = branch(points, number);
+    let unloading = branch(points, number + 1);
+    if largest_in(number) < PRESSED * noise {
+        return None;
+    }
+    let loading = &loading[compression_begins(&loading)..];
+    let unloading = &unloading[compression_begins(&unloading)..];
+    if loading.len() < 2 * AROUND || unloading.len() < 2 * AROUND {
+        return None;
+    }
+    let low = loading[0][0].max(unloading[0][0]);
+    let high = loading[loading.len() - 1][0].min(unloading[unloading.len() - 1][0]);
+    let mut loaded = 0.0;
+    let mut difference = 0.0;
+    for index in 0..COMPARED {
+        let displacement = between(low, high, (index as f64 + 0.5) / COMPARED as f64);
+        let force = force_at(loading, displacement);
+        loaded += force;
+        difference += force - force_at(unloading, displacement);
+    }
+    (high > low && loaded > 0.0).then_some(difference / loaded)
+}
+
+/// Returns the largest fall of the force in a pause in compression, as a share of the largest force.
+fn fall_in_pause(points: &Points, noise: f64) -> Option<f64> {
+    let largest = Extent::of(points.force.iter().copied()).high;
+    let near = STILL * Extent::of(points.displacement.iter().copied()).width();
+    let mut found: Option<f64> = None;
+    let mut start = 0;
+    for part in points.is_still.chunk_by(|still, next| still == next) {
+        let range = start..start + part.len();
+        start = range.end;
+        let mut displacements = points.displacement[range.clone()].to_vec();
+        let middle = median(&mut displacements)?;
+        let forces: Vec<f64> = range
+            .filter(|index| (points.displacement[*index] - middle).abs() <= near)
+            .map(|index| points.force[index])
+            .collect();
+        let count = (forces.len() / END).max(1);
+        if !part[0] || forces.len() < 2 * count {
+            continue;
+        }
+        let first = mean(&forces[..count]);
+        let last = mean(&forces[forces.len() - count..]);
+        if first.min(last) > PRESSED * noise {
+            let fall = (first - last) / largest;
+            found = Some(found.map_or(fall, |other| other.max(fall)));
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{from_text, lines, of_spring};
+    use crate::read::options::CurveOptions;
+
+    fn features(points: impl IntoIterator<Item = (f64, f64)>) -> CurveFeatures {
+        from_text(&lines(points), &CurveOptions::default())
+            .unwrap()
+            .features
+    }
+
+    /// The spring of 2 N/m with drops of these forces, nN, at these displacements, nm, on the
+    /// approach and on the retraction.
+    fn with_drops(pressed: &[(f64, f64)], pulled: &[(f64, f64)]) -> Vec<(f64, f64)> {
+        let mut points = of_spring(600);
+        for (index, (displacement, force)) in points.iter_mut().enumerate() {
+            let drops = if index < 300 { pressed } else { pulled };
+            for (place, drop) in drops {
+                if *displacement > *place {
+                    *force -= drop;
+                }
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn jumps_are_counted_by_motion() {
+        assert_eq!(features(of_spring(600)).jumps, 0);
+        let adheres = features(with_drops(&[(0.0, 10.0)], &[(-20.0, 10.0)]));
+        assert_eq!((adheres.jumps, adheres.jumps_in_one_motion), (2, 1));
+        let twice = features(with_drops(
+            &[(0.0, 10.0), (20.0, 8.0)],
+            &[(-20.0, 10.0), (10.0, 8.0)],
+        ));
+        assert_eq!((twice.jumps, twice.jumps_in_one_motion), (4, 2));
+        // A drop below 1 % of the range of the force, or below the noise, is none.
+        assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
+    }
+
+    /// A force that falls gradually while the body is pressed is no jump, however far it falls.
+    #[test]
+    fn a_gradual_change_is_no_jump() {
+        let gradual = of_spring(600)
+            .into_iter()
+            .map(|(d, f)| (d, f - 60.0 * (d / 25.0).clamp(0.0, 1.0)));
+        let features = features(gradual);
+        assert_eq!(features.jumps, 0, "{features:?}");
+    }
+
+    /// The retraction of a spring at nine tenths of the force encloses a tenth of the loading.
+    #[test]
+    fn hysteresis_is_a_share_of_the_loading() {
+        let elastic = features(of_spring(600)).hysteresis.unwrap();
+        assert!(elastic.abs() < 0.01, "{elastic}");
+        let lossy = of_spring(600)
+            .into_iter()
+            .enumerate()
+            .map(|(index, (d, f))| {
+                (
+                    d,
+                    if index < 300 {
+                        f
+                    } else {
+                        1.0 + 0.9 * (f - 1.0)
+                    },
+                )
+            });
+        let share = features(lossy).hysteresis.unwrap();
+        assert!((share - 0.1).abs() < 0.01, "{share}");
+        let alone = of_spring(600).into_iter().skip(300);
+        assert_eq!(features(alone).hysteresis, None);
+    }
+
+    #[test]
+    fn the_force_falls_in_a_pause() {
+        let mut points = of_spring(600);
+        let pause = (0..200).map(|index| (50.0, 101.0 - 0.05 * f64::from(index)));
+        points.splice(300..300, pause);
+        let features = features(points);
+        let fall = features.fall_in_pause.unwrap();
+        assert!((fall - 0.095).abs() < 0.01, "{fall}");
+        assert!(
+            features.sentence().contains("in a pause"),
+            "{}",
+            features.sentence()
+        );
+        assert_eq!(super::tests::features(of_spring(600)).fall_in_pause, None);
+    }
+}

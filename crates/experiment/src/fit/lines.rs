@@ -1,0 +1,184 @@
+//! The straight lines of a curve, such as the zero of its force, which each model refines.
+//!
+//! The points without contact determine the lines with the noise of the curve, whatever the
+//! residuals in contact are. A model that deviates in contact cannot gain there by another zero.
+
+use crate::curve::MeasuredCurve;
+use crate::curve::numerics::dot;
+use crate::fit::population::WRONG_SIDE;
+
+/// Smallest pivot of a matrix, as a share of its diagonal, that is no rounding.
+const LEAST_PIVOT: f64 = 1e-12;
+
+/// Lines of a curve.
+pub(crate) struct Lines {
+    columns: Vec<Vec<f64>>,
+    /// True for each point of the curve in contact.
+    in_contact: Vec<bool>,
+    /// Sums of products of the columns over the points without contact, and over the others.
+    free_products: Vec<Vec<f64>>,
+    contact_products: Vec<Vec<f64>>,
+}
+
+impl Lines {
+    /// `has_zero` is true if the zero of the force is a free parameter.
+    pub fn new(curve: &MeasuredCurve, has_zero: bool) -> Self {
+        let in_contact = curve.in_contact();
+        let first = usize::from(has_zero || !curve.subtracted.has_zero);
+        let elsewhere = &curve.subtracted.elsewhere;
+        let mut columns = curve.lines(has_zero);
+        let mut lengths = Vec::with_capacity(columns.len());
+        for column in &mut columns {
+            let length = dot(column, column).sqrt();
+            let length = if length > 0.0 { length } else { 1.0 };
+            for value in column.iter_mut() {
+                *value /= length;
+            }
+            lengths.push(length);
+        }
+        let products = |is_in_contact: bool, row: usize, column: usize| {
+            let mut sum = 0.0;
+            for (index, in_contact) in in_contact.iter().enumerate() {
+                if *in_contact == is_in_contact {
+                    sum += columns[row][index] * columns[column][index];
+                }
+            }
+            sum
+        };
+        let count = columns.len();
+        let mut free_products = vec![vec![0.0; count]; count];
+        let mut contact_products = vec![vec![0.0; count]; count];
+        for row in 0..count {
+            for column in 0..count {
+                let not_used = elsewhere[first + row][first + column];
+                free_products[row][column] =
+                    products(false, row, column) + not_used / (lengths[row] * lengths[column]);
+                contact_products[row][column] = products(true, row, column);
+            }
+        }
+        Lines {
+            columns,
+            in_contact,
+            free_products,
+            contact_products,
+        }
+    }
+
+    /// Returns the residuals after a fit of the lines. Residuals and `noise` are in units of the
+    /// noise of the curve. Residuals in contact have a standard deviation of `noise` in the fit,
+    /// others of 1; residuals above 5 standard deviations count as 5.
+    pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
+        let mut refined = residuals.to_vec();
+        if self.columns.is_empty() {
+            return refined;
+        }
+        let weight = noise.powi(-2);
+        let limit = WRONG_SIDE * noise;
+        let mut weighted = Vec::with_capacity(residuals.len());
+        for (residual, in_contact) in residuals.iter().zip(&self.in_contact) {
+            weighted.push(if !in_contact {
+                residual.clamp(-WRONG_SIDE, WRONG_SIDE)
+            } else if weight > 0.0 {
+                weight * residual.clamp(-limit, limit)
+            } else {
+                0.0
+            });
+        }
+        let count = self.columns.len();
+        let mut matrix = self.free_products.clone();
+        let mut components = Vec::with_capacity(count);
+        for row in 0..count {
+            for column in 0..count {
+                matrix[row][column] += weight * self.contact_products[row][column];
+            }
+            components.push(dot(&weighted, &self.columns[row]));
+        }
+        let coefficients = solved(matrix, components);
+        for (column, coefficient) in self.columns.iter().zip(coefficients) {
+            for (residual, value) in refined.iter_mut().zip(column) {
+                *residual -= coefficient * value;
+            }
+        }
+        refined
+    }
+}
+
+/// Solves a system of equations with a symmetric matrix that has no negative eigenvalue. An unknown
+/// that the equations do not determine becomes 0.
+fn solved(mut matrix: Vec<Vec<f64>>, mut values: Vec<f64>) -> Vec<f64> {
+    let count = values.len();
+    let diagonal: Vec<f64> = (0..count).map(|index| matrix[index][index]).collect();
+    for pivot in 0..count {
+        if matrix[pivot][pivot] <= LEAST_PIVOT * diagonal[pivot] {
+            values[pivot] = 0.0;
+            continue;
+        }
+        for row in pivot + 1..count {
+            let factor = matrix[row][pivot] / matrix[pivot][pivot];
+            for column in pivot..count {
+                matrix[row][column] -= factor * matrix[pivot][column];
+            }
+            values[row] -= factor * values[pivot];
+        }
+    }
+    for row in (0..count).rev() {
+        if matrix[row][row] <= LEAST_PIVOT * diagonal[row] {
+            values[row] = 0.0;
+            continue;
+        }
+        let later: f64 = (row + 1..count)
+            .map(|column| matrix[row][column] * values[column])
+            .sum();
+        values[row] = (values[row] - later) / matrix[row][row];
+    }
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::common::{read, rubber};
+    use crate::read::options::Drift;
+
+    #[test]
+    fn equations_are_solved_and_undetermined_unknowns_are_0() {
+        let matrix = vec![
+            vec![4.0, 2.0, 0.0],
+            vec![2.0, 3.0, 1.0],
+            vec![0.0, 1.0, 2.0],
+        ];
+        let solution = solved(matrix, vec![8.0, 11.0, 8.0]);
+        for (found, expected) in solution.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-12, "{solution:?}");
+        }
+        let twice = vec![vec![1.0, 1.0], vec![1.0, 1.0]];
+        assert_eq!(solved(twice, vec![3.0, 3.0]), [3.0, 0.0]);
+    }
+
+    /// Residuals of 100 noises in contact move the zero by no more than its error; at a noise of 1
+    /// the zero is the mean of all residuals.
+    #[test]
+    fn the_zero_is_held_by_the_part_without_contact() {
+        let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
+        let lines = Lines::new(&curve, false);
+        let in_contact = curve.in_contact();
+        let large = |size: f64| -> Vec<f64> {
+            in_contact
+                .iter()
+                .map(|touches| if *touches { size } else { 0.0 })
+                .collect()
+        };
+        let zero =
+            |residuals: &[f64], noise: f64| residuals[0] - lines.refined(residuals, noise)[0];
+        let free = in_contact.iter().filter(|touches| !**touches).count() as f64;
+        let held = zero(&large(100.0), 100.0);
+        assert!(held.abs() < 1.0 / free.sqrt(), "{held} {free}");
+        let share = 1.0 - free / in_contact.len() as f64;
+        assert!((zero(&large(2.0), 1.0) - 2.0 * share).abs() < 1e-12);
+        assert_eq!(zero(&large(2.0), f64::INFINITY), 0.0);
+        assert_eq!(
+            Lines::new(&curve, true).refined(&large(2.0), 1.0),
+            large(2.0)
+        );
+    }
+}
