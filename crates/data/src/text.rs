@@ -188,8 +188,10 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Breaks a text into lines of at most `width` characters, between words if possible.
+/// Breaks a text into lines of at most `width` characters, between words if possible. A line has at
+/// least one character, also for a width of 0.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let width = width.max(1);
     let mut lines = Vec::new();
     let mut line = String::new();
     let mut room = width;
@@ -205,7 +207,6 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             room -= 1;
         }
         for (index, character) in word.chars().enumerate() {
-            // A line has at least one character.
             if index > 0 && room == 0 {
                 lines.push(std::mem::take(&mut line));
                 room = width;
@@ -305,6 +306,7 @@ mod tests {
         assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
         assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
         assert_eq!(wrap("", 4), [""]);
+        assert_eq!(wrap("ab c", 0), ["a", "b", "c"]);
         assert_eq!(
             wrap("line 800.6 µs, tree 80.75 µs", 16),
             ["line 800.6 µs,", "tree 80.75 µs"]

@@ -27,7 +27,7 @@ extern crate self as asperity_experiment;
 mod common;
 
 pub use curve::MeasuredCurve;
-pub use error::{ExperimentError, Part};
+pub use error::{CountedPart, ExperimentError};
 pub use fit::Fit;
 pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};
 pub use fit::ensemble::posterior::{CurveOfEnsemble, IntervalEstimate};

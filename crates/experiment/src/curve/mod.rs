@@ -11,7 +11,7 @@ use crate::curve::free_parts::{FEWEST, FreeParts, ends_free};
 use crate::curve::numerics::{Extent, right_angled};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
-use crate::error::{ExperimentError, Part, refused, refused_with};
+use crate::error::{CountedPart, ExperimentError, refused, refused_with};
 use crate::read;
 use crate::read::options::{CurveOptions, Drift, Negate, Tilt};
 use crate::read::points::Columns;
@@ -298,7 +298,7 @@ fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentErro
     let count = columns.displacement.len();
     if count < FEWEST_POINTS {
         return Err(ExperimentError::TooFewPoints {
-            part: Part::Curve,
+            part: CountedPart::Curve,
             found: count,
             least: FEWEST_POINTS,
         });
@@ -432,7 +432,7 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
     }
     if kept.len() < 2 * FEWEST {
         return Err(ExperimentError::TooFewPoints {
-            part: Part::ChosenSegments,
+            part: CountedPart::ChosenSegments,
             found: kept.len(),
             least: 2 * FEWEST,
         });
