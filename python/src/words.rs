@@ -98,5 +98,6 @@ fn first_paragraph(error: &clap::Error) -> String {
         }
         lines.push(line);
     }
-    lines.join(" ")
+    // Options are arguments of the same names.
+    lines.join(" ").replace("--", "")
 }

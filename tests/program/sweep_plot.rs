@@ -53,7 +53,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     assert_eq!(plot(&[]), plot(&["--at", "preload=0.01"]));
     let note = asperity_in(at, &["sweep", "plot", "study"]).stderr;
     assert!(
-        note.contains("is the first of 3 preloads; --at preload=VALUE selects another"),
+        note.contains("is the first of 3 preloads: --at preload=VALUE selects another"),
         "{note}"
     );
     let error = plot(&["--x", "preload"]).unwrap_err();
@@ -64,7 +64,7 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
     assert!(
         error
             .trim_end()
-            .ends_with("such as --at roughness.hurst=0.1"),
+            .ends_with("--at roughness.hurst=0.1 fixes one"),
         "{error}"
     );
     for (arguments, expected) in [
@@ -82,15 +82,15 @@ fn a_study_is_drawn_as_a_map_and_as_curves() {
         ),
         (
             vec!["--at", "preload=0.2"],
-            "--at preload=0.2: the study has no such value; allowed: 0.01, 0.1, 1",
+            "preload = 0.2: the study has no such value; allowed: 0.01, 0.1, 1",
         ),
         (
             vec!["--at", "preload=0.1", "--at", "preload=1"],
-            "preload: named by --at and by --at",
+            "preload: named as a fixed value and as a fixed value",
         ),
         (
             vec!["--at", "adhesion.kappa=1", "--x", "adhesion.kappa"],
-            "kappa: named by --x and by --at",
+            "kappa: named as the horizontal axis and as a fixed value",
         ),
         (vec!["--at", "preload"], "allowed: AXIS=VALUE"),
     ] {

@@ -189,8 +189,10 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-/// Breaks a text into lines of at most `width` characters, between words if possible.
+/// Breaks a text into lines of at most `width` characters, between words if possible. A line has at
+/// least one character, also for a width of 0.
 pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let width = width.max(1);
     let mut lines = Vec::new();
     let mut line = String::new();
     let mut room = width;
@@ -307,6 +309,7 @@ mod tests {
         assert_eq!(wrap("a  longword b", 4), ["a", "long", "word", "b"]);
         assert_eq!(wrap("µµµµ µµµµ", 4), ["µµµµ", "µµµµ"]);
         assert_eq!(wrap("", 4), [""]);
+        assert_eq!(wrap("ab c", 0), ["a", "b", "c"]);
         assert_eq!(
             wrap("line 800.6 µs, tree 80.75 µs", 16),
             ["line 800.6 µs,", "tree 80.75 µs"]

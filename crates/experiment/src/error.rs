@@ -10,18 +10,18 @@ use thiserror::Error;
 
 /// A curve or a part of it, whose points are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum CountedPart {
     /// The whole curve.
     Curve,
     /// The chosen segments without the pauses between them.
     ChosenSegments,
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for CountedPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Part::Curve => "with displacement and force",
-            Part::ChosenSegments => "in the segments that are used, without pauses",
+            CountedPart::Curve => "with displacement and force",
+            CountedPart::ChosenSegments => "in the segments that are used, without pauses",
         })
     }
 }
@@ -41,7 +41,7 @@ pub enum ExperimentError {
     #[error("{found} points {part}; allowed: at least {least}")]
     TooFewPoints {
         /// The curve or its part.
-        part: Part,
+        part: CountedPart,
         /// Number of points that were found.
         found: usize,
         /// Smallest number of points that is allowed.

@@ -29,7 +29,7 @@ mod common;
 pub use curve::MeasuredCurve;
 pub use curve::drag::DragForce;
 pub use curve::features::CurveFeatures;
-pub use error::{ExperimentError, Part};
+pub use error::{CountedPart, ExperimentError};
 pub use fit::Fit;
 pub use fit::agreement::{Agreement, Grade};
 pub use fit::ensemble::deviation::{RoughnessShifts, SummaryDeviation};

@@ -225,7 +225,7 @@ fn too_little_memory_is_refused() {
     assert_eq!(output.status.code(), Some(1));
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(
-        message.contains("not enough memory: with --jobs 1024 the study takes up to"),
+        message.contains("not enough memory: on 1024 threads the study takes up to"),
         "{message}"
     );
     assert!(!place.path().join("study").exists());

@@ -16,7 +16,7 @@ use crate::curve::numerics::{Extent, dot};
 use crate::curve::points::Points;
 use crate::curve::segments::{Segments, are_shuffled};
 use crate::curve::zero::Subtracted;
-use crate::error::{ExperimentError, Part, refused, refused_with};
+use crate::error::{CountedPart, ExperimentError, refused, refused_with};
 use crate::read;
 use crate::read::options::{CurveOptions, Negate};
 use crate::read::points::Columns;
@@ -429,7 +429,7 @@ fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentErro
     let count = columns.displacement.len();
     if count < FEWEST_POINTS {
         return Err(ExperimentError::TooFewPoints {
-            part: Part::Curve,
+            part: CountedPart::Curve,
             found: count,
             least: FEWEST_POINTS,
         });
@@ -563,7 +563,7 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
     }
     if kept.len() < 2 * FEWEST {
         return Err(ExperimentError::TooFewPoints {
-            part: Part::ChosenSegments,
+            part: CountedPart::ChosenSegments,
             found: kept.len(),
             least: 2 * FEWEST,
         });

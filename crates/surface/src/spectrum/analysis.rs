@@ -207,12 +207,14 @@ fn measure(surfaces: &[Topography], options: &AnalysisOptions) -> Result<Measure
     };
     for (index, surface) in surfaces.iter().enumerate() {
         let levelled = LevelledSurface::new(index, surface, options, 0)?;
-        levelled.check_rough(surface)?;
+        let within = |error: SurfaceError| error.within(|place| Place::Surface(index, place));
+        levelled.check_rough(surface).map_err(within)?;
         measured.is_levelled &= levelled.without_curvature;
         measured.points.add(&levelled, options.tip_radius);
         let blocks = Blocks::new(&levelled)?;
         let spread = blocks.spread();
-        measured.powers.add(&levelled, &blocks.weights(&spread))?;
+        let weights = blocks.weights(&spread);
+        measured.powers.add(&levelled, &weights).map_err(within)?;
         measured.differences.add(&levelled, spread);
     }
     Ok(measured)
@@ -223,4 +225,38 @@ fn is_finite(line: &LineMoments) -> bool {
     moments
         .iter()
         .all(|moment| moment.value.is_finite() && moment.error.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn profile(height: impl Fn(f64) -> f64) -> Topography {
+        let heights: Vec<f64> = (0..256)
+            .map(|index| 1e-8 * height(f64::from(index)))
+            .collect();
+        Topography::from_profile(&heights, 1e-6).unwrap()
+    }
+
+    #[test]
+    fn an_error_names_the_surface_with_the_fault() {
+        let rough = profile(|place| (place * place).sin());
+        let straight = profile(|place| place);
+        let options = AnalysisOptions::default();
+        let error = analyse(&[rough, straight], &options).unwrap_err();
+        assert_eq!(error.surface(), Some(1), "{error}");
+    }
+
+    #[test]
+    fn a_spectrum_continues_up_to_a_finite_wave_number() {
+        let rough = profile(|place| (place * place).sin());
+        for to in [f64::INFINITY, f64::NAN, f64::NEG_INFINITY, 0.0] {
+            let options = AnalysisOptions {
+                end: End::Continues(to),
+                ..AnalysisOptions::default()
+            };
+            let error = analyse(std::slice::from_ref(&rough), &options).unwrap_err();
+            assert!(error.to_string().contains("and finite"), "{error}");
+        }
+    }
 }

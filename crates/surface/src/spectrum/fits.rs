@@ -48,10 +48,10 @@ impl SpectrumFits {
         let resolved = powers.range(|waves| waves.len());
         let last = range.last;
         if let End::Continues(to) = end
-            && (to <= last || to.is_nan())
+            && (to <= last || !to.is_finite())
         {
             let found = format!("the spectrum continues up to q = {to:e} rad/m");
-            let allowed = format!("above the last resolved wave, q = {last:e} rad/m");
+            let allowed = format!("above the last resolved wave, q = {last:e} rad/m, and finite");
             return Err(refused(Place::File, found, allowed));
         }
         Ok(SpectrumFits {
