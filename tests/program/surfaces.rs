@@ -487,9 +487,10 @@ fn offset_rows_of_maps_are_left_out_or_stated() {
     assert_right("large offsets", &spectrum, &large, 3.0);
 }
 
+/// The window would weigh a spike in the middle by 8/3. All parts count equally, and one part out
+/// of many leaves the height uncertain.
 #[test]
-fn a_departure_from_the_measured_height_is_part_of_the_error() {
-    // The window weighs a spike in the middle by 8/3.
+fn a_spike_in_the_middle_has_the_measured_height_and_a_large_error() {
     let mut normal = Normal::new(3);
     let heights: Vec<f64> = (0..POINTS)
         .map(|i| {
@@ -503,11 +504,7 @@ fn a_departure_from_the_measured_height_is_part_of_the_error() {
     let analysis = estimated(&[topography(&heights, 0)]);
     let (found, measured) = (analysis.line.rms_height, analysis.statistics.rms_height);
     assert!(
-        found.value > 1.5 * measured && found.statistical < 0.1 * found.value,
-        "{found:?} {measured}"
-    );
-    assert!(
-        (found.value - measured).abs() < 1.96 * found.error,
+        (found.value / measured - 1.0).abs() < 0.2 && found.error > 0.4 * found.value,
         "{found:?} {measured}"
     );
 }

@@ -260,6 +260,15 @@ mod tests {
     }
 
     #[test]
+    fn removing_a_curvature_is_not_advised_twice() {
+        let remedy = |is_levelled: bool| {
+            let warning = Warning::of_long_waves_of_scan(0.95, is_levelled).unwrap();
+            warning.remedy()
+        };
+        assert!(remedy(false).contains("Curvature") && !remedy(true).contains("Curvature"));
+    }
+
+    #[test]
     fn heights_far_from_normal_are_named() {
         let heights = waves();
         assert!(!names(&heights, 64, 1e-7).contains(&"heights_not_normal"));

@@ -35,7 +35,8 @@ struct Block {
     /// Sums of q^power times the power of each wave, for power = 0, 1, 2. Up to constant factors
     /// they are the mean square height, the elastic energy and the mean square gradient.
     moments: [f64; 3],
-    /// Variances of these moments on a normal surface, because the number of waves is finite.
+    /// Relative variances of these moments on a normal surface, because the number of waves is
+    /// finite.
     variances: [f64; 3],
 }
 
@@ -177,8 +178,10 @@ impl Blocks {
         if mean <= 0.0 {
             return spread;
         }
-        let variances = self.blocks.iter().map(|block| block.variances[index]);
-        spread.chance = variances.sum::<f64>() / (count * mean).powi(2);
+        for block in &self.blocks {
+            let share = block.moments[index] / (count * mean);
+            spread.chance += share * share * block.variances[index];
+        }
         for parts in self.parts(&moments) {
             let variance = variance_of_mean(&parts, mean);
             let factor = chance_factor(parts.len(), spread.chance * parts.len() as f64);
@@ -285,12 +288,21 @@ impl Block {
             }
             let octave = (wave.wave_number / first).log2() as usize;
             block.octaves[octave.min(octaves - 1)] += wave.power;
-            let mut term = wave.power;
+            for (index, moment) in block.moments.iter_mut().enumerate() {
+                *moment += wave.power * wave.wave_number.powi(index as i32);
+            }
+        }
+        for wave in waves {
+            if wave.wave_number < first {
+                continue;
+            }
             for index in 0..3 {
-                block.moments[index] += term;
-                // The mean square of an exponentially distributed power is twice the variance.
-                block.variances[index] += 0.5 * correlated * term * term;
-                term *= wave.wave_number;
+                if block.moments[index] > 0.0 {
+                    let term = wave.power * wave.wave_number.powi(index as i32);
+                    let share = term / block.moments[index];
+                    // The mean square of an exponentially distributed power is twice the variance.
+                    block.variances[index] += 0.5 * correlated * share * share;
+                }
             }
         }
         block
@@ -388,4 +400,58 @@ pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
 pub(super) fn student_factor(parts: usize) -> f64 {
     let freedom = parts as f64 - 1.0;
     1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_near(found: f64, expected: f64, tolerance: f64) -> bool {
+        (found / expected - 1.0).abs() < tolerance
+    }
+
+    #[test]
+    fn factors_are_quantiles_of_their_distributions() {
+        // Quantiles of Student's distribution with 1, 3, 7 and 63 degrees of freedom for a
+        // probability of 68.27 % between both.
+        for (parts, expected) in [(2, 1.837), (4, 1.197), (8, 1.077), (64, 1.008)] {
+            assert!(is_near(student_factor(parts), expected, 0.01), "{parts}");
+        }
+        // Quantiles of χ² for a probability of 99.9 %, over the degrees of freedom.
+        for (parts, expected) in [(2, 10.83), (4, 16.27 / 3.0), (65, 104.7 / 64.0)] {
+            assert!(
+                is_near(chance_factor(parts, 0.0), expected, 0.04),
+                "{parts}"
+            );
+        }
+        assert!(chance_factor(64, 0.5) > 1.1 * chance_factor(64, 0.0));
+    }
+
+    /// Heights of 1 m and of 1e-90 m have the same relative spread.
+    #[test]
+    fn the_spread_does_not_depend_on_the_unit() {
+        let spread = |scale: f64| {
+            let height = |i: usize| (0.9 * i as f64 + (i * i % 97) as f64).sin();
+            let heights = (0..64 * 64).map(|i| scale * height(i) * (1.0 + (i % 64) as f64));
+            let surface = LevelledSurface {
+                heights: heights.collect(),
+                columns: 64,
+                rows: 64,
+                measured: Vec::new(),
+                distances: [1.0; 2],
+                windowed: true,
+                aligned: false,
+                without_curvature: false,
+            };
+            Blocks::new(&surface).unwrap().spread()
+        };
+        let plain = spread(1.0);
+        let tiny = spread(1e-90);
+        assert!(!plain.is_chance && plain.ratio > 2.0, "{plain:?}");
+        assert!(is_near(tiny.ratio, plain.ratio, 1e-6));
+        for index in 0..3 {
+            assert!(is_near(tiny.chance[index], plain.chance[index], 1e-6));
+            assert!(is_near(tiny.excess[index], plain.excess[index], 1e-6));
+        }
+    }
 }

@@ -143,9 +143,10 @@ fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 
 
 /// Returns the standard deviation of the Hurst exponent because the last wave number of the surface
 /// lies anywhere between two wave numbers that are tried. It is that of a uniform distribution
-/// between the best assumption and the likeliest other one without a filter.
+/// between the best assumption and the likeliest other one without a filter, and zero if the
+/// surface ends at the last resolved wave.
 fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
-    if best.assumption.is_filtered {
+    if best.assumption.is_filtered || best.assumption.end == End::Ends {
         return 0.0;
     }
     let others = candidates.iter().filter(|candidate| {

@@ -160,3 +160,22 @@ fn the_exponent_of_sampled_surfaces_lies_within_its_error() {
     println!("{within} of {surfaces}");
     assert!(share >= 0.93, "{within} of {surfaces}");
 }
+
+/// A large map whose spectrum ends at the last wave that its points resolve determines its exponent
+/// well.
+#[test]
+fn a_large_map_without_shorter_waves_has_a_small_error() {
+    for (hurst, roll_off) in [(0.3, 16.0), (0.8, 16.0), (0.5, NO_ROLL_OFF)] {
+        let spectrum = Spectrum {
+            hurst,
+            roll_off,
+            last: 256.0,
+        };
+        let surface = Map::random(512, &spectrum, 11).whole();
+        let analysis = analyse(&[surface], &AnalysisOptions::default()).unwrap();
+        let fit = analysis.power_law.unwrap();
+        println!("H = {hurst}, roll-off {roll_off}: {fit:?}");
+        assert!((fit.hurst.value - hurst).abs() < 0.02, "{fit:?}");
+        assert!(fit.hurst.error < 0.02, "{fit:?}");
+    }
+}
