@@ -30,8 +30,9 @@ Examples:
   asperity surface profile.csv --unit um --modulus 2.7MPa --work 50mJ/m^2 --scene rough.ron
 
 Files are profiles or maps: text in columns or as a matrix, SDF, GSF, NumPy, X3P, GWY, SUR,
-Nanoscope or NetCDF, also compressed by gzip. Several files are samples of the same roughness. A
-profile is a cut through the surface; the contact is computed on its equivalent line.
+Nanoscope, NetCDF, IBW, JPK, Park TIFF, Zygo DAT or Keyence VK4, also compressed by gzip. Several
+files are samples of the same roughness. A profile is a cut through the surface; the contact is
+computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
@@ -51,7 +52,7 @@ pub struct SurfaceArguments {
     /// How files are read.
     #[command(flatten)]
     pub measured: Measured,
-    /// Channel by its number, or surface of a container by its name
+    /// Channel by its number or its name, or surface of a container by its name
     #[arg(long, value_name = "NUMBER|NAME")]
     pub channel: Option<String>,
     /// Distance between points where a file states none, such as 0.5um

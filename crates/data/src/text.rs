@@ -208,7 +208,6 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
             room -= 1;
         }
         for (index, character) in word.chars().enumerate() {
-            // A line contains at least one character, even if `width` is 0.
             if index > 0 && room == 0 {
                 lines.push(std::mem::take(&mut line));
                 room = width;

@@ -7,8 +7,9 @@ use std::path::Path;
 use thiserror::Error;
 
 /// Formats that are read, for messages.
-const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, or these \
-                       in gzip; others saved as GWY or X3P in Gwyddion";
+const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, IBW, JPK, \
+                       Park TIFF, Zygo DAT, VK4, or these in gzip; others saved as GWY or X3P in \
+                       Gwyddion";
 
 /// Place of a fault in a file, a surface or a scene. Lines and points count from 1. Bytes count
 /// from 0, after decompression.

@@ -23,10 +23,10 @@ const FORMATS: [Format; 12] = [
         way: "the text of JPK Data Processing (File, Export)",
     },
     Format {
-        extensions: &["ibw", "pxp"],
+        extensions: &["ibw", "pxp", "ardf"],
         signature: b"",
-        name: "a wave of Igor Pro",
-        way: "the text of Igor Pro (Data, Save Waves, Save Delimited Text)",
+        name: "a damaged wave or an experiment of Igor Pro",
+        way: "the binary wave (IBW) of one curve, or the text of Igor Pro (Data, Save Waves, Save Delimited Text)",
     },
     Format {
         extensions: &["h5", "hdf5", "hdf"],
@@ -133,7 +133,11 @@ mod tests {
                 &b"PK\x03\x04\0"[..],
                 "curves of a JPK instrument, which is no text",
             ),
-            ("a.IBW", b"\x05\0\x11", "a wave of Igor Pro"),
+            (
+                "a.IBW",
+                b"\x05\0\x11",
+                "a damaged wave or an experiment of Igor",
+            ),
             ("a", b"\x89HDF\r\n\0", "a file of HDF5"),
             ("a.nid", b"[DataSet]\r\n#!\0\x01", "a file of Nanosurf"),
             ("a.spm", b"\\*File list\r\n\x1a\0", "a file of Nanoscope"),

@@ -1,4 +1,5 @@
-//! Columns of a measured curve in SI units, read from text, CSV or a NumPy array.
+//! Columns of a measured curve in SI units, read from text, CSV, a NumPy array or a binary wave of
+//! Igor.
 
 pub(crate) mod columns;
 pub(crate) mod foreign;
@@ -7,6 +8,7 @@ pub(crate) mod names;
 pub(crate) mod options;
 pub(crate) mod points;
 pub(crate) mod text;
+pub(crate) mod wave;
 
 use crate::error::ExperimentError;
 use crate::read::columns::Stated;
@@ -15,9 +17,10 @@ use crate::read::metadata::Metadata;
 use crate::read::options::CurveOptions;
 use crate::read::points::{Columns, Rows};
 use crate::read::text::of_text;
+use crate::read::wave::of_wave;
 use asperity_data::npy;
 use asperity_data::text_table::TextColumn;
-use asperity_surface::files::{columns as npy_columns, unpacked};
+use asperity_surface::files::{columns as npy_columns, is_igor_wave, unpacked};
 use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
@@ -31,6 +34,11 @@ pub(crate) fn parse(
     let bytes = unpacked(bytes)?;
     if bytes.starts_with(npy::SIGNATURE) {
         let columns = Columns::joined(of_array(&bytes, options)?);
+        columns.check_displacements(Place::Point)?;
+        return Ok(columns);
+    }
+    if is_igor_wave(&bytes) {
+        let columns = Columns::joined(of_wave(&bytes, options)?);
         columns.check_displacements(Place::Point)?;
         return Ok(columns);
     }

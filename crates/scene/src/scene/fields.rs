@@ -280,8 +280,8 @@ pub const FIELDS: &[Field] = &[
         .name("replacement of outliers").default("false")
         .meaning("true: outliers such as spikes get heights from their neighbours"),
     row("roughness.surface_name", measured!(surface_name), FILE_NAME)
-        .name("surface of a container").default("None")
-        .meaning("name of a surface or measurement in a container"),
+        .name("channel or surface by its name").default("None")
+        .meaning("name of a channel or column of the file, or of a surface or measurement in a container"),
     row("roughness.channel", measured!(channel), Whole(0, u32::MAX as u64))
         .name("channel of the file").step(Integer(1, 10)).default("None")
         .meaning("number of the channel of the file, from 0"),

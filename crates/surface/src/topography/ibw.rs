@@ -2,7 +2,7 @@
 //! map in three, as microscopes of Asylum Research write them. Rows begin at the bottom.
 
 use super::channel::{self, Label, Wanted};
-use super::igor::Wave;
+use super::igor::IgorWave;
 use super::reading::Reading;
 use super::stated_units::StatedUnits;
 use super::transpose::reverse_rows;
@@ -19,7 +19,7 @@ const OF_CURVES: [&str; 2] = ["Defl", "ZSnsr"];
 /// Reads the layer that is wanted; numbers count from 0. Without a number or a name, reads the only
 /// layer of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
-    let wave = Wave::parse(bytes)?;
+    let wave = IgorWave::parse(bytes)?;
     let [x, y, layers, higher] = &wave.dimensions;
     if is_curve(&wave) {
         let columns = shown(&y.labels.join(", "));
@@ -66,7 +66,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
 }
 
 /// Returns true for a force curve: columns with the names that Asylum gives them.
-fn is_curve(wave: &Wave<'_>) -> bool {
+fn is_curve(wave: &IgorWave<'_>) -> bool {
     let labels = &wave.dimensions[1].labels;
     OF_CURVES
         .iter()
@@ -75,7 +75,7 @@ fn is_curve(wave: &Wave<'_>) -> bool {
 
 /// Describes a layer. The only layer, and layers without names, have heights; others have heights
 /// if their names say so.
-fn label(wave: &Wave<'_>, layer: usize, number: u32) -> Label {
+fn label(wave: &IgorWave<'_>, layer: usize, number: u32) -> Label {
     let layers = &wave.dimensions[2];
     let name = layers.labels.get(layer).cloned().unwrap_or_default();
     let is_only = layers.count <= 1;
@@ -96,7 +96,7 @@ struct Spacing {
 impl Spacing {
     /// Returns the distances that the dimensions state, or else those that follow from the size of
     /// the scan in m in the note. Dimensions without a unit count their elements.
-    fn of(wave: &Wave<'_>) -> Result<Self, SurfaceError> {
+    fn of(wave: &IgorWave<'_>) -> Result<Self, SurfaceError> {
         let [x, y, ..] = &wave.dimensions;
         let place = |name: &str| Place::Part(format!("unit of dimension {name}"));
         let along = Unit::stated(&x.unit, place("0"))?;

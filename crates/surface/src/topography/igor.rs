@@ -5,7 +5,7 @@ use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
 
 /// Largest number of dimensions.
-pub const DIMENSIONS: usize = 4;
+const DIMENSIONS: usize = 4;
 
 /// Size in bytes of the name of an element.
 const LABEL_SIZE: usize = 32;
@@ -80,7 +80,7 @@ const UNIT_LENGTH: usize = 4;
 
 /// A dimension of a wave.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Dimension {
+pub struct WaveDimension {
     /// Number of elements; 0 for a dimension that the wave does not have.
     pub count: usize,
     /// Distance between neighbouring elements.
@@ -93,9 +93,9 @@ pub struct Dimension {
 
 /// A wave whose numbers are still bytes.
 #[derive(Debug)]
-pub struct Wave<'a> {
+pub struct IgorWave<'a> {
     /// Dimensions, of which the first runs fastest.
-    pub dimensions: [Dimension; DIMENSIONS],
+    pub dimensions: [WaveDimension; DIMENSIONS],
     /// Unit of the numbers; empty if none is stated.
     pub unit: String,
     /// Text that programs attach to the wave, with lines `key: value`.
@@ -151,12 +151,12 @@ impl Layout {
 }
 
 /// Returns true for a file that begins with the headers of a wave, whose check sum is right.
-pub fn is_wave(bytes: &[u8]) -> bool {
+pub fn is_igor_wave(bytes: &[u8]) -> bool {
     Layout::of(bytes).is_some_and(|layout| layout.check_sum(bytes) == 0)
 }
 
 /// Returns an error for a file that seems to be a wave of version 5, but has a wrong check sum.
-pub fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
+pub(super) fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
     match Layout::of(bytes) {
         Some(layout) if !layout.is_old() && layout.check_sum(bytes) != 0 => {
             let found = "headers of a binary wave of Igor with a wrong check sum";
@@ -166,7 +166,7 @@ pub fn check_sum(bytes: &[u8]) -> Result<(), SurfaceError> {
     }
 }
 
-impl<'a> Wave<'a> {
+impl<'a> IgorWave<'a> {
     /// Parses a file.
     ///
     /// # Errors
@@ -178,9 +178,9 @@ impl<'a> Wave<'a> {
             return Err(refused(Place::Byte(0), found, "version 1, 2, 3 or 5"));
         };
         if layout.is_old() {
-            Wave::parse_old(bytes, &layout)
+            IgorWave::parse_old(bytes, &layout)
         } else {
-            Wave::parse_new(bytes, &layout)
+            IgorWave::parse_new(bytes, &layout)
         }
     }
 
@@ -202,18 +202,18 @@ impl<'a> Wave<'a> {
             }
             None => String::new(),
         };
-        let dimension = Dimension {
+        let dimension = WaveDimension {
             count: points,
             step: at(old_field::STEP)?.number(Number::F64)?,
             unit: text(at(old_field::UNIT_OF_X)?.take(UNIT_LENGTH)?),
             labels: Vec::new(),
         };
-        Ok(Wave {
+        Ok(IgorWave {
             dimensions: [
                 dimension,
-                Dimension::default(),
-                Dimension::default(),
-                Dimension::default(),
+                WaveDimension::default(),
+                WaveDimension::default(),
+                WaveDimension::default(),
             ],
             unit: text(at(old_field::UNIT)?.take(UNIT_LENGTH)?),
             note,
@@ -248,7 +248,7 @@ impl<'a> Wave<'a> {
         let mut units = at(field::UNITS_OF_DIMENSIONS)?;
         let mut sizes_of_units = in_file(field::SIZES_OF_UNITS)?;
         let mut sizes_of_labels = in_file(field::SIZES_OF_LABELS)?;
-        let mut dimensions: [Dimension; DIMENSIONS] = Default::default();
+        let mut dimensions: [WaveDimension; DIMENSIONS] = Default::default();
         for (dimension, (count, step)) in dimensions.iter_mut().zip(counts.iter().zip(steps)) {
             dimension.count = *count as usize;
             dimension.step = step;
@@ -262,7 +262,7 @@ impl<'a> Wave<'a> {
             let labels = rest.take(size)?.chunks_exact(LABEL_SIZE).skip(1);
             dimension.labels = labels.map(text).collect();
         }
-        Ok(Wave {
+        Ok(IgorWave {
             dimensions,
             unit,
             note,
@@ -502,8 +502,8 @@ pub(super) mod tests {
                     .collect(),
             };
             let bytes = file(&wave, order);
-            assert!(is_wave(&bytes));
-            let found = Wave::parse(&bytes).unwrap();
+            assert!(is_igor_wave(&bytes));
+            let found = IgorWave::parse(&bytes).unwrap();
             assert_eq!(found.numbers(0, 8).unwrap(), numbers);
             assert_eq!(found.numbers(4, 2).unwrap(), [5.0, 6.0]);
             assert!(found.numbers(4, 5).is_err());
@@ -521,8 +521,8 @@ pub(super) mod tests {
             );
 
             let bytes = old_file(&numbers, order);
-            assert!(is_wave(&bytes));
-            let found = Wave::parse(&bytes).unwrap();
+            assert!(is_igor_wave(&bytes));
+            let found = IgorWave::parse(&bytes).unwrap();
             assert_eq!(found.numbers(0, 8).unwrap(), numbers);
             assert_eq!((&*found.unit, found.entry("by")), ("nm", Some("hand")));
             let [x, y, ..] = &found.dimensions;
@@ -540,7 +540,7 @@ pub(super) mod tests {
                 ..Written::default()
             };
             let bytes = file(&wave, Order::Little);
-            let found = Wave::parse(&bytes).map_err(|error| error.to_string())?;
+            let found = IgorWave::parse(&bytes).map_err(|error| error.to_string())?;
             found.numbers(1, 1).map_err(|error| error.to_string())
         };
         for (kind, number, expected) in [
@@ -580,19 +580,19 @@ pub(super) mod tests {
             ..Written::default()
         };
         let whole = file(&wave, Order::Little);
-        assert!(is_wave(&whole));
+        assert!(is_igor_wave(&whole));
         for end in 0..whole.len() {
-            assert!(Wave::parse(&whole[..end]).is_err(), "{end}");
+            assert!(IgorWave::parse(&whole[..end]).is_err(), "{end}");
         }
         let mut changed = whole.clone();
         changed[64 + field::COUNTS] = 4;
-        assert!(!is_wave(&changed) && check_sum(&whole).is_ok());
+        assert!(!is_igor_wave(&changed) && check_sum(&whole).is_ok());
         let error = check_sum(&changed).unwrap_err().to_string();
         assert!(
             error.starts_with("byte 2: headers of a binary wave"),
             "{error}"
         );
-        let error = Wave::parse(&changed).unwrap_err().to_string();
+        let error = IgorWave::parse(&changed).unwrap_err().to_string();
         assert!(
             error.starts_with("byte 132: 6 numbers in [4.0, 2.0, 0.0, 0.0]"),
             "{error}"

@@ -178,8 +178,8 @@ impl<'a> Channel<'a> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::super::bytes::Order;
-    use super::super::tiff;
     use super::super::tiff::tests::{Tag, Writer};
+    use super::super::tiff_maker;
     use super::*;
 
     const NUMBERS: [i32; 6] = [1, -2, 3, 40, 50, 60];
@@ -225,14 +225,14 @@ pub(super) mod tests {
     fn heights_follow_from_the_default_slot() {
         for (order, bits) in [(Order::Little, 16), (Order::Big, 32), (Order::Big, 16)] {
             let bytes = file(order, bits, false);
-            let found = tiff::read(&bytes, Wanted::Name("height retrace")).unwrap();
+            let found = tiff_maker::read(&bytes, Wanted::Name("height retrace")).unwrap();
             assert_eq!((found.format, found.columns), ("JPK", 3));
             assert_eq!(found.spacing, Some([2e-6, 1e-6]));
             let expected = |number: i32| f64::from(number + 1) * -2e-10 + 3e-6;
             // The last row of the file is the upper one.
             let upper_first = [40, 50, 60, 1, -2, 3].map(expected);
             assert_eq!(found.heights, upper_first);
-            let reflected = tiff::read(&file(order, bits, true), Wanted::Number(1)).unwrap();
+            let reflected = tiff_maker::read(&file(order, bits, true), Wanted::Number(1)).unwrap();
             assert_eq!(reflected.heights, NUMBERS.map(expected));
         }
     }
@@ -240,7 +240,9 @@ pub(super) mod tests {
     #[test]
     fn channels_are_listed_and_scalings_are_checked() {
         let bytes = file(Order::Little, 16, false);
-        let error = tiff::read(&bytes, Wanted::Heights).unwrap_err().to_string();
+        let error = tiff_maker::read(&bytes, Wanted::Heights)
+            .unwrap_err()
+            .to_string();
         assert!(
             error.starts_with(
                 "2 channels of heights; channels: 0 \"Height\" trace in m, 1 \"Height\" retrace in m, 2 \
@@ -248,7 +250,7 @@ pub(super) mod tests {
             ),
             "{error}"
         );
-        let error = tiff::read(&bytes, Wanted::Name("Phase")).unwrap_err();
+        let error = tiff_maker::read(&bytes, Wanted::Name("Phase")).unwrap_err();
         assert!(
             error
                 .to_string()
@@ -261,7 +263,7 @@ pub(super) mod tests {
             .unwrap();
         let mut other = bytes.clone();
         other[place..place + 6].copy_from_slice(b"Square");
-        let error = tiff::read(&other, Wanted::Number(0))
+        let error = tiff_maker::read(&other, Wanted::Number(0))
             .unwrap_err()
             .to_string();
         assert!(
@@ -270,7 +272,7 @@ pub(super) mod tests {
         );
         for end in 4..bytes.len() {
             assert!(
-                tiff::read(&bytes[..end], Wanted::Number(0)).is_err(),
+                tiff_maker::read(&bytes[..end], Wanted::Number(0)).is_err(),
                 "{end}"
             );
         }

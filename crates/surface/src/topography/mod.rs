@@ -39,6 +39,7 @@ mod sur;
 pub(crate) mod surface;
 mod text;
 mod tiff;
+mod tiff_maker;
 mod transpose;
 pub(crate) mod unit;
 mod vk;

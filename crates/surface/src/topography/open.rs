@@ -8,7 +8,8 @@ use super::options::ReadOptions;
 use super::reading::Reading;
 use super::surface::Topography;
 use super::{
-    foreign, gsf, gwy, ibw, igor, nanoscope, netcdf, npy, sdf, sur, text, tiff, vk, x3p, zygo,
+    foreign, gsf, gwy, ibw, igor, nanoscope, netcdf, npy, sdf, sur, text, tiff, tiff_maker, vk,
+    x3p, zygo,
 };
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{Note, ReadError, Remedy, read_limited, read_regular};
@@ -70,8 +71,8 @@ const BINARY_FORMATS: [BinaryFormat; 15] = [
     with_channels(nanoscope::SIGNATURE_OF_ELECTROCHEMISTRY, nanoscope::read),
     single(sur::PLAIN, sur::read),
     single(sur::COMPRESSED, sur::read),
-    with_channels(tiff::SIGNATURES[0], tiff::read),
-    with_channels(tiff::SIGNATURES[1], tiff::read),
+    with_channels(tiff::SIGNATURES[0], tiff_maker::read),
+    with_channels(tiff::SIGNATURES[1], tiff_maker::read),
     with_channels(vk::SIGNATURES[0], vk::read),
     with_channels(vk::SIGNATURES[1], vk::read),
     single(zygo::SIGNATURES[0], zygo::read),
@@ -208,7 +209,7 @@ fn reading(bytes: &[u8], options: &ReadOptions) -> Result<Reading, SurfaceError>
         check_unnamed(options)?;
         return sdf::read(&content);
     }
-    if igor::is_wave(&content) {
+    if igor::is_igor_wave(&content) {
         return ibw::read(&content, Wanted::new(options)?);
     }
     foreign::check(&content)?;
@@ -291,13 +292,16 @@ mod tests {
 
     /// Options that suit a file without units and distances.
     fn bare(name: &str) -> ReadOptions {
-        let unit = name.ends_with(".npy").then_some(Unit::METRE);
+        let has_no_unit = name.ends_with(".npy") || name == "no-data.xyz";
+        let unit = has_no_unit.then_some(Unit::METRE);
         let height_unit = (name == "points.nc").then_some(Unit::METRE);
+        let has_channels = name.ends_with(".jpk") || name.ends_with(".vk3");
         ReadOptions {
             unit,
             height_unit,
             spacing: Some(0.5),
             interpolate: true,
+            channel: has_channels.then_some(0),
             ..ReadOptions::default()
         }
     }
@@ -307,7 +311,8 @@ mod tests {
         let mut found = String::new();
         let names = "binary.sdf text.sdf field.gsf map.npy columns.npy profile.npy linked.x3p listed.x3p map.gwy \
                      plain.sur compressed.sur map.nc points.nc heights.txt matrix.txt points.txt latin1.txt utf16.txt descending.csv \
-                     map.spm points.x3p wyko.asc spip.asc";
+                     map.spm points.x3p wyko.asc spip.asc layers.ibw big-endian.ibw version-2.ibw channels.jpk \
+                     big-endian.jpk park.tiff park-1.tiff zygo.dat map.vk3 map.vk4 wsxm.xyz no-data.xyz nist.sdf";
         for name in names.split(' ') {
             let mut surface = parse(&file(name, b"", b""), &bare(name)).unwrap();
             surface.heights.truncate(12);

@@ -191,8 +191,8 @@ fn text(mut bytes: Bytes<'_>, letters: usize) -> Result<String, SurfaceError> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::super::bytes::Order;
-    use super::super::tiff;
     use super::super::tiff::tests::{Tag, Writer};
+    use super::super::tiff_maker;
     use super::*;
 
     const LITTLE: Writer = Writer {
@@ -253,7 +253,7 @@ pub(super) mod tests {
             (16_777_218, 1),
             (16_777_218, 2),
         ] {
-            let found = tiff::read(&file(version, kind, "um"), Wanted::Heights).unwrap();
+            let found = tiff_maker::read(&file(version, kind, "um"), Wanted::Heights).unwrap();
             assert_eq!((found.format, found.columns), ("Park", 3));
             assert_eq!(found.spacing, Some([2.0, 1.0]));
             assert_eq!(found.heights, expected);
@@ -261,8 +261,8 @@ pub(super) mod tests {
             assert_eq!(units.map(|unit| unit.map(Unit::name)), [Some("µm"); 2]);
         }
         let whole = file(16_777_218, 1, "um");
-        assert!(tiff::read(&whole, Wanted::Name("z height")).is_ok());
-        let error = tiff::read(&whole, Wanted::Name("Phase"))
+        assert!(tiff_maker::read(&whole, Wanted::Name("z height")).is_ok());
+        let error = tiff_maker::read(&whole, Wanted::Name("Phase"))
             .unwrap_err()
             .to_string();
         let expected = "no channel \"Phase\"; channels: 0 \"Z Height\" in um; allowed: ";
@@ -271,7 +271,11 @@ pub(super) mod tests {
 
     #[test]
     fn faults_are_named() {
-        let error = |bytes: &[u8]| tiff::read(bytes, Wanted::Heights).unwrap_err().to_string();
+        let error = |bytes: &[u8]| {
+            tiff_maker::read(bytes, Wanted::Heights)
+                .unwrap_err()
+                .to_string()
+        };
         assert!(error(&file(16_777_218, 1, "V")).contains("\"V\" is not a unit of length"));
         assert!(error(&file(16_777_218, 3, "um")).contains("type 3 of the heights"));
         let whole = file(16_777_218, 1, "um");
@@ -286,7 +290,10 @@ pub(super) mod tests {
             assert!(error(&file).contains(expected), "{}", error(&file));
         }
         for end in 4..whole.len() {
-            assert!(tiff::read(&whole[..end], Wanted::Heights).is_err(), "{end}");
+            assert!(
+                tiff_maker::read(&whole[..end], Wanted::Heights).is_err(),
+                "{end}"
+            );
         }
     }
 }

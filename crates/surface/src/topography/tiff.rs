@@ -2,9 +2,6 @@
 //! each point, without compression.
 
 use super::bytes::{Bytes, Number, Order, decoded};
-use super::channel::Wanted;
-use super::reading::Reading;
-use super::{jpk, park};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::gathered;
 use std::borrow::Cow;
@@ -33,23 +30,8 @@ mod tag {
     pub const SAMPLE_FORMAT: u16 = 339;
 }
 
-/// Reads the image that is wanted of a file of JPK or of Park.
-pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
-    let directories = directories(bytes)?;
-    if park::is_park(&directories) {
-        return park::read(&directories, wanted);
-    }
-    if jpk::is_jpk(&directories) {
-        return jpk::read(&directories, wanted);
-    }
-    let found = "a picture (TIFF) without the heights that JPK and Park store in it";
-    let allowed = "the heights as text, X3P, SUR or GWY, from the program that drew them, or the \
-                   same saved as GWY or X3P in Gwyddion";
-    Err(refused(Place::File, found, allowed))
-}
-
 /// Returns all directories of a file.
-fn directories(bytes: &[u8]) -> Result<Vec<Directory<'_>>, SurfaceError> {
+pub(super) fn directories(bytes: &[u8]) -> Result<Vec<Directory<'_>>, SurfaceError> {
     let order = if bytes.starts_with(SIGNATURES[0]) {
         Order::Little
     } else {
@@ -457,21 +439,17 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn pictures_and_circles_of_directories_are_refused() {
+    fn a_circle_of_directories_ends() {
         let mut file = LITTLE.begin();
         let tags = LITTLE.image(&mut file, &[1, 2, 3], 16);
         let link = LITTLE.directory(&mut file, 4, &tags);
-        let error = read(&file, Wanted::Heights).unwrap_err().to_string();
-        assert!(
-            error.starts_with("a picture (TIFF) without the heights"),
-            "{error}"
-        );
+        assert_eq!(directories(&file).unwrap().len(), 1);
         // The directory is its own successor.
         let own = file[4..8].to_vec();
         file[link..].copy_from_slice(&own);
         assert_eq!(directories(&file).unwrap().len(), MOST_DIRECTORIES);
         for end in 4..file.len() {
-            assert!(read(&file[..end], Wanted::Heights).is_err(), "{end}");
+            assert!(directories(&file[..end]).is_err(), "{end}");
         }
     }
 }
