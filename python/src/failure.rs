@@ -228,7 +228,7 @@ impl From<StudyError> for Failure {
     fn from(error: StudyError) -> Failure {
         match error {
             StudyError::Measured(error) => error.into(),
-            StudyError::Run { place, error } if place.is_empty() => error.into(),
+            StudyError::Run { place, error } if place.is_empty() => (*error).into(),
             StudyError::TooManyRecords(_) | StudyError::Memory { .. } => {
                 Failure(PyMemoryError::new_err(sentence(&error.to_string())))
             }

@@ -107,14 +107,14 @@ fn fit_together(
     reading: &CurveOptions,
     options: &EnsembleOptions,
 ) -> Result<Report, Failure> {
-    let mut named = Vec::with_capacity(curves.len());
+    let mut measured = Vec::with_capacity(curves.len());
     for curve in curves {
-        named.push((curve.0.clone(), curve.read(reading)?));
+        measured.push((curve.0.clone(), curve.read(reading)?));
     }
     let document = case.document.clone();
     let simulation = case.simulation();
     let fit = case.watched(0, computed_curves, |control| {
-        fit_ensemble(&named, &document, options, &simulation, control)
+        fit_ensemble(&measured, &document, options, &simulation, control)
     })?;
     let has_roughness_errors = options.height_error.is_some() || options.hurst_error.is_some();
     let in_memory = case.in_memory.clone();

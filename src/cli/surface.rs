@@ -137,7 +137,7 @@ impl SurfaceArguments {
                 "allowed: from 1e-15 to 10 m",
             ));
         }
-        let mut files = self.files.iter().map(in_unicode);
+        let mut files = self.files.iter().map(|file| in_unicode(file));
         let number = self
             .channel
             .as_ref()
@@ -147,7 +147,7 @@ impl SurfaceArguments {
             surface_name: self.channel.clone().filter(|_| number.is_none()),
             file: files.next().unwrap_or_default(),
             further_files: files.collect(),
-            opposite: self.opposite.as_ref().map(in_unicode),
+            opposite: self.opposite.as_deref().map(in_unicode),
             spacing: self.in_metres("--spacing", self.spacing)?,
             continue_to,
             ..self.measured.clone()
@@ -186,7 +186,7 @@ impl SurfaceArguments {
     }
 }
 
-fn in_unicode(file: &PathBuf) -> String {
+fn in_unicode(file: &Path) -> String {
     file.to_string_lossy().into_owned()
 }
 

@@ -74,7 +74,7 @@ impl Streaks<'_> {
                         let seed = plan.seed_of(streak.line);
                         let place =
                             format!("cell {cell} ({}), seed {seed}: ", plan.coordinates(cell));
-                        StudyError::Run { place, error }
+                        StudyError::at(place, error)
                     })?;
                     let warnings = recorder.take_warnings();
                     let solved = SolvedStreak {

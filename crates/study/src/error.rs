@@ -46,7 +46,7 @@ pub enum StudyError {
         /// single profile is computed.
         place: String,
         /// Reason why the scene was not computed to the end.
-        error: RunError,
+        error: Box<RunError>,
     },
     /// The solver of contacts in three dimensions returned an error.
     #[error(transparent)]
@@ -122,14 +122,17 @@ impl Remedied for StudyError {
 impl From<RunError> for StudyError {
     /// Makes the error of a computation of a single profile.
     fn from(error: RunError) -> StudyError {
-        StudyError::Run {
-            place: String::new(),
-            error,
-        }
+        StudyError::at(String::new(), error)
     }
 }
 
 impl StudyError {
+    /// Makes the error of a computation for the values and the seed that `place` states.
+    pub(super) fn at(place: String, error: RunError) -> StudyError {
+        let error = Box::new(error);
+        StudyError::Run { place, error }
+    }
+
     /// Makes the error of a value at a place, or of a request as a whole.
     pub(super) fn refused(
         place: Option<&str>,

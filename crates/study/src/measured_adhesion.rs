@@ -221,10 +221,7 @@ impl MeasuredAdhesion {
                 let solved = ProfileAdhesion::solve(scene, line, seed, stop);
                 // The receiver lives until all threads have ended.
                 let _ = sender.send(());
-                solved.map_err(|error| StudyError::Run {
-                    place: format!("seed {seed}: "),
-                    error,
-                })
+                solved.map_err(|error| StudyError::at(format!("seed {seed}: "), error))
             }
         };
         let threads = control.threads();

@@ -509,7 +509,7 @@ mod tests {
             );
             match found {
                 Ok(found) => Ok((found, parts)),
-                Err(StudyError::Run { error, .. }) => Err(error),
+                Err(StudyError::Run { error, .. }) => Err(*error),
                 Err(other) => panic!("{other}"),
             }
         };

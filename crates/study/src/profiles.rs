@@ -79,7 +79,7 @@ fn failed_profile(plan: &Plan, line: u64, error: RunError) -> StudyError {
     if plan.lines > 1 {
         place = format!("seed {}: ", plan.seed_of(line));
     }
-    StudyError::Run { place, error }
+    StudyError::at(place, error)
 }
 
 fn no_simulation() -> StudyError {

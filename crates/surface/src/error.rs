@@ -35,9 +35,19 @@ pub enum Place {
     /// Place in one of several surfaces that are analysed together, with the index of the surface
     /// from 0.
     Surface(usize, Box<Place>),
-    /// Place in a file that a field of the scene names. The values are the path of the field, the
-    /// path of the file, and the place in the file.
-    FileOf(&'static str, String, Box<Place>),
+    /// Place in a file that a field of the scene names.
+    FileOf(Box<PlaceInFile>),
+}
+
+/// Place in a file that a field of the scene names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlaceInFile {
+    /// Path of the field in the scene, such as `roughness.file`.
+    pub field: &'static str,
+    /// Path of the file.
+    pub file: String,
+    /// Place in the file.
+    pub place: Place,
 }
 
 impl fmt::Display for Place {
@@ -51,7 +61,9 @@ impl fmt::Display for Place {
             Place::Field(name) => write!(f, "{name}: "),
             Place::Measurement(name, place) => write!(f, "{}: {place}", shown(name)),
             Place::Surface(_, place) => place.fmt(f),
-            Place::FileOf(field, file, place) => write!(f, "{field} = {file:?}: {place}"),
+            Place::FileOf(inside) => {
+                write!(f, "{} = {:?}: {}", inside.field, inside.file, inside.place)
+            }
         }
     }
 }
@@ -60,12 +72,20 @@ impl Place {
     /// Returns this place and all places inside which it lies, from the outermost to the innermost.
     fn all(&self) -> impl Iterator<Item = &Place> {
         std::iter::successors(Some(self), |place| match place {
-            Place::Measurement(_, inner)
-            | Place::Surface(_, inner)
-            | Place::FileOf(_, _, inner) => Some(&**inner),
+            Place::Measurement(_, inner) | Place::Surface(_, inner) => Some(&**inner),
+            Place::FileOf(inside) => Some(&inside.place),
             _ => None,
         })
     }
+}
+
+/// How one of several surfaces of a file is chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChosenBy {
+    /// By the number or the name of a channel.
+    ChannelNumber,
+    /// By the name of a surface in a container.
+    SurfaceName,
 }
 
 /// Reason why a surface, a form or a profile cannot be read, made or analysed. The message names
@@ -139,8 +159,8 @@ pub enum SurfaceError {
         channels: Vec<String>,
         /// What is allowed, in words.
         allowed: &'static str,
-        /// How one of them is chosen: by its name or by its number.
-        remedy: Remedy,
+        /// How one of them is chosen.
+        chosen_by: ChosenBy,
     },
     /// The operating system cannot read a file.
     #[error("{place}{reason}")]
@@ -205,7 +225,8 @@ impl SurfaceError {
     /// surface that belongs to no scene.
     pub fn field(&self) -> Option<&'static str> {
         self.find(|place| match place {
-            Place::Field(name) | Place::FileOf(name, ..) => Some(*name),
+            Place::Field(name) => Some(*name),
+            Place::FileOf(inside) => Some(inside.field),
             _ => None,
         })
     }
@@ -213,7 +234,7 @@ impl SurfaceError {
     /// Returns the path of the file with the fault, if a scene names this file.
     pub fn file(&self) -> Option<String> {
         self.find(|place| match place {
-            Place::FileOf(_, file, _) => Some(file.clone()),
+            Place::FileOf(inside) => Some(inside.file.clone()),
             _ => None,
         })
     }
@@ -246,7 +267,17 @@ impl SurfaceError {
     /// Returns the same error with a longer place: the field `roughness.file` of the scene, the
     /// path `file`, and the present place inside this file.
     pub fn in_measured(self, file: &Path) -> Self {
-        self.within(|place| Place::FileOf("roughness.file", file.display().to_string(), place))
+        self.in_file_of("roughness.file", file)
+    }
+
+    /// Returns the same error with a longer place: the field of the scene that names a file, the
+    /// path of the file, and the present place inside this file.
+    pub(crate) fn in_file_of(self, field: &'static str, file: &Path) -> Self {
+        let file = file.display().to_string();
+        self.within(|place| {
+            let place = *place;
+            Place::FileOf(Box::new(PlaceInFile { field, file, place }))
+        })
     }
 
     /// Creates the error of a profile whose springs do not fit into memory.
@@ -274,7 +305,10 @@ impl Remedied for SurfaceError {
                 unit_of_positions: None,
                 ..
             } => vec![Remedy::Unit("um".to_owned())],
-            SurfaceError::Channel { remedy, .. } => vec![remedy.clone()],
+            SurfaceError::Channel { chosen_by, .. } => match chosen_by {
+                ChosenBy::ChannelNumber => vec![Remedy::Channel],
+                ChosenBy::SurfaceName => vec![Remedy::SurfaceName],
+            },
             SurfaceError::UnreadFormat { .. }
             | SurfaceError::Unreadable { .. }
             | SurfaceError::Transform(_)

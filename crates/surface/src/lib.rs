@@ -23,7 +23,7 @@ mod line;
 mod spectrum;
 mod topography;
 
-pub use error::{Place, SurfaceError};
+pub use error::{ChosenBy, Place, PlaceInFile, SurfaceError};
 pub use line::equivalent::EquivalentLine;
 pub use line::form::Form;
 pub use line::spectrum::{Amplitude, SelfAffine};

@@ -264,7 +264,7 @@ impl BothSides<'_> {
     /// removed.
     fn columns(&self, pole: f64) -> Vec<Vec<f64>> {
         let points = self.points;
-        let mut columns = vec![Vec::with_capacity(self.indices.len()); 6];
+        let mut columns = vec![Vec::new(); 6];
         for &index in &self.indices {
             let displacement = points.displacement[index];
             let is_pulled = points.segment[index] % 2 == 1;

@@ -84,14 +84,15 @@ impl Lines {
                 0.0
             });
         }
-        let count = self.columns.len();
         let mut matrix = self.free_products.clone();
-        let mut components = Vec::with_capacity(count);
-        for row in 0..count {
-            for column in 0..count {
-                matrix[row][column] += weight * self.contact_products[row][column];
+        let mut components = Vec::with_capacity(self.columns.len());
+        for (row, products) in matrix.iter_mut().zip(&self.contact_products) {
+            for (value, product) in row.iter_mut().zip(products) {
+                *value += weight * product;
             }
-            components.push(dot(&weighted, &self.columns[row]));
+        }
+        for column in &self.columns {
+            components.push(dot(&weighted, column));
         }
         let coefficients = solved(matrix, components);
         for (column, coefficient) in self.columns.iter().zip(coefficients) {
@@ -113,10 +114,11 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut values: Vec<f64>) -> Vec<f64> {
             values[pivot] = 0.0;
             continue;
         }
+        let pivot_row = matrix[pivot].clone();
         for row in pivot + 1..count {
-            let factor = matrix[row][pivot] / matrix[pivot][pivot];
-            for column in pivot..count {
-                matrix[row][column] -= factor * matrix[pivot][column];
+            let factor = matrix[row][pivot] / pivot_row[pivot];
+            for (value, above) in matrix[row].iter_mut().zip(&pivot_row).skip(pivot) {
+                *value -= factor * above;
             }
             values[row] -= factor * values[pivot];
         }

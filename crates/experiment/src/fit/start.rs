@@ -125,7 +125,7 @@ impl Loading {
         let belongs = |index: &usize| {
             curve.segment[*index] == curve.segment[top] && curve.force[*index] >= half
         };
-        let is_pressed = curve.segment[top] % 2 == 0;
+        let is_pressed = curve.segment[top].is_multiple_of(2);
         let indices: Vec<usize> = if is_pressed {
             let mut indices: Vec<usize> = (0..=top).rev().take_while(belongs).collect();
             indices.reverse();

@@ -36,10 +36,11 @@ pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Column
         if let Some(name) = segments.as_ref().and_then(|segments| segments.name(row)) {
             rows.begin_segment(name);
         }
+        let cells: Vec<f64> = values.iter().map(|column| column[row]).collect();
         rows.take(
             &Place::Point(row + 1),
-            |column| Ok(values[column][row]),
-            |column| values[column][row].to_string().into(),
+            |column| Ok(cells[column]),
+            |column| cells[column].to_string().into(),
         )?;
     }
     Ok(rows.finished())

@@ -88,9 +88,7 @@ impl Form {
             return Ok(());
         };
         let path = folder.join(file);
-        let in_file = |error: SurfaceError| {
-            error.within(|place| Place::FileOf("form.file", path.display().to_string(), place))
-        };
+        let in_file = |error: SurfaceError| error.in_file_of("form.file", &path);
         if rows.0.get().is_none() {
             let unit = if unit.is_empty() {
                 None

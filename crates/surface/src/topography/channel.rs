@@ -1,7 +1,7 @@
 //! Choice of one of the channels of a file by its number or its name.
 
 use super::options::ReadOptions;
-use crate::error::{Place, SurfaceError, refused};
+use crate::error::{ChosenBy, Place, SurfaceError, refused};
 use asperity_data::{Remedy, shown};
 
 /// Largest number of channels that a message lists.
@@ -140,7 +140,7 @@ pub(super) fn chosen(
         fault: format!("{fault}; {kind}s"),
         channels: listed(labels),
         allowed,
-        remedy: Remedy::Channel,
+        chosen_by: ChosenBy::ChannelNumber,
     })
 }
 

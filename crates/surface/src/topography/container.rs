@@ -5,7 +5,7 @@ use super::options::ReadOptions;
 use super::reading::Reading;
 use super::surface::Detrend;
 use super::unit::Unit;
-use crate::error::{Place, SurfaceError, refused};
+use crate::error::{ChosenBy, Place, SurfaceError, refused};
 use asperity_data::{Note, Remedy, shown};
 use serde::Deserialize;
 
@@ -128,7 +128,7 @@ fn chosen(
         fault: format!("{fault} in the container"),
         channels: names.clone(),
         allowed: "the name of one of them or of their measurements",
-        remedy: Remedy::SurfaceName,
+        chosen_by: ChosenBy::SurfaceName,
     };
     let Some(name) = name else {
         if surfaces.len() == 1 {
