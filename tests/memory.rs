@@ -377,6 +377,10 @@ fn a_run_holds_at_most_the_memory_that_is_stated() {
         (back_and_forth(40), 2000),
         (back_and_forth(500), 2),
         (back_and_forth(500), 512),
+        // All springs touch.
+        ("[ToForce(1.0e-2)]".to_owned(), 2),
+        ("[ToForce(1.0e-2), ToSeparation]".to_owned(), 2),
+        ("[ToForce(1.0e-2), ToSeparation]".to_owned(), 512),
     ];
     let mut wrong = Vec::new();
     for (name, points, adhesion) in [
@@ -384,6 +388,7 @@ fn a_run_holds_at_most_the_memory_that_is_stated() {
         ("pressure-sensitive", "16384", "(kappa: 8)"),
         ("pressure-sensitive", "16384", "(kappa: 40)"),
         ("pressure-sensitive", "16384", "None"),
+        ("jkr-sphere", "16384", "None"),
         ("jkr-sphere", "1024", "(work: 0.05)"),
         ("rough-sphere", "4096", "(work: 0.05)"),
     ] {

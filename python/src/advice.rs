@@ -32,6 +32,7 @@ pub fn argument(remedy: &Remedy) -> String {
         Remedy::Noise => "options[\"noise\"]",
         Remedy::Free(parameter) => return format!("\"{parameter}\" in free fits it"),
         Remedy::FreeRange => "free with ranges",
+        Remedy::FreeIn(range) => return format!("free=[\"{range}\"] searches beyond"),
         Remedy::ManyProfiles => "profiles compares the curve with many of them",
         Remedy::Profiles(count) => return format!("profiles={count}"),
         Remedy::MoreProfiles => "profiles",
@@ -74,7 +75,7 @@ pub fn name(remedy: &Remedy) -> Option<&'static str> {
         Remedy::RemoveDrift => "drift",
         Remedy::RemoveTilt => "tilt",
         Remedy::Noise => "noise",
-        Remedy::Free(_) | Remedy::FreeRange => "free",
+        Remedy::Free(_) | Remedy::FreeRange | Remedy::FreeIn(_) => "free",
         Remedy::ManyProfiles | Remedy::Profiles(_) | Remedy::MoreProfiles | Remedy::NoProfiles => {
             "profiles"
         }

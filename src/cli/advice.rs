@@ -41,6 +41,7 @@ pub fn option(remedy: &Remedy) -> String {
         Remedy::Noise => "--noise FORCE",
         Remedy::Free(parameter) => return format!("--free {parameter} fits it"),
         Remedy::FreeRange => "--free NAME=A..B",
+        Remedy::FreeIn(range) => return format!("--free {range} searches beyond"),
         Remedy::ManyProfiles => "--profiles compares the curve with many of them",
         Remedy::Profiles(count) => return format!("--profiles {count}"),
         Remedy::MoreProfiles => "--profiles",

@@ -34,6 +34,7 @@ pub fn row(remedy: &Remedy) -> String {
         Remedy::Noise => "a force on the row noise",
         Remedy::Free(parameter) => return format!("a fit of {parameter} too"),
         Remedy::FreeRange => "another range by asperity fit",
+        Remedy::FreeIn(range) => return format!("asperity fit --free {range} searches beyond"),
         Remedy::ManyProfiles => "asperity fit compares the curve with many of them",
         Remedy::Profiles(count) => return format!("{count} profiles"),
         Remedy::MoreProfiles => "asperity run --profiles",

@@ -5,6 +5,7 @@ use crate::driving::{
     ASPERITY, ESCAPE, answer, explorer, headline, last_place, paused, quit, row_with, select,
     wait_for_another,
 };
+use asperity::scene::presets;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -105,7 +106,7 @@ fn the_first_own_scene_makes_its_folder() {
     terminal.wait_for("saved to ");
     assert!(own.is_file());
     terminal.send("o");
-    terminal.wait_for(" of 15");
+    terminal.wait_for(&format!(" of {}", presets().len()));
     terminal.wait_for("mine  own");
     terminal.send(ESCAPE);
     terminal.wait_without("Search:");

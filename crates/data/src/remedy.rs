@@ -56,6 +56,8 @@ pub enum Remedy {
     Free(String),
     /// Search a parameter in another range.
     FreeRange,
+    /// Search a parameter in this range, such as `work=1mJ/m^2..2mJ/m^2`.
+    FreeIn(String),
     /// Compare a measured curve with many random profiles.
     ManyProfiles,
     /// Compute this number of random profiles.

@@ -79,7 +79,7 @@ impl PdfFont {
     }
 
     /// Shows a glyph on the page and returns its width, in thousandths of the font size. `letters`
-    /// is the text that this glyph stands for.
+    /// is the text of this glyph.
     pub(super) fn show(
         &mut self,
         items: &mut PositionedItems<'_>,

@@ -5,7 +5,7 @@ use crate::sheet::Sheet;
 use crate::warnings::warnings_section;
 use crate::words::percent;
 use asperity_data::{
-    AxisScale, Table, Wording, format_quantity, format_range, format_rounded, grouped,
+    AxisScale, Note, Remedy, Table, Wording, format_quantity, format_range, format_rounded, grouped,
 };
 use asperity_experiment::{
     CurveFeatures, DragForce, FitResult, FittedParameter, Grade, MeasuredCurve, Parameter,
@@ -239,13 +239,13 @@ impl FitReport<'_> {
         };
         let range = format_range(fitted.range, 3, row.unit);
         let written = |value: f64| format_rounded(value, 2, row.unit).replace([' ', '\u{a0}'], "");
-        Some(format!(
-            "{} is at the {name} end of its range, {range}, and is no result. --free {}={}..{} searches beyond.",
-            row.symbol,
-            row.name,
-            written(next.0),
-            written(next.1)
-        ))
+        let sentence = format!(
+            "{} is at the {name} end of its range, {range}, and is no result.",
+            row.symbol
+        );
+        let farther = format!("{}={}..{}", row.name, written(next.0), written(next.1));
+        let note = Note::new(sentence).with(Remedy::FreeIn(farther));
+        Some(note.in_words(self.wording))
     }
 
     /// Adds sentences on the residual and on the misfit, all over the same points.

@@ -40,6 +40,14 @@ fn the_tour_shows_what_it_is_to_show() {
         );
     }
     assert_eq!(seen, [true; 5]);
-    let expected = [0, 1, 2, 5, 8].map(|index| presets()[index].name);
-    assert_eq!(scenes, expected);
+    assert_eq!(
+        scenes,
+        [
+            "ideal-adhesion",
+            "pressure-sensitive",
+            "non-adhesive",
+            "fragment-closeup",
+            "rough-sphere",
+        ]
+    );
 }

@@ -3,11 +3,12 @@
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::dot;
 use crate::fit::population::WRONG_SIDE;
-use crate::fit::search::MISFIT;
 use asperity_data::format_rounded;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
+/// Residual in contact, in units of the noise, above which a model does not describe the curve.
+pub(crate) const MISFIT: f64 = 1.5;
 /// Share of the largest force above which a residual is counted.
 const NOTABLE: f64 = 0.01;
 /// Largest shares of the largest force with which a model describes a curve well, and roughly.

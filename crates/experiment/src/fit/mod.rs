@@ -18,7 +18,7 @@ pub(crate) mod statistics;
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
-use crate::fit::agreement::Compared;
+use crate::fit::agreement::{Compared, MISFIT};
 use crate::fit::model::Model;
 use crate::fit::parameter::{Free, Parameter};
 use crate::fit::population::WRONG_SIDE;
@@ -26,7 +26,7 @@ use crate::fit::posterior::Posterior;
 use crate::fit::reason::{Reason, reason, steeper_slope};
 use crate::fit::result::{FitResult, FittedParameter, RangeEnd};
 use crate::fit::scene::{with_values, wrong};
-use crate::fit::search::{MISFIT, Search, SearchResult};
+use crate::fit::search::{Search, SearchResult};
 use crate::fit::space::Space;
 use crate::fit::statistics::scale;
 use asperity_data::{Control, Note, Remedy, format_rounded};

@@ -1,10 +1,9 @@
 //! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
 //! scene that was found.
 
-use crate::fit::agreement::{Agreement, Grade};
+use crate::fit::agreement::{Agreement, Grade, MISFIT};
 use crate::fit::parameter::Parameter;
 use crate::fit::reason::Reason;
-use crate::fit::search::MISFIT;
 use asperity_data::{Note, Warning, format_rounded, format_within};
 use asperity_scene::Document;
 use serde::ser::{Serialize, SerializeMap, Serializer};

@@ -13,6 +13,7 @@
 
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
+use crate::fit::agreement::MISFIT;
 use crate::fit::lines::Lines;
 use crate::fit::model::Model;
 use crate::fit::parameter::{Coordinate, Parameter};
@@ -67,8 +68,6 @@ const LARGE: f64 = 1e6;
 const HALVINGS: usize = 12;
 /// Factor of the noise in a step where no smaller factor leaves enough members.
 const SLOWEST: f64 = 0.99;
-/// Residual in contact, in units of the noise, above which a model does not describe the curve.
-pub(crate) const MISFIT: f64 = 1.5;
 /// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few
 /// times the work that the noise hides.
 const CLOSE: f64 = 2.5;

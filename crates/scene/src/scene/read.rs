@@ -239,7 +239,7 @@ mod tests {
             "lenght: 1,|5|lenght||did you mean length?",
             "length: 1.0,|5|length||given twice",
             "axes: [],|5|axes||asperity sweep PLAN computes the plan",
-            "form: Cube(radius: 1.0),|11|form|Cube|Cone, Power, WavySphere, Punch",
+            "form: Cube(radius: 1.0),|11|form|Cube|Cone, Power, WavySphere, RoundedCone, Punch",
             "form: Cone(angel: 1.0),|16|form.angel||did you mean angle?",
             "loading: [ToTouch, ToFroce(1.0)],|24|loading.1|ToFroce|mean ToForce?",
             "loading: [ToForce(\"a\")],|23|loading.0.0|\"a\"|from -1e30 to 1e30 N",

@@ -30,6 +30,12 @@ const SEARCHED: u64 = 256;
 /// Number of bytes for each spring, for the search between two points of the curve at which a
 /// compliant instrument loses the contact, as measured. All springs may detach there.
 const DISPLACED: u64 = 320;
+/// Number of bytes for each spring, for the events between two neighbouring points of the curve if
+/// all events lie there, as measured. These events are sorted together, so more samples need less.
+const EVENTS_TOGETHER: u64 = 256;
+/// Number of bytes for each spring of a rough profile without adhesion, for the gaps at which the
+/// springs touch, as measured.
+const TOUCHED: u64 = 20;
 /// Bytes per curve point that are reserved besides, as measured, and those with an instrument. The
 /// arrays grow by doubling, and the system gives no memory for what is not used.
 const RESERVED: u64 = 80;
@@ -201,6 +207,10 @@ impl Workload {
         let searched = samples.saturating_add(SEARCHED);
         contact = contact.saturating_add(history);
         contact = contact.saturating_add(searched.saturating_mul(sampled));
+        contact = contact.saturating_add(EVENTS_TOGETHER * springs / samples);
+        if planner.is_exact && !planner.is_adhesive {
+            contact = contact.saturating_add(TOUCHED * springs);
+        }
         let mut reserved = SMALL_ARRAYS.saturating_add(searched.saturating_mul(RESERVED));
         if scene.loading_stiffness.is_some() {
             contact = contact.saturating_add(DISPLACED * springs);

@@ -163,6 +163,12 @@ fn the_table_names_every_field_of_the_model_and_no_other() {
             "None",
             "Exact",
         ),
+        ("RoundedCone(radius: 1.0e-8, angle: 0.3)", "None", "Exact"),
+        (
+            "TwoSpheres(radius: 1.0e-6, second_radius: 1.0e-6, behind: 0.0)",
+            "None",
+            "Exact",
+        ),
         ("Table(file: \"x\", unit: \"nm\")", "None", "Exact"),
     ] {
         let stiffness = if solver == "Exact" { "1.0" } else { "None" };

@@ -202,7 +202,7 @@ pub(super) mod tests {
             (
                 HEIGHTS,
                 0,
-                "no channel; allowed: a channel of heights".to_owned(),
+                "no channel; allowed: a file with heights".to_owned(),
             ),
         ] {
             let mut file = whole.clone();

@@ -783,7 +783,7 @@ mod tests {
     #[test]
     fn the_premises_are_those_of_single_profiles() {
         let (mut scene, all) = curves(2, None);
-        scene.numerics.points = 64;
+        scene.numerics.points = 1024;
         let fit = found(&all, &scene, OPTIONS).unwrap();
         let mut names = Vec::new();
         let checked = scene.checked().unwrap();

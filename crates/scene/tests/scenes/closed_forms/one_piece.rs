@@ -246,20 +246,35 @@ impl OnePiece {
 
     /// ∫F dd over a path, J.
     fn work_along(&self, path: &Ranges) -> f64 {
-        let along = |&(low, high): &(f64, f64)| {
-            integral(
-                |a| {
-                    if a > 0.0 {
-                        self.force(a) * self.slope(a)
-                    } else {
-                        0.0
-                    }
-                },
-                low,
-                high,
-            )
+        let power = |a: f64| {
+            if a > 0.0 {
+                self.force(a) * self.slope(a)
+            } else {
+                0.0
+            }
         };
-        path.iter().map(along).sum()
+        let apex = self.edge_of_apex();
+        let mut work = 0.0;
+        for &(low, high) in path {
+            let inside = apex.clamp(low, high);
+            work += integral(power, low, inside);
+            // The slope outside grows with the square root of the distance from the apex, which
+            // Simpson's rule integrates well over this root alone.
+            let begin = (inside - apex).sqrt();
+            if inside < high {
+                let end = (high - apex).sqrt();
+                work += integral(|root| 2.0 * root * power(apex + root * root), begin, end);
+            }
+        }
+        work
+    }
+
+    /// Radius at which the rounded apex of a cone ends, m; infinite for other forms.
+    fn edge_of_apex(&self) -> f64 {
+        match self.form {
+            Form::RoundedCone { radius, angle } => radius * angle.tan(),
+            _ => f64::INFINITY,
+        }
     }
 }
 

@@ -502,8 +502,8 @@ mod tests {
         assert_eq!(
             error,
             "3 columns \"x\", \"raw\", \"levelled\"; allowed: a height, x and a height, or x, y and a height, beside a \
-             number of the point and a column valid, or --channel with the name of the column of heights or its number from \
-             0, such as \"raw\", in a scene roughness.surface_name or roughness.channel"
+             number of the point and a column valid, or the name of the column of heights or its number from 0, such as \
+             \"raw\""
         );
         let expected = (
             Some(vec![0.0, 2.0, 4.0]),
