@@ -45,6 +45,9 @@ pub fn argument(remedy: &Remedy) -> String {
         Remedy::Tolerance => "more points",
         Remedy::Preload => "preload presses before",
         Remedy::Range => "range",
+        Remedy::FormOfScene => {
+            "a form in a Scene with this roughness, such as Paraboloid(radius: 1e-5), makes it a sphere"
+        }
         Remedy::FigureAxes => "two axes of the study",
         Remedy::FixAxis(value) => return format!("{value} fixes one"),
         Remedy::OtherValue(path) => return format!("another value of {path}"),
@@ -85,7 +88,11 @@ pub fn name(remedy: &Remedy) -> Option<&'static str> {
         Remedy::Preload => "preload",
         Remedy::Range => "range",
         Remedy::FewerThreads => "jobs",
-        Remedy::Tolerance | Remedy::FigureAxes | Remedy::FixAxis(_) | Remedy::OtherValue(_) => {
+        Remedy::Tolerance
+        | Remedy::FormOfScene
+        | Remedy::FigureAxes
+        | Remedy::FixAxis(_)
+        | Remedy::OtherValue(_) => {
             return None;
         }
     };

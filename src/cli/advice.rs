@@ -54,6 +54,9 @@ pub fn option(remedy: &Remedy) -> String {
         Remedy::Tolerance => "--tolerance",
         Remedy::Preload => "--preload presses before",
         Remedy::Range => "--range A..B",
+        Remedy::FormOfScene => {
+            "a form in the scene of --scene, such as Paraboloid(radius: 1e-5), makes it a sphere"
+        }
         Remedy::FigureAxes => "--x and --y name the two",
         Remedy::FixAxis(value) => return format!("--at {value} fixes one"),
         Remedy::OtherValue(path) => return format!("--at {path}=VALUE selects another one"),

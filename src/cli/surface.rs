@@ -52,7 +52,7 @@ pub struct SurfaceArguments {
     /// How files are read.
     #[command(flatten)]
     pub measured: Measured,
-    /// Channel by its number or its name, or surface of a container by its name
+    /// Channel by its number or name, or surface of a container by its name
     #[arg(long, value_name = "NUMBER|NAME")]
     pub channel: Option<String>,
     /// Distance between points where a file states none, such as 0.5um

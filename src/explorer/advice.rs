@@ -47,6 +47,7 @@ pub fn row(remedy: &Remedy) -> String {
         Remedy::Tolerance => "the key %",
         Remedy::Preload => "a loading that presses before",
         Remedy::Range => "a range by asperity find",
+        Remedy::FormOfScene => "a form, such as Paraboloid(radius: 1e-5), makes it a sphere",
         Remedy::FigureAxes => "two axes of the study",
         Remedy::FixAxis(value) => return format!("{value} fixes one"),
         Remedy::OtherValue(path) => return format!("another value of {path}"),

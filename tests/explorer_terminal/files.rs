@@ -106,7 +106,7 @@ fn the_first_own_scene_makes_its_folder() {
     terminal.wait_for("saved to ");
     assert!(own.is_file());
     terminal.send("o");
-    terminal.wait_for(&format!(" of {}", presets().len()));
+    terminal.wait_for(&format!(" of {}", presets().len() + 1));
     terminal.wait_for("mine  own");
     terminal.send(ESCAPE);
     terminal.wait_without("Search:");

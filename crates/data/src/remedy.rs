@@ -82,6 +82,8 @@ pub enum Remedy {
     Preload,
     /// State the range of a search.
     Range,
+    /// State a form in a scene with the roughness of a measured surface.
+    FormOfScene,
     /// Choose the axes of a figure.
     FigureAxes,
     /// Fix an axis at one of its values, such as `form.radius=1um`.

@@ -422,9 +422,8 @@ fn add_adhesion(
         label,
         force.unwrap_or_else(|| "none: nothing is pulled".to_owned()),
     );
-    let hint = "for a flat face; a form in the scene of --scene, such as Paraboloid(radius: 1e-5), \
-                makes it a sphere";
-    sheet.row("", hint);
+    let form = wording(&Remedy::FormOfScene);
+    sheet.row("", format!("for a flat face; {form}"));
     let forces = computed.adhesion_force();
     if let Some(warning) = forces.and_then(|forces| forces.warning("F_a")) {
         sheet.row("", warning);
