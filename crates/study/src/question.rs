@@ -158,9 +158,10 @@ impl Question {
     /// range is searched. Preloads are searched from 0 N to a hundred times the largest force to
     /// which the scene is loaded. `condition` is the quantity and its wanted value in SI units.
     ///
-    /// # Errors Returns an error if the scene lacks the number, or if several profiles are
-    /// requested and the profile of the scene is fixed. A preload is refused if the solver of the
-    /// scene is not [`Solver::Exact`].
+    /// # Errors
+    /// Returns an error if the scene lacks the number, or if several profiles are requested and the
+    /// profile of the scene is fixed. A preload is refused if the solver of the scene is not
+    /// [`Solver::Exact`].
     pub fn new(
         scene: &CheckedScene,
         path: &str,

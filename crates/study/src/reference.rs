@@ -174,9 +174,10 @@ pub enum ReferenceEvent {
     },
     /// Another hundredth (about) of the profiles is computed.
     Profiles {
-        /// Number of profiles computed since the last event.
+        /// Number of profiles computed since the last event of this kind.
         count: u64,
-        /// Number of all profiles.
+        /// Number of all computations of profiles. Each profile counts twice if it is computed both
+        /// in the loop and without adhesion.
         lines: u64,
     },
     /// All profiles are computed, and the computation of the squares begins.
@@ -369,8 +370,8 @@ mod tests {
         );
     }
 
-    /// Only the last loop of the loading is compared. It begins after the last separation but one,
-    /// and ends in separation.
+    /// Only the last loop of the loading is compared. It begins in separation and ends in
+    /// separation.
     #[test]
     fn the_last_loop_is_compared() {
         let square = coarse_square();

@@ -9,25 +9,25 @@ use asperity_half_space::{
 };
 use asperity_surface::Form;
 
-/// Residual of contacts without adhesion, in rms heights.
+/// Tolerance of the solver for contacts without adhesion, divided by the rms height.
 const TOLERANCE: f64 = 1e-8;
-/// Relative difference of two forces that determine a stiffness.
+/// Relative difference of the two forces whose indentations give a stiffness.
 const APART: f64 = 0.02;
-/// Share of the preload by which a loop may miss the preload.
+/// Share of the target at which a loop that turns at a force or a displacement may turn too early.
 const NEAR: f64 = 0.01;
-/// Share of an indentation that counts as rounding.
+/// Share of an indentation below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
-/// A body in three dimensions, without its random phases.
+/// Body of a scene in three dimensions. The random phases of its roughness are not part of it.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
-    /// Factor of the heights of the roughness in contacts with adhesion. With it squares and lines
-    /// have the same e_el/γ.
+    /// Factor of the heights of the roughness in contacts with adhesion. With this factor the
+    /// squares have the same e_el/γ as the lines.
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
@@ -37,7 +37,7 @@ pub(super) struct Body {
     pub works: Option<[f64; 2]>,
 }
 
-/// Turning point of the loop to which squares and lines are pressed alike.
+/// Turning point of the loop, the same for squares and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
     /// Force, N.
@@ -63,7 +63,7 @@ impl Turn {
         }
     }
 
-    /// Returns how far a square has come, in the unit of the target, and the target.
+    /// Returns how far a square has come towards the turning point.
     fn progress(self, state: &AdhesiveState) -> Approach {
         match self {
             Turn::Force(target) => Approach {
@@ -88,11 +88,11 @@ impl Turn {
     }
 }
 
-/// How far a square has come on the way to the turning point.
+/// Progress of a square on the way to the turning point: reached value and target in the same unit.
 struct Approach {
     reached: f64,
     target: f64,
-    /// Share of the target that may be missing.
+    /// Share of the target that may be missing at the end.
     tolerance: f64,
 }
 
@@ -107,7 +107,7 @@ pub(super) struct SquareLoading {
     pub step: f64,
 }
 
-/// What the computation of a square calls meanwhile.
+/// Functions that are called during the computation of a square.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a> {
     /// Returns true if the computation should end.
@@ -116,7 +116,7 @@ pub(super) struct Watch<'a> {
     pub loaded: &'a dyn Fn(),
 }
 
-/// State without adhesion at one force.
+/// State of a square at one force, computed without adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
@@ -127,7 +127,7 @@ pub(super) struct Pressing {
     pub residual: f64,
 }
 
-/// Figures of an adhesive loop.
+/// Results of a loop with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
     /// Adhesion force, N.
