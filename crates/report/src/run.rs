@@ -36,7 +36,8 @@ pub struct RunReport<'a> {
     /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
     /// if it was not computed.
     pub deviation: Option<f64>,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the command
+    /// line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
