@@ -272,8 +272,8 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the command
-    /// line, a row of the explorer or an argument of Python.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
