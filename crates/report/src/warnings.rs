@@ -37,8 +37,8 @@ fn texts_with_shares(warnings: &[CountedWarning], all: u64, things: &str) -> Vec
 }
 
 /// Puts the number of profiles or records on which a premise does not hold before the text of the
-/// premise: `On 12 of 16 profiles: `. If it holds on no profile or record, nothing is put before
-/// the text.
+/// premise: `On 12 of 16 profiles: `. If the premise holds on no profile or record, nothing is put
+/// before its text.
 pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> String {
     if count == all {
         return text.to_owned();
