@@ -1,5 +1,5 @@
-//! Cases with laws that hold for every body: without adhesion the loading is reversible; memory of
-//! the turning points; energy; scaling; and the agreement of both solvers.
+//! Cases with laws that hold for every body: reversible loading without adhesion, memory of turning
+//! points, balance of energy, scaling, and agreement of both solvers.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
