@@ -189,6 +189,8 @@ fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     Err(CliError::named("--restore", why))
 }
 
+/// Returns what the explorer opens: a scene or a study with the changes of its fields, a scene to
+/// compare with, and a measured curve. `default` is the scene that is opened without an argument.
 fn opening(
     arguments: &ExploreArguments,
     default: &str,

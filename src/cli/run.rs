@@ -122,6 +122,8 @@ impl RunArguments {
         matches!(self.draw, Some(Drawn::Profile | Drawn::Patches))
     }
 
+    /// Returns the format of the results. Which formats are possible depends on the number of
+    /// scenes, on `--draw` and on `--preloads`.
     fn format(&self) -> Result<Format, CliError> {
         let several = !self.more.is_empty();
         if self.draw == Some(Drawn::Panels) && !several {
@@ -472,6 +474,8 @@ fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Strin
     }
 }
 
+/// Writes the adhesion force as a function of the preload: a report for a single scene, or a figure
+/// with a panel for each of several scenes.
 fn run_preloads(
     arguments: &RunArguments,
     preloads: &Axis,

@@ -142,6 +142,7 @@ impl Axis {
             .map_err(|what| format!("axis {path}: {what}"))
     }
 
+    /// Returns the axis with the values that the text lists or spaces between two ends.
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
         let mut axis = self;
         match *text {

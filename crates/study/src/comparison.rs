@@ -377,6 +377,8 @@ impl Comparison<'_> {
         })
     }
 
+    /// Computes square number `map`, and the same square with half as many cells along the side if
+    /// this grid is not too coarse. The difference of both shows the error of the grid.
     fn square(
         &self,
         loading: &SquareLoading,
@@ -417,6 +419,8 @@ impl Comparison<'_> {
         })
     }
 
+    /// Collects the comparison from the results of profiles and squares. It is an error if no
+    /// quantity can be compared because too few grid cells are in contact.
     fn gather(
         &self,
         own: &OwnLoading,

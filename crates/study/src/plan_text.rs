@@ -198,6 +198,8 @@ impl Plan {
         Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
     }
 
+    /// Makes a plan from its text and its scene. All errors of the plan are returned together.
+    /// `lines` replaces the number of profiles in the text.
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
         let PlanText {
             title,

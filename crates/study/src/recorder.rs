@@ -243,6 +243,8 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
+    /// Returns the recorded properties of the profile of a scene. They depend neither on the
+    /// adhesion nor on the loading, and are kept for the next scene with the same profile.
     fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
         let heights = self.plan.records(Needs::Heights);
         let stiffness = self.plan.records(Needs::Stiffness);

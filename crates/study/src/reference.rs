@@ -150,11 +150,12 @@ pub struct Reference {
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of convolutions over the grid of a square that the solver computed for all squares
-    /// together, a measure of the computing work.
+    /// together, a measure of the computing work. The coarser squares, which show the error of the
+    /// grid, are not counted.
     pub convolutions: u64,
     /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
-    /// Mean computing time of one square, s.
+    /// Mean computing time of one square in s, without its coarser square.
     pub seconds_of_square: f64,
 }
 

@@ -54,6 +54,8 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
+    /// Searches the crossings in the way that suits the course of the quantity, and completes the
+    /// answer with the range of the computed values.
     fn answer(mut self) -> Result<(Answer, Option<String>), RunError> {
         let question = self.question;
         let mut answer = Answer {

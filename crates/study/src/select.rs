@@ -149,6 +149,8 @@ impl Selection {
         })
     }
 
+    /// Returns the quantities that the user names, otherwise the recorded ones among the usual
+    /// quantities, otherwise the first recorded quantity.
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
         let mut recorded = plan.record.clone();
         recorded.retain(|quantity| !quantity.is_regime());

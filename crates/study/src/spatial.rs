@@ -180,9 +180,9 @@ impl Body {
                 .max(3 * heights)
     }
 
-    /// Loads the square with the random phases of `seed`: first to each force without adhesion, then
-    /// with adhesion in two loops, of which one turns at first touch and the other at the turning
-    /// point. The side of the square has `cells` grid cells.
+    /// Loads the square with the random phases of `seed`: first to each force without adhesion,
+    /// then with adhesion in two loops, of which one turns at first touch and the other at the
+    /// turning point. The side of the square has `cells` grid cells.
     pub fn load(
         &self,
         cells: usize,

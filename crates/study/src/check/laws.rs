@@ -36,6 +36,9 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
     leg.curve.last().copied().unwrap_or_default()
 }
 
+/// Loads and unloads a body without adhesion. No energy is released, and the unloading returns
+/// through the same contacts. Returns the largest difference between the forces of loading and
+/// unloading, divided by the largest force.
 fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body {
         work: 0.0,
@@ -181,6 +184,8 @@ fn units(body: &Body) -> Measured {
     )
 }
 
+/// Computes a scene with eight works of adhesion and Hurst exponents by both solvers. Returns the
+/// largest difference between their forces, divided by E* times length times largest gap.
 fn stepwise(scene: &CheckedScene) -> Measured {
     largest(
         [0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3]
