@@ -1,8 +1,8 @@
-//! The arguments of functions that help where a message has a remedy.
+//! The words of Python for remedies: arguments that remove the cause of an error or a warning.
 
 use asperity::data::Remedy;
 
-/// Returns the words for a remedy in Python: an argument with its value, or an entry of the
+/// Returns a remedy in the words of Python: an argument with its value, or an entry of the
 /// dictionary `options` of `asperity.fit`.
 pub fn argument(remedy: &Remedy) -> String {
     let words = match remedy {
@@ -57,7 +57,7 @@ pub fn argument(remedy: &Remedy) -> String {
 }
 
 /// Returns the name of the argument, or of the entry of `options`, that a remedy changes; `None`
-/// for a remedy that is no argument.
+/// for a remedy that is not an argument.
 pub fn name(remedy: &Remedy) -> Option<&'static str> {
     let name = match remedy {
         Remedy::SurfaceName | Remedy::NoSurfaceName => "surface_name",

@@ -1,4 +1,5 @@
-//! Computations that take long: without the lock of Python, with progress, and stopped by Ctrl-C.
+//! Long computations for Python. They run without the lock of Python (GIL), report their progress,
+//! and can be stopped by Ctrl-C.
 
 use crate::failure::Failure;
 use crate::scene::{Scene, simulation};
@@ -14,29 +15,29 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
-/// Sentence for a defect of the program.
+/// Message of an exception that is due to a defect of the program.
 pub const DEFECT: &str = "internal error, please report it";
 
-/// Callback of the progress.
+/// Python function to which the progress is reported; `None` without such a function.
 pub type Progress = Option<Py<PyAny>>;
 
-/// What a running computation asks and reports.
+/// Connection of a running computation with Python: the test whether to stop, and the progress.
 #[derive(Default)]
 pub struct Watch {
     is_stopped: AtomicBool,
-    /// The exception of a signal or of the callback.
+    /// Exception raised by a signal or by the callback, if there is one.
     raised: Mutex<Option<PyErr>>,
     progress: Progress,
 }
 
 impl Watch {
-    /// Returns true if the computation is to stop, since a signal or the callback has raised an
+    /// Returns true if the computation has to stop, because a signal or the callback raised an
     /// exception.
     pub fn stop(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
 
-    /// Calls the callback with the number of parts that are done and that of all parts.
+    /// Calls the callback with the number of finished parts and the number of all parts.
     pub fn report(&self, done: u64, all: u64) {
         if let Some(progress) = &self.progress {
             self.keep(Python::attach(|py| {
@@ -56,8 +57,9 @@ impl Watch {
     }
 }
 
-/// Result of a computation without the lock of Python. It runs on a thread of its own, so that the
-/// calling thread, which may be the one that receives signals, looks for them meanwhile.
+/// Runs a computation without the lock of Python (GIL), and returns its result. The computation has
+/// its own thread. The calling thread, which may be the one that receives signals, meanwhile checks
+/// for them.
 pub fn computed<R: Send>(
     py: Python<'_>,
     progress: Progress,
@@ -72,7 +74,8 @@ pub fn computed<R: Send>(
         let watch = &watch;
         scope(|scope| {
             let started = Builder::new().spawn_scoped(scope, move || {
-                // Closed at the end, however it comes.
+                // This is dropped when the computation ends, even by a panic, so that the waiting
+                // thread notices it.
                 let _ended = ended;
                 work(watch)
             });
@@ -95,15 +98,15 @@ pub fn computed<R: Send>(
     Ok(done?.map_err(|_| PyRuntimeError::new_err(DEFECT))??)
 }
 
-/// A scene, number of profiles, number of threads, and callback of the progress; numbers may be
-/// left to the program.
+/// Arguments of a call: a scene, the number of profiles, the number of threads, and the callback of
+/// the progress. Without a number the program chooses it.
 #[derive(FromPyObject)]
 pub struct Call(Py<Scene>, pub Option<u64>, Option<usize>, Progress);
 
-/// A call that is computed.
+/// Data of a call, as the computation needs it.
 pub struct Case<'a> {
     pub document: Document,
-    /// Roughness in memory, of which the scene has no file.
+    /// Roughness in memory, for which there is no file; `None` if the scene has none.
     pub in_memory: Option<Arc<MeasuredRoughness>>,
     pub profiles: u64,
     pub jobs: usize,
@@ -116,8 +119,9 @@ impl Case<'_> {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Runs a computation of `all` parts, which a signal or the callback may stop. `done` returns
-    /// the number of finished parts from what the computation reports; `None` if it is unchanged.
+    /// Runs a computation of `all` parts that a signal or the callback may stop. `done` returns the
+    /// number of finished parts from a report of the computation, or `None` if the number has not
+    /// changed.
     pub fn watched<P, T, E: Into<Failure>>(
         &self,
         all: u64,

@@ -1,4 +1,4 @@
-//! Failures of computations and their exceptions.
+//! Failures of computations, and the Python exceptions that report them.
 
 use crate::advice::{argument, name};
 use crate::words::sentence;
@@ -16,7 +16,7 @@ use std::fmt::Display;
 use std::fs::File;
 use std::path::PathBuf;
 
-/// Creates an exception of this class of the package with its values.
+/// Creates an exception of the class `class` of the package `asperity` with these values.
 fn exception<'py>(
     py: Python<'py>,
     class: &str,
@@ -25,11 +25,11 @@ fn exception<'py>(
     py.import("asperity._errors")?.getattr(class)?.call1(values)
 }
 
-/// Reason why a computation has no result, as the exception with its sentence.
+/// Reason why a computation has no result, as a Python exception with a sentence.
 pub struct Failure(PyErr);
 
 impl Failure {
-    /// An exception of this class of the package with its values.
+    /// Creates a failure with an exception of the class `name` of the package `asperity`.
     fn of_class(name: &str, values: impl for<'py> PyCallArgs<'py>) -> Failure {
         Failure(Python::attach(|py| match exception(py, name, values) {
             Ok(exception) => PyErr::from_value(exception),
@@ -37,26 +37,26 @@ impl Failure {
         }))
     }
 
-    /// A value that is not allowed, with what is allowed. The sentence escapes and shortens the
-    /// value.
+    /// Creates the failure of a value that is not allowed. `allowed` says what is allowed. The
+    /// sentence has the value in escaped and shortened form.
     pub fn field(field: &str, value: &str, allowed: &str) -> Failure {
         let message = format!("{} = {}; allowed: {allowed}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, allowed)
     }
 
-    /// A value that is not allowed, with a sentence of its own.
+    /// Creates the failure of a value that is not allowed, with the sentence `message`.
     fn field_in_words(message: String, field: &str, value: &str, allowed: &str) -> Failure {
         Failure::of_class("FieldError", (sentence(&message), field, value, allowed))
     }
 
-    /// A text that is not understood, for this reason.
+    /// Creates the failure of a text that cannot be read, with the reason.
     pub fn explained(field: &str, value: &str, reason: &impl Display) -> Failure {
         let message = format!("{} = \"{}\": {reason}", shown(field), shown(value));
         Failure::field_in_words(message, field, value, &reason.to_string())
     }
 
-    /// The failure to read files if one of them does not open, otherwise the failure that their
-    /// content explains.
+    /// Creates the failure to read files. If a file cannot be opened, this is the failure;
+    /// otherwise the failure follows from `error`, which describes the content.
     pub fn of_files(files: &[PathBuf], error: impl ToString + Into<Failure>) -> Failure {
         for file in files {
             if file.is_dir() || File::open(file).is_err() {
@@ -66,12 +66,12 @@ impl Failure {
         error.into()
     }
 
-    /// The failure of an error, with the arguments that help.
+    /// Creates the failure of an error, with the Python arguments that help.
     fn of_remedied(error: &impl Remedied) -> Failure {
         error.in_words(argument).into()
     }
 
-    /// The sentence of the exception.
+    /// Returns the sentence of the exception.
     pub fn message(&self) -> String {
         Python::attach(|py| self.0.value(py).to_string())
     }
@@ -117,7 +117,7 @@ impl From<ContactError> for Failure {
         let message = error.to_string();
         match (error.stage(), &error) {
             (Some(stage), _) => {
-                // Stages count from 0 in Python, as in all tables.
+                // In Python, as in all tables, loading stages are counted from 0.
                 let reason = message
                     .strip_prefix(&format!("stage {}: ", stage + 1))
                     .unwrap_or(&message);
@@ -141,8 +141,9 @@ impl From<ContactError> for Failure {
     }
 }
 
-/// Failures of errors by their variants: those that hold another error, lack of memory, unreadable
-/// files; all others are values.
+/// Converts errors to failures by their variants. A variant with another error becomes the failure
+/// of that error. Lack of memory becomes a `MemoryError`, and an unreadable file an `OSError`. Any
+/// other variant is a value that is not allowed.
 macro_rules! failures {
     ($($error:ident: $($inner:ident)*, memory $($memory:ident)*, file $($file:ident)*;)*) => {$(
         impl From<$error> for Failure {
@@ -219,7 +220,7 @@ impl From<ExperimentError> for Failure {
     }
 }
 
-/// Returns the name of the argument that the first remedy of an error changes.
+/// Returns the name of the Python argument that the first remedy of an error changes.
 fn first_name(error: &impl Remedied) -> Option<&'static str> {
     error.remedies().first().and_then(name)
 }

@@ -1,4 +1,4 @@
-//! Fits of scenes to measured force curves.
+//! Fits of scenes to measured force curves for Python.
 
 use crate::advice::argument;
 use crate::computing::{Call, Case};
@@ -16,8 +16,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A measured curve: its name, and displacements, m, and forces, N, unless the name is that of a
-/// file.
+/// A measured curve: its name, then displacements in m and forces in N. Without these numbers the
+/// name is the path of a file.
 #[derive(FromPyObject)]
 pub struct Curve(String, Option<(Vec<f64>, Vec<f64>)>);
 
@@ -34,7 +34,7 @@ impl Curve {
     }
 }
 
-/// Returns an error if no curve was fitted, with the reason of the first one.
+/// Returns an error if no curve was fitted. It has the reason of the first curve.
 fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> {
     let mut reason = "";
     for row in rows.iter().rev() {
@@ -56,8 +56,8 @@ fn check_any_fitted(curves: &[Curve], rows: &[CurveRow]) -> Result<(), Failure> 
     Err(Failure::of_files(&files, message))
 }
 
-/// Fits a scene to one curve, to each of several, or on random profiles to all together; the words
-/// are options of `asperity fit`.
+/// Fits a scene to one curve, to each of several curves, or with random profiles to all curves
+/// together. `words` are options of `asperity fit`.
 #[pyfunction]
 pub fn fit(
     py: Python<'_>,
@@ -95,12 +95,12 @@ pub fn fit(
     })
 }
 
-/// The progress of a fit, which is the number of computed force curves.
+/// Returns the number of computed force curves, which is the progress of a fit.
 fn computed_curves(computed: &u64) -> Option<u64> {
     Some(*computed)
 }
 
-/// Fits a scene on random profiles to all curves together.
+/// Fits a scene with random profiles to all curves together.
 fn fit_together(
     case: &Case,
     curves: &[Curve],
@@ -129,7 +129,7 @@ fn fit_together(
     }))
 }
 
-/// Fits a scene to the only curve.
+/// Fits a scene to a single curve.
 fn fit_single(
     case: &Case,
     fit: &Fit,
@@ -151,7 +151,7 @@ fn fit_single(
     }))
 }
 
-/// Fits a scene to each of several curves.
+/// Fits a scene to each of several curves separately.
 fn fit_each(
     case: &Case,
     fit: &Fit,

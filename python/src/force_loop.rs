@@ -1,5 +1,5 @@
-//! Profiles of rigid bodies and their force loops: the curve as arrays, its figures, and its
-//! picture.
+//! Profiles of rigid bodies and their force loops for Python: the force curve as arrays, its main
+//! results, and its picture.
 
 use crate::computing::{Progress, computed};
 use crate::failure::Failure;
@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The profile of heights or of a scene; `asperity.Profile` gives its parts their names.
+/// Profile made from heights or from a scene. `asperity.Profile` gives names to its parts.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Profile {
     pub profile: asperity::Profile,
@@ -45,7 +45,7 @@ impl Profile {
         })
     }
 
-    /// The profile of a scene.
+    /// Returns the profile of a scene.
     #[staticmethod]
     fn of_scene(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
         computed(py, None, |_| {
@@ -57,7 +57,7 @@ impl Profile {
         })
     }
 
-    /// The profile of the form of a scene with these heights in m as its roughness.
+    /// Returns the profile of the form of a scene, with the given heights in m as its roughness.
     #[staticmethod]
     fn of_roughness(scene: &Scene, heights: PyReadonlyArray1<'_, f64>) -> PyResult<Self> {
         let scene = scene.document.scene();
@@ -71,7 +71,7 @@ impl Profile {
         })
     }
 
-    /// Positions, heights and gaps of the points, m.
+    /// Returns the positions, heights and gaps of the points in m.
     fn columns<'py>(&self, py: Python<'py>) -> [Array<'py, f64>; 3] {
         let profile = &self.profile;
         let mut positions = Vec::with_capacity(profile.points());
@@ -85,7 +85,7 @@ impl Profile {
         ]
     }
 
-    /// Number of points, their distance, m, and the length of the profile, m.
+    /// Returns the number of points, their distance in m, and the length of the profile in m.
     fn size(&self) -> (usize, f64, f64) {
         (
             self.profile.points(),
@@ -95,15 +95,15 @@ impl Profile {
     }
 }
 
-/// Modulus (Pa), works of adhesion on closing and on opening (J/m²), loading stiffness (N/m);
-/// stages, whole springs or not, samples.
+/// Effective modulus (Pa), works of adhesion on closing and on opening (J/m²), and loading
+/// stiffness (N/m); then the stages as text, true for edges at whole springs, and the number of
+/// samples.
 type Load = ((f64, [f64; 2], f64), (String, bool, u64));
 
-/// Indentation, m, and force, N, of the marked points by their names.
+/// Indentation in m and force in N of each marked point, by the name of the point.
 type Marks = BTreeMap<&'static str, (f64, f64)>;
 
-/// The loop of a profile of heights or of a computed scene; `asperity.Loop` gives its parts their
-/// names.
+/// Force loop of a profile or of a computed scene. `asperity.Loop` gives names to its parts.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Loop {
     stages: Vec<LegRecord>,
@@ -113,13 +113,13 @@ pub struct Loop {
     title: String,
     /// Premises of the model that the loading does not meet.
     warnings: Vec<Warning>,
-    /// The outcome of a scene.
+    /// Outcome of the scene; `None` for a loop of a profile of heights.
     pub outcome: Option<Arc<Outcome>>,
 }
 
 #[pymethods]
 impl Loop {
-    /// Loads a profile of heights.
+    /// Loads a profile that is given by its heights.
     #[staticmethod]
     fn of_heights(
         py: Python<'_>,
@@ -182,8 +182,8 @@ impl Loop {
         })
     }
 
-    /// Columns of the curve, whole numbers first, in the order of `asperity.Loop`, and the released
-    /// energy of each stage.
+    /// Returns the columns of the force curve in the order of `asperity.Loop`, those of whole
+    /// numbers first. The last array is the released energy of each stage in J.
     fn columns<'py>(&self, py: Python<'py>) -> ([Array<'py, i64>; 2], [Array<'py, f64>; 6]) {
         let mut counts = [const { Vec::new() }; 2];
         let mut columns = [const { Vec::new() }; 6];
@@ -205,8 +205,8 @@ impl Loop {
         )
     }
 
-    /// Pull-off force, its indentation, preload, dissipated energy, κ, Tabor number and share of
-    /// ideal contact; the regime; and the marked points.
+    /// Returns pull-off force (N), its indentation (m), preload (N), dissipated energy (J), κ,
+    /// Tabor number and share of ideal contact. The regime and the marked points follow.
     fn figures(&self) -> ([Option<f64>; 7], Option<&'static str>, Marks) {
         let mut figures = [
             self.figures.adhesion_force,
@@ -231,12 +231,12 @@ impl Loop {
         (figures, regime, marks)
     }
 
-    /// Premises of the model that the loading does not meet, one sentence for each.
+    /// Returns the premises of the model that the loading does not meet, one sentence for each.
     fn warnings(&self) -> Vec<String> {
         warning_texts(&self.warnings)
     }
 
-    /// The force curve as a figure in SVG.
+    /// Returns the force curve as a figure in SVG.
     fn svg(&self) -> String {
         let chart = loop_chart(&[ForceLoop::new(&self.stages)], LoopUnits::default());
         Figure::of_chart(&self.title, chart).svg()

@@ -1,7 +1,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
-//! The native part of the package `asperity` of Python, between Python and the libraries of
-//! Asperity. It computes nothing itself.
+//! Native part of the Python package `asperity`. It connects Python with the libraries of Asperity
+//! and computes nothing itself.
 
 mod advice;
 mod computing;
@@ -15,7 +15,7 @@ mod scene;
 mod surface;
 mod words;
 
-/// The native part of the package.
+/// Native part of the Python package `asperity`.
 #[pyo3::pymodule]
 mod _native {
     use pyo3::prelude::*;
@@ -31,14 +31,14 @@ mod _native {
         surface::Surface,
     };
 
-    /// Runs the program with these arguments, the first of which is its name, and returns the exit
-    /// code.
+    /// Runs the program with the given arguments, the first of which is the name of the program,
+    /// and returns the exit code.
     #[pyfunction]
     fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
         py.detach(|| asperity::cli::main(arguments))
     }
 
-    /// States the version of the package.
+    /// Sets the version of the package.
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))

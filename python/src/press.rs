@@ -1,4 +1,4 @@
-//! The contact of a square map without adhesion in three dimensions.
+//! Contact of a square map in three dimensions without adhesion, for Python.
 
 use crate::computing::computed;
 use crate::failure::Failure;
@@ -8,9 +8,10 @@ use asperity_half_space::{Boundary, HalfSpace, Load, Square};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-/// Presses a rigid square map of heights (m), to a residual in rms heights. The load is the side of
-/// the map (m), the effective modulus (Pa) and the force (N). Returns pressures and gaps by rows;
-/// force, indentation, area of contact, residual, and number of convolutions.
+/// Presses a rigid square map, given by its heights in m, against an elastic half-space. `load` has
+/// the side of the map (m), the effective modulus (Pa) and the force (N). `residual` is the allowed
+/// residual in units of the rms height. Returns pressures (Pa) and gaps (m) row by row, then force
+/// (N), indentation (m), area of contact (m²), residual, and number of convolutions.
 #[pyfunction]
 pub fn press<'py>(
     py: Python<'py>,

@@ -1,5 +1,4 @@
-//! Results of scenes: the functions of the libraries, and the reports of the program as their
-//! answers.
+//! Results of scenes for Python: functions that call the libraries, and their answers as reports.
 
 use crate::advice::argument;
 use crate::computing::{Call, Case, DEFECT};
@@ -25,20 +24,20 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A result in the formats of the program: JSON, a table as CSV or as an array of NumPy, text, and
-/// a figure.
+/// A result that can be written in the formats of the program: JSON, a table as CSV or as an array
+/// of NumPy, text, and a figure.
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Report(Box<dyn Fn(Format) -> io::Result<Vec<u8>> + Send + Sync>);
 
 impl Report {
-    /// The result of a function that borrows the report of what it owns.
+    /// Creates a result from the function that writes its report in a given format.
     pub fn new(write: impl Fn(Format) -> io::Result<Vec<u8>> + Send + Sync + 'static) -> Self {
         Report(Box::new(write))
     }
 }
 
-/// Returns the document that tables and figures state; `None` for a scene with a roughness in
-/// memory, which no text holds.
+/// Returns the document that is stated in tables and figures; `None` for a scene with a roughness
+/// in memory, because no scene file can contain it.
 pub fn named<'a>(
     document: &'a Document,
     in_memory: &Option<Arc<MeasuredRoughness>>,
@@ -46,7 +45,8 @@ pub fn named<'a>(
     in_memory.is_none().then_some(document)
 }
 
-/// A report as bytes; tables and figures state its scene.
+/// Returns a report in a format as bytes. CSV and SVG state the scene `of` from which the result
+/// was computed.
 pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> io::Result<Vec<u8>> {
     let mut written = Vec::new();
     let mut provenance = String::new();
@@ -63,7 +63,7 @@ pub fn bytes(of: Option<&Document>, report: &impl Reported, format: Format) -> i
 
 #[pymethods]
 impl Report {
-    /// The result in a format: text, json, csv, npy, svg, png or pdf.
+    /// Returns the result in a format: text, json, csv, npy, svg, png or pdf.
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<Vec<u8>> {
         let mut formats = Format::ALL.into_iter();
         let Some(known) =
@@ -73,7 +73,7 @@ impl Report {
             let message = format!("format {format:?}; allowed: {names}");
             return Err(PyValueError::new_err(message));
         };
-        // A defect of the program is an exception like any other.
+        // A panic, which is a defect of the program, becomes a Python exception.
         let written = py
             .detach(|| catch_unwind(AssertUnwindSafe(|| (self.0)(known))))
             .map_err(|_| PyRuntimeError::new_err(DEFECT))?;
@@ -89,17 +89,18 @@ fn done_of_results(results: &Results) -> Option<u64> {
     Some(results.profiles_done())
 }
 
-/// The number of finished parts of a short computation, which is not counted.
+/// Returns `None` for a short computation, whose finished parts are not counted.
 fn unchanged<P>(_: &P) -> Option<u64> {
     None
 }
 
-/// The number of finished parts of a computation that reports this number.
+/// Returns the number of finished parts from the report of a computation that consists of this
+/// number.
 fn done(parts: &u64) -> Option<u64> {
     Some(*parts)
 }
 
-/// The results of a scene on its random profiles, with these further quantities.
+/// Computes a scene on its random profiles, with the further quantities `further`.
 fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failure> {
     let scene = case.document.scene();
     case.watched(case.profiles, done_of_ensemble, |control| {
@@ -113,7 +114,7 @@ fn on_profiles(case: &Case<'_>, further: &[Quantity]) -> Result<Ensemble, Failur
     })
 }
 
-/// The report of a computed scene, with the results on its random profiles.
+/// Returns the report of a computed scene, with the results on its random profiles.
 #[pyfunction]
 pub fn run(py: Python<'_>, call: Call, computed: &Loop) -> PyResult<Report> {
     let further = if call.1.is_some() {
@@ -202,7 +203,8 @@ pub fn find(
     })
 }
 
-/// Computes the adhesion force of a scene over preloads, as `asperity run --preloads` takes them.
+/// Computes the adhesion force of a scene as a function of the preload. `preloads` is a text as for
+/// `asperity run --preloads`.
 #[pyfunction]
 pub fn preloads(py: Python<'_>, call: Call, preloads: &str) -> PyResult<Report> {
     call.computed(py, |case| {
@@ -266,7 +268,8 @@ pub fn reversals(
     })
 }
 
-/// Computes a scene as a line and in three dimensions, on squares of `cells` along a side.
+/// Compares a scene on profiles (lines) with the scene in three dimensions. A square has `cells`
+/// grid cells along its side.
 #[pyfunction]
 pub fn reference(py: Python<'_>, call: Call, cells: usize, maps: Option<u64>) -> PyResult<Report> {
     let lines = call.1;
@@ -308,7 +311,7 @@ pub enum AxisValue {
     Text(String),
 }
 
-/// Path of a field with its values in a study.
+/// Path of the field that an axis varies, and the values of the axis.
 type GivenAxis = (String, Vec<AxisValue>);
 
 fn read_axis(
@@ -336,7 +339,7 @@ fn read_axis_value(text: &str, path: &str, unit: &str) -> Result<f64, Failure> {
     })
 }
 
-/// Computes a scene for all combinations of values on axes, on random profiles of each.
+/// Computes a scene for each combination of values on the axes, on several random profiles.
 #[pyfunction]
 pub fn study(
     py: Python<'_>,

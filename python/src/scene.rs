@@ -1,5 +1,5 @@
-//! Scenes: named, read from files or from text, with other values of their fields, and with
-//! surfaces in memory.
+//! Scenes for Python: opened by name, from files or from text, changed, or with a surface in
+//! memory.
 
 use crate::failure::Failure;
 use crate::force_loop::Profile;
@@ -13,7 +13,7 @@ use asperity::surface::lines::{MeasuredProfile, MeasuredRoughness};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Name in place of a file for an equivalent line of which only the heights are known.
+/// Name in place of a file for an equivalent line that was made from heights in memory.
 const HEIGHTS: &str = "heights in memory";
 
 /// A checked scene: material, form, roughness, adhesion and loading of a contact, and settings of
@@ -21,7 +21,7 @@ const HEIGHTS: &str = "heights in memory";
 #[pyclass(frozen, module = "asperity._native")]
 pub struct Scene {
     pub document: Document,
-    /// Roughness in memory, of which the scene has no file.
+    /// Roughness in memory, for which there is no file; `None` if the scene has none.
     pub in_memory: Option<Arc<MeasuredRoughness>>,
 }
 
@@ -31,8 +31,8 @@ impl Scene {
         simulation(&self.document, self.in_memory.as_ref())
     }
 
-    /// Returns the roughness in memory if the document, which was made from this scene, still has
-    /// it.
+    /// Returns the roughness in memory if `document`, which was made from this scene, still
+    /// contains it.
     fn kept_in_memory(
         &self,
         document: &Document,
@@ -61,7 +61,8 @@ impl Scene {
     }
 }
 
-/// Returns a simulation of a document, with a roughness in memory in place of files.
+/// Returns a simulation of a document. `in_memory` is a roughness that replaces the files of the
+/// document.
 pub fn simulation(document: &Document, in_memory: Option<&Arc<MeasuredRoughness>>) -> Simulation {
     let simulation = Simulation::new(document.resolve(""));
     match in_memory {
@@ -94,8 +95,8 @@ impl Scene {
         })
     }
 
-    /// Returns a scene of a profile whose heights are given, on a body of this effective modulus in
-    /// Pa.
+    /// Returns a scene of a profile that is given by its heights, on a body with the effective
+    /// modulus `modulus` in Pa.
     #[staticmethod]
     fn of_profile(profile: &Profile, modulus: f64) -> Result<Scene, Failure> {
         let profile = &profile.profile;
@@ -143,8 +144,9 @@ impl Scene {
         })
     }
 
-    /// Returns the scene with these works of adhesion in J/m². Without `closing`, both works are
-    /// equal. The range of the attraction stays. A work of 0 removes the adhesion.
+    /// Returns the scene with these works of adhesion in J/m². Without `closing`, the work on
+    /// closing is equal to the work on opening. The range of the attraction does not change. A work
+    /// of 0 removes the adhesion.
     fn with_works(&self, work: f64, closing: Option<f64>) -> Result<Scene, Failure> {
         if work == 0.0 && closing.is_none() {
             return self.set(vec![("adhesion".to_owned(), "None".to_owned())]);
@@ -164,7 +166,7 @@ impl Scene {
         self.set(vec![("adhesion".to_owned(), text)])
     }
 
-    /// Text of the scene, as a scene file holds it.
+    /// Returns the text of the scene, as in a scene file.
     #[getter]
     fn text(&self) -> &str {
         self.document.text()

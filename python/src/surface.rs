@@ -1,4 +1,4 @@
-//! Measured surfaces: from files by all readers of the program, or from arrays.
+//! Measured surfaces for Python, read from files or made from arrays.
 
 use crate::advice::argument;
 use crate::computing::computed;
@@ -16,11 +16,11 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A map of heights, m, and the distances between its points and between its rows, m.
+/// A map of heights in m, with the distances in m between its columns and between its rows.
 type Map<'py> = (PyReadonlyArray2<'py, f64>, [f64; 2]);
 
-/// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), preload (N); a number
-/// may be unknown.
+/// Radius of the tip (m), effective modulus (Pa), work of adhesion (J/m²), and preload (N); `None`
+/// for an unknown number.
 type Numbers = [Option<f64>; 4];
 
 /// An analysed measured surface, from which profiles and scenes are made.
@@ -28,15 +28,15 @@ type Numbers = [Option<f64>; 4];
 pub struct Surface {
     task: SurfaceTask,
     report: Arc<SurfaceReport>,
-    /// True if the heights are those of an array, which no scene can name.
+    /// True if the heights were given as an array. A scene cannot name a file for them.
     is_array: bool,
 }
 
 #[pymethods]
 impl Surface {
-    /// Analyses the files of the measured roughness of a scene, or a map of heights that is read
-    /// with the options of this roughness. With a modulus and a work of adhesion, computes the
-    /// adhesion on `profiles` random profiles.
+    /// Analyses the files of the measured roughness of a scene. If `map` is given, this map of
+    /// heights is analysed instead, with the options of the roughness. If modulus and work of
+    /// adhesion are given, the adhesion on `profiles` random profiles is computed.
     #[new]
     fn new(
         py: Python<'_>,
@@ -84,15 +84,15 @@ impl Surface {
         })
     }
 
-    /// The statistics and spectra as a report.
+    /// Returns the statistics and spectra as a report.
     #[getter]
     fn report(&self) -> Report {
         let report = Arc::clone(&self.report);
         Report::new(move |format| bytes(None, &*report, format))
     }
 
-    /// Returns a scene with the roughness of this surface and this seed of its random phases. The
-    /// spectrum of an array is in memory.
+    /// Returns a scene with the roughness of this surface. `seed` is the seed of the random phases.
+    /// For a surface from an array, the spectrum is kept in memory.
     fn roughen(&self, scene: &Scene, seed: u64) -> Result<Scene, Failure> {
         let mut measured = self.task.measured.clone();
         measured.seed = seed;
@@ -104,8 +104,8 @@ impl Surface {
         })
     }
 
-    /// A scene of the equivalent line over the length of the scan, on a body of this effective
-    /// modulus in Pa.
+    /// Returns a scene of the equivalent line over the length of the scan, on a body with the
+    /// effective modulus `modulus` in Pa.
     fn scene(&self, modulus: f64) -> Result<Scene, Failure> {
         let scene = self
             .task
@@ -131,7 +131,8 @@ fn read_faces(task: &SurfaceTask) -> Result<Vec<MeasuredFace>, Failure> {
         .map_err(|error| Failure::of_files(&files, error.to_string()))
 }
 
-/// Analyses a map of heights in m, and the file of the opposite face if there is one.
+/// Analyses a map of heights in m, and the file of the opposite face if there is one. `spacing` is
+/// in m.
 fn faces_of_map(
     task: &SurfaceTask,
     heights: &[f64],

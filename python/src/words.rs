@@ -1,4 +1,4 @@
-//! Options of commands that are arguments in Python, and the texts of errors.
+//! Options of commands that are arguments in Python, and texts of errors for Python.
 
 use crate::failure::Failure;
 use asperity::cli::arguments::{Arguments, Command};
@@ -7,11 +7,12 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, CommandFactory, Parser};
 use std::error::Error;
 
-/// Largest number of characters of a word of a message. A longer word is a foreign text that is
-/// cut.
+/// Largest number of characters of a word in a message. A longer word comes from a user's text and
+/// is cut.
 const LONGEST_WORD: usize = 255;
 
-/// Returns a message for Python: no sign controls a terminal, and foreign texts are shortened.
+/// Returns a message for Python, with control characters of terminals escaped and with long words
+/// shortened.
 pub fn sentence(message: &str) -> String {
     let mut shortened = String::new();
     let mut length = 0;
@@ -26,7 +27,7 @@ pub fn sentence(message: &str) -> String {
     shortened
 }
 
-/// Parses the options of a command, given as its words. Errors have the words of Python.
+/// Parses the options of a command. Errors name arguments of Python instead of options.
 pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failure> {
     let line = ["asperity".to_owned(), name.to_owned()]
         .into_iter()
@@ -36,7 +37,7 @@ pub fn command(name: &str, words: Vec<String>) -> Result<Option<Command>, Failur
         .command)
 }
 
-/// Returns the failure for an option that is unknown, or whose value is not allowed.
+/// Returns the failure for an option that is unknown or whose value is not allowed.
 fn refused(command: &str, error: &clap::Error) -> Failure {
     let Some(given) = context(error, ContextKind::InvalidArg) else {
         return first_paragraph(error).into();
@@ -83,7 +84,7 @@ fn names_of_options(command: &str) -> String {
     names.join(", ")
 }
 
-/// Options of `asperity fit` that Python has in another form.
+/// Options of `asperity fit` for which Python has other arguments.
 const NOT_IN_PYTHON: [&str; 8] = [
     "set", "free", "jobs", "profiles", "scene", "format", "output", "force",
 ];
@@ -98,6 +99,6 @@ fn first_paragraph(error: &clap::Error) -> String {
         }
         lines.push(line);
     }
-    // Options are arguments of the same names.
+    // In Python the options are arguments with the same names, without dashes.
     lines.join(" ").replace("--", "")
 }

@@ -1,4 +1,5 @@
-//! The options of the command line that help where a message has a remedy.
+//! The words of the command line for remedies: options that remove the cause of an error or a
+//! warning.
 
 use asperity_data::{Note, Remedied, Remedy, shown};
 use asperity_experiment::ExperimentError;
@@ -7,8 +8,8 @@ use asperity_study::StudyError;
 use asperity_surface::SurfaceError;
 use std::error::Error;
 
-/// Returns the words for a remedy on the command line: an option with its value, and where a scene
-/// states the same, its field.
+/// Returns a remedy in the words of the command line: an option with its value and, if a field of
+/// the scene has the same effect, this field.
 pub fn option(remedy: &Remedy) -> String {
     let words = match remedy {
         Remedy::SurfaceName => "--channel with its name, in a scene roughness.surface_name",
@@ -65,12 +66,12 @@ pub fn option(remedy: &Remedy) -> String {
     words.to_owned()
 }
 
-/// Returns the sentences of a note with the options that help.
+/// Returns the sentences of a note, with the options that help.
 pub fn note(note: &Note) -> String {
     note.in_words(option)
 }
 
-/// Returns the text of an error with the options that help, or that caused it.
+/// Returns the text of an error, with the options that help or that caused the error.
 pub fn advised(error: &(dyn Error + 'static)) -> String {
     if let Some(error) = error.downcast_ref::<SurfaceError>() {
         return error.in_words(option);
@@ -92,8 +93,8 @@ pub fn advised(error: &(dyn Error + 'static)) -> String {
     }
 }
 
-/// Returns the errors of a scene, a line for each. An error of a changed field begins with the
-/// option `--set` that changed it.
+/// Returns the errors of a scene, one in each line. If a field with an error was changed on the
+/// command line, the error begins with the option `--set` that changed the field.
 pub fn of_scene(errors: &SceneErrors) -> String {
     let lines: Vec<String> = errors.iter().map(line_of_scene).collect();
     lines.join("\n")

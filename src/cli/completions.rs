@@ -23,7 +23,7 @@ pub(super) fn completions(
     mut program: Command,
     stdout: &mut dyn Write,
 ) -> Result<(), CliError> {
-    // Into memory first: the generator panics if writing fails.
+    // The script is written to memory first, because the generator panics if writing fails.
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut program, "asperity", &mut script);
     Ok(stdout.write_all(&script)?)

@@ -22,7 +22,7 @@ Examples:
 Errors are relative to the closed form of the adhesion force if the scene has one, else to the
 finest solution within the budget, whose own error is estimated and stated.";
 
-/// Largest allowed budget, s.
+/// Largest allowed time limit of all measurements, s.
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Args, Debug)]
@@ -58,7 +58,7 @@ fn budget(text: &str) -> Result<Duration, String> {
     }
 }
 
-/// A setting of the discretisation that is tried.
+/// A setting of the discretisation that is being measured.
 struct Trying {
     knob: Knob,
     setting: String,

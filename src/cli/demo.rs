@@ -28,7 +28,8 @@ Examples:
 
 The same command gives the same frames, whenever and wherever it runs.";
 
-/// Frames per second of an animation on a terminal, and of plain frames.
+/// Number of frames per second of an animation on a terminal. The next constant is that of frames
+/// printed as text.
 const WATCHED: f64 = 12.0;
 const READ: f64 = 1.0;
 
@@ -78,12 +79,14 @@ fn size(text: &str) -> Result<(u16, u16), String> {
     Ok((columns, rows))
 }
 
-/// Reads a number of columns or rows; `None` for one that is not allowed.
+/// Reads a number of columns or rows; `None` if the number is not allowed.
 fn side(text: &str) -> Option<u16> {
     let side = text.parse().ok()?;
     (1..=1000).contains(&side).then_some(side)
 }
 
+/// Plays a script in the explorer: as an animation on a terminal, otherwise as frames of text. With
+/// `--at` only one frame is written, as text or as a picture.
 pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result<(), CliError> {
     let first = presets().first().map_or("", |preset| preset.name);
     let document = arguments
@@ -100,7 +103,7 @@ pub(super) fn demo(arguments: &DemoArguments, stdout_: &mut dyn Write) -> Result
     let watched = arguments.at.is_none() && stdout().is_terminal() && io::stdin().is_terminal();
     let environment = Appearance::of_environment();
     let appearance = Appearance {
-        // A file does not depend on its environment.
+        // The theme of a picture in a file must not depend on the environment.
         theme: arguments.theme.unwrap_or(if arguments.output.is_some() {
             Theme::Dark
         } else {

@@ -1,5 +1,5 @@
-//! `asperity fit … --profiles`: the work of adhesion of a rough body by comparison with random
-//! profiles.
+//! `asperity fit … --profiles`: finds the work of adhesion of a rough body by comparison of its
+//! curves with random profiles.
 
 use super::advice::option;
 use super::error::CliError;
@@ -15,7 +15,7 @@ use asperity_scene::Simulation;
 use clap::Args;
 use std::io::Write;
 
-/// Number of random profiles without a number of one's own.
+/// Number of random profiles if `--profiles` has no number.
 const LINES: &str = "128";
 
 /// Arguments of a comparison with random profiles.
@@ -50,10 +50,11 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl EnsembleArguments {
-    /// Options of a comparison with `lines` random profiles.
+    /// Returns the options of a comparison with `lines` random profiles.
     ///
     /// # Errors
-    /// Parameters that random profiles do not determine.
+    /// Returns an error for a free parameter that a comparison with random profiles cannot
+    /// determine.
     pub fn options(&self, free: &[Free], lines: u32) -> Result<EnsembleOptions, CliError> {
         use Parameter::{Modulus, Offset, Work};
         let allowed = "allowed with --profiles: work, modulus, offset, each without a range";
@@ -86,7 +87,7 @@ impl EnsembleArguments {
     }
 }
 
-/// Compares the curves of `fit` with `lines` random profiles.
+/// Compares measured curves with `lines` random profiles, and writes the result.
 pub(super) fn ensemble(
     arguments: &Curves<'_>,
     compared: &EnsembleArguments,

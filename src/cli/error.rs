@@ -7,7 +7,7 @@ use std::fmt::Display;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::{fmt, io};
 
-/// Exit code of a failed run or wrong input.
+/// Exit code if a computation failed or the input is wrong.
 const FAILED: u8 = 1;
 
 /// Error of a command: one message, or one message for each wrong line of the input.
@@ -30,7 +30,8 @@ impl CliError {
         }
     }
 
-    /// Creates an error of a command that this signal has ended, with the exit code of shells.
+    /// Creates the error of a command that was ended by a signal, with the exit code that shells
+    /// use.
     pub fn interrupted(signal: &AtomicUsize, message: impl Into<String>) -> CliError {
         let exit_code = 128 + u8::try_from(signal.load(Ordering::SeqCst)).unwrap_or_default();
         CliError {
@@ -39,17 +40,18 @@ impl CliError {
         }
     }
 
-    /// Returns true for a command that a signal has ended.
+    /// Returns true if the command was ended by a signal.
     pub fn is_interruption(&self) -> bool {
         self.exit_code > 128
     }
 
-    /// Creates an error with the name of its place, and with the options that help.
+    /// Creates an error whose message begins with `name` and ends with the options that help.
     pub fn advised(name: impl Display, error: &(dyn Error + 'static)) -> CliError {
         CliError::named(name, advised(error))
     }
 
-    /// Creates an error whose message begins with the name of its cause: a scene, a file, a word.
+    /// Creates an error whose message begins with `name`: the scene, file or argument with the
+    /// error.
     pub fn named(name: impl Display, error: impl Display) -> CliError {
         CliError::message(format!("{name}: {error}"))
     }

@@ -79,11 +79,11 @@ pub struct LookArguments {
 }
 
 impl LookArguments {
-    /// The options of the explorer. If the user's own configuration file is wrong, the explorer
-    /// opens with a warning and the defaults.
+    /// Returns the options of the explorer. If the usual configuration file has an error, the
+    /// explorer opens with a warning and with default values.
     ///
     /// # Errors
-    /// The first mistake in a configuration file that the user names.
+    /// Returns the first error of a configuration file that is named on the command line.
     pub(super) fn options(&self) -> Result<Options, CliError> {
         let defaults = || Config::new(bindings());
         let (config, warning) = match (&self.config, default_path()) {
@@ -107,10 +107,10 @@ impl LookArguments {
     }
 }
 
-/// Opens the explorer on a scene or a study. `commands` are the names of commands, one of which a
-/// word that is neither may have been meant as.
+/// Opens the explorer on a scene or a study. `commands` are the names of all commands. If the
+/// argument is neither a scene nor a study, a similar name of a command is proposed.
 ///
-/// When the explorer is left, prints a brief summary of the last scene.
+/// After the explorer is closed, a brief summary of the last scene is printed.
 pub(super) fn explore(
     arguments: &ExploreArguments,
     commands: &str,
@@ -154,7 +154,8 @@ pub(super) fn failed(error: impl Display) -> CliError {
     CliError::message(format!("the explorer failed: {error}"))
 }
 
-/// Opens the explorer in the terminal; when it is left, prints a brief summary of the last scene.
+/// Opens the explorer in the terminal. After it is closed, prints a brief summary of the last
+/// scene.
 fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), CliError> {
     if std::env::var_os("TERM").is_some_and(|term| term == "dumb") {
         return Err(CliError::message(format!(
@@ -174,7 +175,8 @@ fn open(opening: Opening, options: Options, out: &mut dyn Write) -> Result<(), C
     Ok(())
 }
 
-/// The newest unsaved changes of an ended session that can be read; an error if there are none.
+/// Returns the newest unsaved changes of an ended session that can be read. It is an error if there
+/// are none.
 fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     let newest = folder.map(autosave::newest).unwrap_or_default();
     if newest.kept.is_some() {
@@ -187,6 +189,8 @@ fn restored(folder: Option<&Path>) -> Result<Newest, CliError> {
     Err(CliError::named("--restore", why))
 }
 
+/// Returns what the explorer opens: a scene or a study with the changes of its fields, a scene to
+/// compare with, and a measured curve. `default` is the scene that is opened without an argument.
 fn opening(
     arguments: &ExploreArguments,
     default: &str,
@@ -198,7 +202,7 @@ fn opening(
             if let Some(way) = no_scene(Path::new(name)) {
                 return CliError::message(way);
             }
-            // A single word that is no scene may be a misspelt command.
+            // A single word that names no scene may be a misspelt command.
             let is_word = name.chars().all(|c| c.is_ascii_alphabetic()) && !Path::new(name).exists();
             match nearest(name, commands.split(", ")).filter(|_| is_word) {
                 Some(near) => CliError::named(

@@ -1,5 +1,5 @@
-//! `asperity fit` for several curves: files and folders, on all cores, into a table that is
-//! continued where it ended.
+//! `asperity fit` for several curves: fits all curves in files and folders on several threads, and
+//! writes a table. If the table already exists, only the missing rows are computed.
 
 use super::advice::option;
 use super::error::CliError;
@@ -30,13 +30,14 @@ const FORMATS: &[Format] = &[
     Format::Png,
     Format::Pdf,
 ];
-/// Beginnings of the first line of a table and of the line with its command.
+/// Beginning of the first line of a table. The next constant is the beginning of the line with its
+/// command.
 const PROGRAM: &str = "# asperity ";
 const COMMAND: &str = "# command: ";
-/// Limit of the size of a table that is continued, bytes.
+/// Largest size in bytes of a table that is continued.
 const LARGEST_TABLE: usize = 1 << 28;
 
-/// The files that the arguments name: a folder is the list of its files in the order of their
+/// Returns the files that the arguments name. A folder counts as all its files, sorted by their
 /// names.
 pub(super) fn files_of(
     curves: &[PathBuf],
@@ -72,7 +73,7 @@ fn paths_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Returns true for a file that is not hidden and no scene.
+/// Returns true for a file that is neither hidden nor a scene.
 fn may_be_curve(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default();
     let is_hidden = name.to_string_lossy().starts_with('.');
@@ -91,15 +92,15 @@ enum RowError {
     Stopped,
 }
 
-/// The rows so far, and where further ones are written.
+/// State of the fits: the rows so far, and the table to which further rows are written.
 struct Progress {
     rows: HashMap<String, CurveRow>,
-    /// The table, which grows by a row for each curve.
+    /// Table to which a row is appended after each fit; `None` if no table is written.
     table: Option<File>,
     line: ProgressLine,
 }
 
-/// Curves with the arguments of their fits.
+/// Measured curves, and the arguments of their fits.
 pub(super) struct Curves<'a> {
     /// Files, or folders of files.
     pub paths: &'a [PathBuf],
@@ -112,7 +113,8 @@ pub(super) struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    /// Options of reading, with the instrument of the scene.
+    /// Returns the options for reading the curves. The stiffness of the instrument is that of the
+    /// scene.
     pub(super) fn reading_for(&self, document: &Document) -> CurveOptions {
         CurveOptions {
             instrument: document.scene().loading_stiffness,
@@ -121,13 +123,13 @@ impl Curves<'_> {
     }
 }
 
-/// What all curves have in common.
+/// Data that the fits of all curves share.
 struct Batch<'a> {
     document: Document,
     free: Vec<Parameter>,
     reading: CurveOptions,
     curves: &'a Curves<'a>,
-    /// Provenance of a table.
+    /// Provenance that is written at the beginning of a table.
     provenance: String,
 }
 
@@ -142,7 +144,8 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     }
     let files = files_of(curves.paths, output.file())?;
     let document = curves.overrides.apply(open_argument(curves.scene)?)?;
-    // The number of threads changes no row.
+    // The rows do not depend on the number of threads, so a table may be continued with another
+    // number.
     let command = command_without(&["--jobs"]);
     let provenance = scene_provenance(
         &command,
@@ -200,7 +203,7 @@ pub(super) fn fit_all(curves: &Curves<'_>, stdout: &mut dyn Write) -> Result<(),
     Ok(())
 }
 
-/// Returns an error for a file that is named twice, because a table has one row for each file.
+/// Returns an error if a file is named twice, because a table has one row for each file.
 fn check_names(names: &[String]) -> Result<(), CliError> {
     let mut seen = HashSet::new();
     for name in names {
@@ -224,8 +227,8 @@ impl Batch<'_> {
         }
     }
 
-    /// The row of each file, in their order. Rows that the table has are kept, and further ones are
-    /// added to it at once.
+    /// Returns the row of each file, in the order of the files. Rows that the table already has are
+    /// kept. Each new row is appended to the table as soon as it is computed.
     fn rows(&self, files: &[PathBuf], table: Option<&Path>) -> Result<Vec<CurveRow>, CliError> {
         let names: Vec<String> = files
             .iter()
@@ -313,7 +316,7 @@ impl Batch<'_> {
         )
     }
 
-    /// The table with these rows as text.
+    /// Returns the table with these rows as text.
     fn text_of(&self, rows: &[CurveRow]) -> String {
         let mut text = Vec::new();
         let table = self
@@ -327,7 +330,8 @@ impl Batch<'_> {
         String::from_utf8_lossy(&text).into_owned()
     }
 
-    /// The rows that a table has; none if there is no such file or it is begun anew.
+    /// Returns the rows that an existing table has; empty without such a file, or if it is to be
+    /// overwritten.
     fn kept(&self, path: &Path) -> Result<HashMap<String, CurveRow>, CliError> {
         if !path.exists() || self.curves.output.force {
             return Ok(HashMap::new());
@@ -340,17 +344,18 @@ impl Batch<'_> {
                 refusal(&text, &self.text_of(&[])),
             ));
         };
-        // A row that a killed process left without its end is computed again.
+        // A process that was killed may have left an incomplete last row, which is computed again.
         let whole = rows.rsplit_once('\n').map_or("", |(whole, _)| whole);
         let rows = whole
             .lines()
             .filter_map(|line| CurveRow::from_line(line, self.free.len()));
-        // A file that failed may have been mended.
+        // A curve that could not be read or fitted is tried again, because its file may have been
+        // repaired.
         let rows = rows.filter(|row| row.error.is_empty());
         Ok(rows.map(|row| (row.file.clone(), row)).collect())
     }
 
-    /// The table with the rows that it keeps, to which others are added.
+    /// Returns the table with the kept rows, opened so that further rows can be appended.
     fn begun(&self, path: &Path, rows: &HashMap<String, CurveRow>) -> Result<File, CliError> {
         let mut rows: Vec<CurveRow> = rows.values().cloned().collect();
         rows.sort_by(|one, other| one.file.cmp(&other.file));
@@ -364,7 +369,8 @@ impl Batch<'_> {
     }
 }
 
-/// Says why a file is not continued. `expected` is the beginning of a table that would be.
+/// Returns the reason why a table cannot be continued. `expected` is the beginning that a table of
+/// this command has.
 fn refusal(text: &str, expected: &str) -> String {
     if !text.starts_with(PROGRAM) {
         return "this is not a table of fits; allowed: another file, or --force, which overwrites this file"

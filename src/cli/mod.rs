@@ -1,7 +1,7 @@
 //! The command line: its arguments, and one function for each command.
 //!
-//! Results go to standard output, everything else to standard error. Exit codes: 0 for success, 1
-//! for a failure of the input or the run, 2 for wrong usage.
+//! Results are written to standard output, everything else to standard error. Exit codes: 0 for
+//! success, 1 if the input is wrong or the computation fails, 2 for wrong usage.
 
 mod advice;
 pub mod arguments;
@@ -44,18 +44,18 @@ use std::io;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Size in bytes of the buffer before standard output.
+/// Size in bytes of the buffer for standard output.
 const BUFFER: usize = 1 << 18;
 
 const SUCCESS: u8 = 0;
 const WRONG_USAGE: u8 = 2;
 
-/// Runs the program with these arguments, the first of which is its name, and returns the exit
-/// code.
+/// Runs the program with the given arguments, the first of which is the name of the program, and
+/// returns the exit code.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let typed = typed::TYPED.get_or_init(|| arguments.into_iter().collect());
     if let Some(word) = typed.iter().skip(1).find(|word| word.to_str().is_none()) {
-        // Scenes, tables and messages name files as text.
+        // Scenes, tables and messages contain names of files as text, so arguments must be UTF-8.
         let word = printable(&word.to_string_lossy()).into_owned();
         let _ = writeln!(
             io::stderr(),
@@ -67,8 +67,8 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(arguments) => arguments,
         Err(error) => {
             let error = explained(error, typed);
-            // Also for help and version. An error that repeats control characters of an argument is
-            // printed without colours.
+            // Help and version come here as well. If an error repeats control characters of an
+            // argument, it is printed escaped and without colours.
             let printed = match printable_lines(&error.render().to_string()) {
                 Cow::Owned(shown) if error.use_stderr() => io::stderr().write_all(shown.as_bytes()),
                 _ => error.print(),
@@ -87,19 +87,20 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let done = dispatch(&arguments, &mut stdout).and_then(|()| Ok(stdout.flush()?));
     match done {
         Ok(()) => SUCCESS,
-        // The reader has closed the pipe: `asperity run … | head`.
+        // The reader has closed the pipe, as in `asperity run … | head`.
         Err(error) if error.is_closed_pipe => SUCCESS,
         Err(error) => {
             let _ = stdout.flush();
-            // Errors contain file names and excerpts of files.
+            // Errors may contain names and excerpts of files with control characters, which are
+            // escaped.
             let _ = writeln!(io::stderr(), "{}", printable_lines(&error.to_string()));
             error.exit_code
         }
     }
 }
 
-/// The error, or a plainer one if the first word is no command: the parser takes that word for a
-/// scene, and the following words for another command or its options.
+/// Returns the error of the argument parser, or a plainer one if the first word is not a command.
+/// The parser then takes the first word for a scene, and the next words for a command or options.
 fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let mut command = Arguments::command();
     let names = names(&command);
@@ -115,7 +116,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     let Some(first) = words.first() else {
         return error;
     };
-    // A second word without a dash, which the parser takes for a command.
+    // Second word without a dash, which the parser takes for a command.
     let second = error
         .get(ContextKind::InvalidSubcommand)
         .map(ToString::to_string);
@@ -161,7 +162,7 @@ fn explained(error: clap::Error, typed: &[OsString]) -> clap::Error {
     command.error(ErrorKind::InvalidSubcommand, message)
 }
 
-/// Returns true for the name or the file of a scene.
+/// Returns true if a word is the name of a built-in scene or the path of a scene file.
 fn is_scene(word: &str) -> bool {
     asperity_scene::library::find_scene(word).is_some() || Path::new(word).exists()
 }

@@ -25,10 +25,11 @@ pub(super) const WITHOUT_PICTURE: &[Format] =
 /// Formats of results that have neither a table nor a picture.
 pub(super) const TEXT_OR_JSON: &[Format] = &[Format::Text, Format::Json];
 
-/// Smallest width and height, and largest of both, of a printed figure, mm.
+/// Smallest width and smallest height of a printed figure, mm. The next constant is the largest of
+/// both.
 const LEAST: [u32; 2] = [50, 30];
 const MOST: u32 = 500;
-/// Number of px (1/96 inch) in a metre of a print.
+/// Number of px (1/96 inch) in a metre of a printed figure.
 const PX: f64 = 96.0 / 0.0254;
 
 /// Format of results, a file for them in place of standard output, and the look of figures.
@@ -61,7 +62,7 @@ pub struct OutputArguments {
     pub parameters: bool,
 }
 
-/// Options for figures.
+/// Names of the options for the look of figures.
 const LOOK: [&str; 5] = ["width", "height", "only", "no_title", "parameters"];
 
 /// Hides the options for figures in the help of a command without figures.
@@ -70,7 +71,7 @@ pub(super) fn without_look(option: Arg) -> Arg {
     option.hide(is_look)
 }
 
-/// A length of at least `least` mm, in m.
+/// Parses a length, and returns it in m. It must be at least `least` mm.
 fn length(text: &str, least: u32) -> Result<f64, String> {
     let length = parse_quantity(text, "m").map_err(|error| error.to_string())?;
     let range = 1e-3 * f64::from(least)..=1e-3 * f64::from(MOST);
@@ -81,10 +82,10 @@ fn length(text: &str, least: u32) -> Result<f64, String> {
     }
 }
 
-/// What the results are computed from, for their provenance.
+/// Origin of results, which is written into their files as provenance.
 #[derive(Clone, Copy)]
 pub(super) enum Origin<'a> {
-    /// A scene, with the document that locates its files.
+    /// A scene, with the document from which its files are found.
     Scene(&'a Document, &'a Scene),
     /// Scenes of a figure, each with its name.
     Scenes(&'a [(String, Scene)]),
@@ -93,19 +94,20 @@ pub(super) enum Origin<'a> {
 }
 
 impl OutputArguments {
-    /// Path of the file; `None` if results go to standard output.
+    /// Returns the path of the output file; `None` if the results go to standard output.
     pub(super) fn file(&self) -> Option<&Path> {
         self.output
             .as_deref()
             .filter(|path| *path != Path::new("-"))
     }
 
-    /// Folder of the file; the working folder for standard output.
+    /// Returns the folder of the output file, or the working folder for standard output.
     pub(super) fn folder(&self) -> &Path {
         self.file().and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
-    /// The first given option for figures.
+    /// Returns the name of the first given option for the look of figures; `None` without such an
+    /// option.
     fn look(&self) -> Option<&'static str> {
         let OutputArguments {
             width,
@@ -127,7 +129,7 @@ impl OutputArguments {
             .find_map(|(option, is_given)| is_given.then_some(option))
     }
 
-    /// A figure with the requested size, panels and title.
+    /// Returns the figure with the requested size, panels and title.
     fn looked(&self, figure: Figure) -> Result<Figure, CliError> {
         let [width, height] =
             [self.width, self.height].map(|length| length.map(|length| PX * length));
@@ -150,9 +152,9 @@ impl OutputArguments {
         })
     }
 
-    /// The format of the results: by the extension of FILE, else the chosen format, else the usual
-    /// one. Before any computation, checks also that FILE can be written. A terminal gets text
-    /// only.
+    /// Returns the format of the results: that of the extension of FILE, otherwise the chosen
+    /// format, otherwise the usual format. Also checks that FILE can be written, so that an error
+    /// comes before the computation. Binary formats are refused on a terminal.
     pub(super) fn format(&self, formats: &[Format], usual: Format) -> Result<Format, CliError> {
         let format =
             Format::of_file(self.file(), self.format, formats, usual).map_err(CliError::message)?;
@@ -179,8 +181,8 @@ impl OutputArguments {
         Ok(format)
     }
 
-    /// Writes a report with its provenance to its destination; a figure gets the requested width
-    /// and parameters.
+    /// Writes a report with its provenance to its destination. A figure gets the requested width
+    /// and the box of parameters.
     pub(super) fn write(
         &self,
         stdout: &mut dyn Write,
@@ -225,7 +227,7 @@ impl OutputArguments {
         })
     }
 
-    /// Writes a figure, as a picture or as text, to its destination.
+    /// Writes a figure to its destination, as a picture or as text.
     pub(super) fn write_figure(
         &self,
         stdout: &mut dyn Write,
@@ -252,7 +254,8 @@ impl OutputArguments {
     }
 }
 
-/// Checks that the name of a file has this extension or none, and that the file can be written.
+/// Checks that the name of a file has the given extension or none, and that the file can be
+/// written.
 pub(super) fn check_file(path: &Path, extension: &str, overwrite: bool) -> Result<(), CliError> {
     check_extension(path, &[extension]).map_err(|error| CliError::named(path_name(path), error))?;
     Ok(check_writable(path, overwrite)?)
@@ -267,7 +270,7 @@ pub struct AnswerFormat {
 }
 
 impl AnswerFormat {
-    /// Writes the answer: the text, or the object with version and command in front.
+    /// Writes the answer as text, or as a JSON object that begins with version and command.
     pub(super) fn write(
         self,
         stdout: &mut dyn Write,
@@ -287,13 +290,14 @@ impl AnswerFormat {
     }
 }
 
-/// The command of this process, for a POSIX shell, without the options for format and destination.
+/// Returns the command of this process for a POSIX shell, without the options for format and
+/// destination.
 pub(super) fn command() -> String {
     command_without(&[])
 }
 
-/// The command of this process without the options for format and destination, and without further
-/// options that take a value.
+/// Returns the command of this process without the options for format and destination. `options`
+/// are further options that are left out, each with its value.
 pub(super) fn command_without(options: &[&str]) -> String {
     let mut words = vec!["asperity".to_owned()];
     let typed = TYPED.get().into_iter().flatten();
@@ -316,7 +320,7 @@ pub(super) fn command_without(options: &[&str]) -> String {
     words.join(" ")
 }
 
-/// Returns true for an option alone, or with its value after `=`.
+/// Returns true if a word is the option alone, or the option with its value after `=`.
 fn is_option(word: &str, option: &str) -> bool {
     match word.strip_prefix(option) {
         Some(value) => value.is_empty() || value.starts_with('='),
@@ -324,10 +328,10 @@ fn is_option(word: &str, option: &str) -> bool {
     }
 }
 
-/// Width of figures as text without a terminal, columns.
+/// Width in columns of a figure as text that is not written to a terminal.
 const COLUMNS: usize = 80;
 
-/// A figure as text; in the width and colours of the terminal if the text is for a terminal.
+/// Returns a figure as text. On a terminal it has the width and the colours of the terminal.
 fn text_for_reader(figure: &Figure, to_stdout: bool) -> String {
     let terminal = to_stdout && io::stdout().is_terminal();
     let size = crossterm::terminal::size().ok().filter(|_| terminal);
@@ -343,7 +347,7 @@ fn variable(name: &str) -> String {
     std::env::var(name).unwrap_or_default()
 }
 
-/// Colours of the terminal, by the environment variables.
+/// Returns the colours of the terminal, as the environment variables state them.
 fn colours() -> Colours {
     if !variable("NO_COLOR").is_empty() || variable("TERM") == "dumb" {
         Colours::None

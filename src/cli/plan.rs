@@ -40,7 +40,7 @@ pub(super) fn plan(arguments: &PlanArguments, stdout: &mut dyn Write) -> Result<
     )
 }
 
-/// The stages of a scene, with the scene.
+/// Computing stages of a scene, and the scene.
 #[derive(Serialize)]
 struct PlanJson<'a> {
     scene: &'a Scene,

@@ -58,8 +58,8 @@ pub(super) fn presets(command: &PresetsCommand, stdout: &mut dyn Write) -> Resul
     }
 }
 
-/// Prints the text of a scene; on a terminal with escaped control characters, since the text may
-/// come from others.
+/// Prints the text of a scene. On a terminal control characters are escaped, because the author of
+/// the text may be unknown.
 fn show(text: &str, stdout: &mut dyn Write) -> Result<(), CliError> {
     let shown = if io::stdout().is_terminal() {
         printable_lines(text)
@@ -78,7 +78,8 @@ fn list(format: AnswerFormat, stdout: &mut dyn Write) -> Result<(), CliError> {
     format.write(stdout, || table(&entries), &SceneList { scenes })
 }
 
-/// Returns a table of names and titles; a scene with an error has the error in place of its title.
+/// Returns a table of names and titles. If a scene has an error, the error is shown instead of the
+/// title.
 fn table(entries: &[Entry]) -> String {
     let mut rows = Vec::with_capacity(entries.len());
     for entry in entries {
@@ -136,7 +137,8 @@ fn check(files: &[String], stdout: &mut dyn Write) -> Result<(), CliError> {
     }
 }
 
-/// The name of a valid scene with its warnings, or else all its errors, line by line.
+/// Returns the name of a valid scene with its warnings. For an invalid scene the error has all its
+/// errors, one in each line.
 fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     let document =
         asperity_scene::library::open_argument(file).map_err(|errors| errors.to_string())?;
@@ -146,8 +148,8 @@ fn checked(file: &str) -> Result<(String, Vec<Warning>), String> {
     }
 }
 
-/// Error of the measured surface of a scene, with its place in the scene; `None` if there is no
-/// error or no surface.
+/// Returns the error of the measured surface of a scene, with the path of its field; `None` if the
+/// scene has no measured surface or the surface has no error.
 fn profile_error(document: &Document) -> Option<String> {
     let scene = document.scene();
     scene.measured()?;

@@ -1,5 +1,5 @@
-//! Long computations of commands: their progress on standard error, on a terminal a single line
-//! that changes, and the signals that end them.
+//! Progress of long computations on standard error, and signals that end them. On a terminal the
+//! progress is a single line that changes.
 
 use super::error::CliError;
 use asperity_data::Control;
@@ -9,22 +9,22 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
-/// Shortest time between two texts on a terminal.
+/// Shortest time between two texts of the progress line on a terminal.
 const BETWEEN: Duration = Duration::from_millis(50);
 
-/// Message of a command that a signal ends before its results are complete.
+/// Message of a command that is ended by a signal before its results are complete.
 const STOPPED: &str = "stopped; no results are written";
 
 #[derive(Default)]
 pub(super) struct ProgressLine {
-    /// Time of the text on the terminal, if there is one.
+    /// Time at which the text on the terminal was written; `None` without a text.
     drawn: Option<Instant>,
 }
 
 impl ProgressLine {
-    /// Shows a text on a terminal in place of the previous one, unless the previous one is hardly
-    /// drawn. Without a terminal, prints `plain` if it is given. A closed standard error is no
-    /// failure.
+    /// Shows a text on a terminal in place of the previous text. The text is skipped if the
+    /// previous one is less than `BETWEEN` old and `plain` is `None`. Without a terminal `plain` is
+    /// printed, if it is given. Nothing fails if standard error is closed.
     pub(super) fn show(&mut self, text: &str, plain: Option<&str>) {
         let mut stderr = io::stderr();
         if stderr.is_terminal() {
@@ -46,7 +46,7 @@ impl ProgressLine {
         }
     }
 
-    /// Keeps the text on the terminal, and begins the next line.
+    /// Keeps the text on the terminal, and moves to the next line.
     pub(super) fn keep(&self) {
         if self.drawn.is_some() {
             let _ = writeln!(io::stderr());
@@ -56,22 +56,22 @@ impl ProgressLine {
 
 /// A long computation of a command.
 pub(super) struct Task<'a> {
-    /// Name of what is computed, with which the message of an error begins; `None` if the error has
-    /// a name itself.
+    /// Name of the scene, study or file, with which the message of an error begins; `None` if the
+    /// error already has a name.
     pub name: Option<&'a str>,
     pub threads: usize,
-    /// Text on a terminal until the first progress.
+    /// Text shown on a terminal until the first progress is reported.
     pub begins: String,
 }
 
-/// Shows no progress of a short computation, which a signal can still end.
+/// Shows no progress, for a short computation. A signal can still end it.
 pub(super) fn show_nothing<P>(_: &P, _: &mut ProgressLine) {}
 
-/// Runs a computation. `show` shows its progress on a terminal, where the last text is removed at
-/// the end. A signal that asks the process to end ends the computation.
+/// Runs a computation. `show` shows its progress on a terminal, and the last text is removed at the
+/// end. A signal that asks the process to end (such as Ctrl-C) ends the computation.
 ///
 /// # Errors
-/// The computation fails, or a signal ended it.
+/// Returns the error of the computation, or an error if a signal ended it.
 pub(super) fn watched<P, T, E: Into<CliError>>(
     task: Task<'_>,
     mut show: impl FnMut(&P, &mut ProgressLine),
@@ -100,18 +100,19 @@ pub(super) fn watched<P, T, E: Into<CliError>>(
     })
 }
 
-/// Signals of the process, once they are watched.
+/// Signals of the process; empty until they are watched for the first time.
 static SIGNALS: OnceLock<Signals> = OnceLock::new();
 
 struct Signals {
-    /// True while a signal ends the process at once.
+    /// True while no computation is watched, so that a signal ends the process at once.
     act_at_once: Arc<AtomicBool>,
     /// Number of the first signal that came while signals were watched; 0 until then.
     first: Arc<AtomicUsize>,
 }
 
-/// Watch over the signals that ask the process to end. While there is a watch, the first of them is
-/// noted, and a second one ends the process at once. Without a watch, each does.
+/// Watch over the signals that ask the process to end. While there is a watch, the first signal is
+/// only recorded, and a second signal ends the process at once. Without a watch, the first signal
+/// does so.
 pub(super) struct SignalWatch {
     signals: &'static Signals,
 }
@@ -134,7 +135,7 @@ impl SignalWatch {
         self.signals.first.load(Ordering::SeqCst) != 0
     }
 
-    /// Creates the error of a command that the signal has ended.
+    /// Creates the error of a command that was ended by the recorded signal.
     pub(super) fn interrupted(&self, message: impl Into<String>) -> CliError {
         CliError::interrupted(&self.signals.first, message)
     }

@@ -1,4 +1,4 @@
-//! `asperity reference`: a scene as a line and in three dimensions.
+//! `asperity reference`: compares a scene on profiles (lines) with the scene in three dimensions.
 
 use super::advice::option;
 use super::error::CliError;
@@ -70,7 +70,7 @@ pub(super) fn reference(
     )
 }
 
-/// Compares a scene with three dimensions, and shows the progress.
+/// Compares a scene with three dimensions, and shows the progress on standard error.
 pub(super) fn compared(
     document: &Document,
     options: ReferenceOptions,

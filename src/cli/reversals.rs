@@ -1,4 +1,4 @@
-//! `asperity reversals`: unloads a scene from many turning points.
+//! `asperity reversals`: computes the unloading of a scene from each of many turning points.
 
 use super::error::CliError;
 use super::output::{Origin, OutputArguments};
@@ -37,11 +37,11 @@ pub struct ReversalsArguments {
     pub output: OutputArguments,
 }
 
-/// Number of turning points unless one is given.
+/// Number of turning points if the user gives none.
 const USUAL: usize = 64;
 
-/// Parses two forces and, after a colon, the number of turning points; without forces they are
-/// those of the scene.
+/// Parses two forces and, after a colon, the number of turning points. Without forces the turning
+/// points follow from the scene.
 fn turns(text: &str) -> Result<(Option<(f64, f64)>, usize), String> {
     let (forces, count) = text
         .split_once(':')
@@ -85,7 +85,7 @@ pub(super) fn reversals(
     }
     let mut preloads = None;
     let mut staircase = None;
-    // Tables hold the turning points alone.
+    // Tables contain only the turning points, so no adhesion force is computed for them.
     if !format.is_table() {
         let largest = map
             .reversals
@@ -128,7 +128,7 @@ fn map_of(
     })
 }
 
-/// Computes the adhesion force of a scene after each of these preloads.
+/// Computes the adhesion force of a scene after each of the given preloads.
 fn adhesion_at(document: &Document, preloads: &Axis) -> Result<Results, CliError> {
     let task = Task {
         name: Some(document.name()),

@@ -98,10 +98,11 @@ pub struct RunArguments {
     pub output: OutputArguments,
 }
 
-/// Width of messages, columns.
+/// Width of messages in columns.
 const WIDTH: usize = 80;
 
-/// A scene to compute, with the springs and edges that a given tolerance chooses.
+/// A scene to be computed. If a tolerance is given, its springs and edges were chosen for this
+/// tolerance.
 struct Chosen<'a> {
     document: &'a Document,
     scene: CheckedScene,
@@ -116,11 +117,13 @@ impl Chosen<'_> {
 }
 
 impl RunArguments {
-    /// Returns true for figures of profiles or patches.
+    /// Returns true if figures of profiles or contact patches are requested.
     fn has_sections(&self) -> bool {
         matches!(self.draw, Some(Drawn::Profile | Drawn::Patches))
     }
 
+    /// Returns the format of the results. Which formats are possible depends on the number of
+    /// scenes, on `--draw` and on `--preloads`.
     fn format(&self) -> Result<Format, CliError> {
         let several = !self.more.is_empty();
         if self.draw == Some(Drawn::Panels) && !several {
@@ -165,8 +168,9 @@ impl RunArguments {
         Ok(documents)
     }
 
-    /// The scene of a document, with the springs and edges that a given tolerance chooses. The
-    /// choice is stated in the text of a single scene, otherwise on standard error.
+    /// Returns the scene of a document. If a tolerance is given, springs and edges are chosen for
+    /// this tolerance. The choice is stated in the text of a single scene, otherwise on standard
+    /// error.
     fn chosen<'a>(&self, document: &'a Document, format: Format) -> Result<Chosen<'a>, CliError> {
         let Some(tolerance) = self.tolerance else {
             return Ok(Chosen {
@@ -207,8 +211,8 @@ impl RunArguments {
         })
     }
 
-    /// Results of a scene on its random profiles, unless a single one is asked for. Shares and
-    /// heights of the profiles are recorded only for a table.
+    /// Returns the results of a scene on its random profiles; `None` if a single profile is
+    /// requested. Shares and heights of the profiles are recorded only if a table is written.
     fn ensemble(&self, chosen: &Chosen<'_>, format: Format) -> Result<Option<Ensemble>, CliError> {
         let Chosen {
             document, scene, ..
@@ -234,7 +238,7 @@ impl RunArguments {
         Ok(Some(ensemble))
     }
 
-    /// The computation of `count` random profiles of a document.
+    /// Returns the task that computes `count` random profiles of a document, for the progress.
     fn profiles_task<'a>(&self, document: &'a Document, count: u64) -> Task<'a> {
         Task {
             name: Some(document.name()),
@@ -243,8 +247,8 @@ impl RunArguments {
         }
     }
 
-    /// Standard deviation of the adhesion force by the uncertainty of a measured spectrum, if it is
-    /// computed fast.
+    /// Returns the standard deviation in N of the adhesion force due to the uncertainty of a
+    /// measured spectrum; `None` if its computation would take long.
     fn fit_deviation(
         &self,
         document: &Document,
@@ -260,8 +264,8 @@ impl RunArguments {
         )
     }
 
-    /// Adhesion force of a scene against preload, and the staircase if it is drawn or if preloads
-    /// are below zero.
+    /// Computes the adhesion force of a scene as a function of the preload. The staircase is
+    /// computed only if it is drawn or if preloads are below zero.
     fn adhesion(
         &self,
         chosen: &Chosen<'_>,
@@ -280,8 +284,8 @@ impl RunArguments {
         Ok((results, staircase))
     }
 
-    /// Adhesion force against preload on one or several random profiles, which are counted on the
-    /// terminal.
+    /// Computes the adhesion force as a function of the preload on one or several random profiles.
+    /// The number of computed profiles is shown on a terminal.
     fn adhesion_on_profiles(
         &self,
         chosen: &Chosen<'_>,
@@ -348,7 +352,7 @@ pub(super) fn run(arguments: &RunArguments, stdout: &mut dyn Write) -> Result<()
     }
 }
 
-/// Function that writes a report of all scenes.
+/// Function that writes a report on all scenes.
 type WriteReport<'a> = dyn FnMut(&dyn Report) -> Result<(), CliError> + 'a;
 
 fn run_loadings(
@@ -376,13 +380,15 @@ fn run_loadings(
     write_loading(arguments, chosen, outcome, ensemble, format, write)
 }
 
-/// Computes a scene on its own profile, and on random profiles if the options ask for them.
+/// Computes a scene on the profile with its own seed, and on random profiles if the options request
+/// them.
 fn loaded<'a>(
     arguments: &RunArguments,
     chosen: &Chosen<'a>,
     format: Format,
 ) -> Result<ComparedScene<'a>, CliError> {
-    // First the profile of the scene, whose failure is that of the scene.
+    // The profile of the scene is computed first, so that an error of the scene is reported as
+    // such.
     let outcome = compute(chosen.document, &chosen.scene)?;
     let ensemble = arguments.ensemble(chosen, format)?;
     if !holds_warnings(format) {
@@ -396,7 +402,8 @@ fn loaded<'a>(
     })
 }
 
-/// Writes the result of a single scene: of random profiles as a table, else with its errors.
+/// Writes the result of a single scene: a table of the random profiles, or the result with its
+/// errors.
 fn write_loading(
     arguments: &RunArguments,
     chosen: &Chosen<'_>,
@@ -437,7 +444,7 @@ fn write_loading(
     })
 }
 
-/// Estimates the error of an outcome.
+/// Estimates the error of an outcome due to the finite number of springs.
 fn estimated(
     document: &Document,
     scene: &CheckedScene,
@@ -458,8 +465,8 @@ fn estimated(
     )
 }
 
-/// The warnings of a result: of an ensemble with the number of its profiles, of a single outcome as
-/// they are.
+/// Returns the warnings of a result. Warnings of an ensemble have the number of profiles to which
+/// they apply.
 fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<String> {
     match ensemble {
         Some(ensemble) => counted_texts(&ensemble.warnings(), ensemble.profiles()),
@@ -467,6 +474,8 @@ fn outcome_warnings(outcome: &Outcome, ensemble: Option<&Ensemble>) -> Vec<Strin
     }
 }
 
+/// Writes the adhesion force as a function of the preload: a report for a single scene, or a figure
+/// with a panel for each of several scenes.
 fn run_preloads(
     arguments: &RunArguments,
     preloads: &Axis,
@@ -505,7 +514,7 @@ fn run_preloads(
     write(&Figure::of_panels(figures))
 }
 
-/// Figure of the profiles of the scenes with their contact, or of their contact patches.
+/// Returns a figure of the profiles of the scenes in contact, or of their contact patches.
 fn sections(arguments: &RunArguments, chosen: &[Chosen<'_>]) -> Result<Figure, CliError> {
     let has_patches = arguments.draw == Some(Drawn::Patches);
     let mut figures = Vec::new();

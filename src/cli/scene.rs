@@ -1,4 +1,4 @@
-//! The scene of a command, with overrides.
+//! Arguments that name a scene and change its fields, and the computation of this scene.
 
 use super::error::CliError;
 use super::progress::{ProgressLine, Task, watched};
@@ -42,7 +42,7 @@ pub struct ProfileArguments {
 }
 
 impl ProfileArguments {
-    /// Number of profiles of a scene.
+    /// Returns the number of random profiles to be computed for a scene.
     pub(super) fn count(&self, scene: &Scene) -> u64 {
         self.lines
             .map_or_else(|| Ensemble::profiles_of(scene), u64::from)
@@ -73,8 +73,8 @@ impl SceneArguments {
     }
 }
 
-/// Writes on standard error the premises that a scene does not meet, for results that do not say it
-/// themselves: tables, figures and times.
+/// Writes on standard error the premises that a scene does not meet. It is used for results that do
+/// not contain warnings: tables, figures and times.
 pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     for warning in warnings {
         // The command continues even if standard error is closed.
@@ -86,13 +86,13 @@ pub(super) fn warn(document: &Document, warnings: &[impl Display]) {
     }
 }
 
-/// Returns true for formats that hold the warnings of a result themselves.
+/// Returns true for formats in which results contain their warnings.
 pub(super) fn holds_warnings(format: Format) -> bool {
     matches!(format, Format::Text | Format::Json)
 }
 
-/// Opens the scene of an argument; a measured file in its place is named with the commands that use
-/// it.
+/// Opens the scene that an argument names. If the file is a measured file instead of a scene, the
+/// error names the commands that read such files.
 pub(super) fn open_scene(name: &str) -> Result<Document, CliError> {
     open_argument(name).map_err(|errors| match no_scene(Path::new(name)) {
         Some(way) => CliError::message(way),
@@ -110,12 +110,12 @@ impl Overrides {
     }
 }
 
-/// A simulation for one scene, whose files are relative to the file of the scene.
+/// Returns a simulation for a scene. Paths of files in the scene are relative to the scene file.
 pub(super) fn simulation_of(document: &Document) -> Simulation {
     Simulation::new(document.resolve("")).for_one_scene()
 }
 
-/// Computes a scene of a document, and shows its loading stages on a terminal.
+/// Computes a scene, and shows the progress on a terminal in loading stages.
 pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outcome, CliError> {
     let mut simulation = simulation_of(document);
     compute_stages(document, scene, |stop, after| {
@@ -126,8 +126,9 @@ pub(super) fn compute(document: &Document, scene: &CheckedScene) -> Result<Outco
     })
 }
 
-/// Runs a scene of a document, and shows the loading stages on a terminal. `run` gets the function
-/// that stops it, and a function to call after each stage.
+/// Computes a scene with the function `run`, and shows the progress on a terminal in loading
+/// stages. The arguments of `run` are the function that asks whether to stop, and a function to
+/// call after each stage.
 pub(super) fn compute_stages(
     document: &Document,
     scene: &Scene,
@@ -151,10 +152,10 @@ pub(super) fn compute_stages(
     )
 }
 
-/// Function that returns true if a computation is to end.
+/// Function that returns true if a computation is to be stopped.
 type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
-/// Computes the staircase of a scene of a document over preloads.
+/// Computes the adhesion force of a scene as a function of the preload.
 pub(super) fn staircase_of(
     document: &Document,
     scene: &CheckedScene,
@@ -175,7 +176,8 @@ pub(super) fn staircase_of(
     )
 }
 
-/// Number of threads that share the profiles: the requested number, or one for each core.
+/// Returns the number of threads that share the profiles: the requested number, or one for each
+/// core.
 pub(super) fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(parallel::threads, usize::from)
 }

@@ -1,4 +1,4 @@
-//! `asperity surface`: analyses measured surfaces and the equivalent line.
+//! `asperity surface`: analyses measured surfaces, and computes the equivalent line.
 
 use super::advice::option;
 use super::error::CliError;
@@ -36,7 +36,7 @@ computed on its equivalent line.
 
 JSON is one object with statistics, fit, spectra and warnings; tables and pictures hold the spectra.";
 
-/// Number of random profiles for the adhesion force by default.
+/// Number of random profiles for the adhesion force if the user gives none.
 const LINES: u32 = 16;
 
 /// Arguments of `asperity surface`.
@@ -100,16 +100,16 @@ pub struct SurfaceArguments {
     pub output: OutputArguments,
 }
 
-/// A length as the user types it.
+/// A length as the user typed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Length {
-    /// Number in m, or without a unit in the unit of `--unit`.
+    /// Number in m. For a length without a unit it is in the unit of `--unit`.
     value: f64,
     has_unit: bool,
 }
 
 impl SurfaceArguments {
-    /// The length given with an option, in m.
+    /// Returns in m the length given with an option.
     fn in_metres(&self, option: &str, length: Option<Length>) -> Result<Option<f64>, CliError> {
         match (length, self.measured.unit.parse::<Unit>().ok()) {
             (
@@ -128,7 +128,7 @@ impl SurfaceArguments {
         }
     }
 
-    /// The measured surfaces with all options; the files are named as on the command line.
+    /// Returns the measured surfaces with all options. The files are named as on the command line.
     fn surfaces(&self) -> Result<Measured, CliError> {
         let continue_to = self.in_metres("--continue-to", self.continue_to)?;
         if let Some(length) = continue_to.filter(|length| !(1e-15..=10.0).contains(length)) {
@@ -167,8 +167,8 @@ impl SurfaceArguments {
         })
     }
 
-    /// Returns an error for an output file that is one of the measured files, even with `--force`:
-    /// it could not be measured again.
+    /// Returns an error if the output file is one of the measured files, even with `--force`,
+    /// because overwriting would destroy the measurement.
     fn check_outputs(&self) -> Result<(), CliError> {
         let mut outputs = Vec::new();
         for output in [self.output.file(), self.scene.as_deref()] {
@@ -203,16 +203,17 @@ pub struct SurfaceTask {
     pub work: Option<f64>,
     /// Preload in N; `None` for a loading that turns at zero force.
     pub preload: Option<f64>,
-    /// Number of random profiles of the adhesion force; `None` for 16 on at most 131 072 springs,
-    /// and none on more.
+    /// Number of random profiles of the adhesion force. `None` means 16 profiles if each has at
+    /// most 131 072 springs, otherwise no profile.
     pub profiles: Option<u32>,
-    /// Number of threads. No result depends on it.
+    /// Number of threads. The results do not depend on this number.
     pub jobs: usize,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words, such as an option of the
+    /// command line.
     pub wording: Wording,
 }
 
-/// Number of random profiles whose adhesion is computed, and number of all random profiles.
+/// Progress of the adhesion of a surface, counted in random profiles.
 pub struct ComputedProfiles {
     /// Number of computed profiles.
     pub computed: u64,
@@ -285,8 +286,9 @@ impl SurfaceTask {
         })
     }
 
-    /// Creates a scene of the equivalent line over the length of the scan, on a body of this
-    /// effective modulus in Pa. Of two faces the shorter scan counts.
+    /// Creates a scene of the equivalent line on a body with the effective modulus `modulus` in Pa.
+    /// The length of the profile is the length of the scan, or of the shorter scan if both faces
+    /// were measured.
     pub fn scene(&self, modulus: f64, faces: &[MeasuredFace], line: &EquivalentLine) -> Scene {
         let name = Path::new(&self.measured.file)
             .file_name()
@@ -295,7 +297,7 @@ impl SurfaceTask {
             .iter()
             .map(|face| face.analysis.length)
             .fold(f64::INFINITY, f64::min);
-        // 100 µm of 1 000 points, not 9.999999999999999e-5 m.
+        // Rounding gives 100 µm for 1 000 points instead of 9.999999999999999e-5 m.
         let length = round_to(length, 12);
         Scene {
             title: format!("Equivalent line of {}", path_name(Path::new(name))),
@@ -368,7 +370,7 @@ impl SurfaceTask {
 }
 
 impl SurfaceTask {
-    /// Reads and analyses the files, and makes the report with the progress on a terminal.
+    /// Reads and analyses the files, and makes the report. The progress is shown on a terminal.
     fn watched_report(&self, computes_adhesion: bool) -> Result<SurfaceReport, CliError> {
         let task = Task {
             name: None,
@@ -396,7 +398,7 @@ pub(super) fn surface(
         check_file(file, "ron", arguments.output.force)?;
     }
     let task = arguments.task()?;
-    // Adhesion is computed for text and JSON alone, since it takes seconds.
+    // Adhesion takes seconds to compute. Only text and JSON contain it.
     let computes_adhesion = matches!(format, Format::Text | Format::Json);
     let report = task.watched_report(computes_adhesion)?;
     if let (Some(file), Some(modulus)) = (&arguments.scene, task.modulus) {
@@ -414,7 +416,7 @@ pub(super) fn surface(
         .write(stdout, &report, format, Origin::Files(&files))
 }
 
-/// Writes a scene, in which the measured files are named relative to its own folder.
+/// Writes a scene. The paths of its measured files are relative to the folder of the scene file.
 fn write_scene(file: &Path, mut scene: Scene, overwrite: bool) -> Result<(), CliError> {
     let folder = file.parent().unwrap_or(Path::new(""));
     scene.rename_measured_files(|measured| {
@@ -436,7 +438,7 @@ fn length(text: &str) -> Result<Length, String> {
     })
 }
 
-/// Parses a value above 0, with its unit.
+/// Parses a positive value with its unit.
 fn positive(text: &str, unit: &str) -> Result<f64, String> {
     match parse_quantity(text, unit) {
         Ok(value) if value > 0.0 => Ok(value),

@@ -5,12 +5,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Arguments, the first of which is the name of the program. Those of the process differ where a
-/// script of Python runs it.
+/// Arguments of the program, the first of which is the name of the program. They are kept here
+/// because a Python script that runs the program has other arguments of its process.
 pub(super) static TYPED: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Path of the program, for scripts that start it: the file that was started, or else the
-/// executable of the process.
+/// Returns the path of the program for scripts that start it: the started file or, if it is
+/// unknown, the executable of the process.
 pub(super) fn program_path() -> io::Result<PathBuf> {
     let started = TYPED.get().and_then(|typed| typed.first()).map(Path::new);
     match started.filter(|path| path.components().count() > 1 && path.is_file()) {

@@ -7,8 +7,8 @@ use asperity_study::checks::{Case, Verdict};
 use serde::Serialize;
 
 impl Report for [Verdict] {
-    /// Returns a table with a row for each [`Check`](asperity_study::checks::Check), then what each
-    /// [`Case`] shows by which evidence, then why checks failed.
+    /// Returns a table with a row for each [`Check`](asperity_study::checks::Check). Then follow
+    /// what each [`Case`] shows and its evidence, and the reasons why checks failed.
     fn text(&self) -> Option<String> {
         let mut sheet = Sheet::default();
         add_verdicts(&mut sheet, self);
@@ -54,7 +54,7 @@ fn add_verdicts(sheet: &mut Sheet, verdicts: &[Verdict]) {
     sheet.table(&rows);
 }
 
-/// Adds a table of what the checked cases show, each with its evidence.
+/// Adds a table of the statements that the checked cases confirm, each with its evidence.
 fn add_claims(sheet: &mut Sheet, verdicts: &[Verdict]) {
     let mut rows = Vec::new();
     for case in Case::all() {
@@ -72,7 +72,7 @@ fn add_claims(sheet: &mut Sheet, verdicts: &[Verdict]) {
     sheet.table(&rows);
 }
 
-/// Adds the reasons why checks failed; nothing if all pass.
+/// Adds the reasons why checks failed. If all checks pass, nothing is added.
 fn add_failures(sheet: &mut Sheet, verdicts: &[Verdict]) {
     let mut rows = Vec::new();
     for verdict in verdicts {
@@ -97,7 +97,8 @@ fn add_failures(sheet: &mut Sheet, verdicts: &[Verdict]) {
     }
 }
 
-/// Writes a bound or an error with two digits, which suffice for a comparison. Zero is exact.
+/// Returns a bound or an error as text with two digits, which suffice for a comparison. Zero is
+/// written as `0`, because it is exact.
 fn figure(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()

@@ -25,7 +25,7 @@ pub struct CostReport<'a> {
     answer: Vec<String>,
     #[serde(flatten)]
     table: &'a CostTable,
-    /// Comparison of the scene with three dimensions, which gives the error of the model.
+    /// Comparison of the scene with three dimensions, from which the error of the model follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     reference: Option<&'a Reference>,
 }
@@ -48,7 +48,7 @@ impl<'a> CostReport<'a> {
         }
     }
 
-    /// Adds the relative errors with each kind of setting.
+    /// Adds tables of the relative errors, one for each kind of setting.
     fn add_errors(&self, sheet: &mut Sheet) {
         sheet.heading(
             "Relative errors, with the observed order of convergence since the row before",
@@ -69,7 +69,7 @@ impl<'a> CostReport<'a> {
         }
     }
 
-    /// Adds what the measurements took, and what was left out.
+    /// Adds the total computing time of the measurements, and the settings that were left out.
     fn add_times(&self, sheet: &mut Sheet) {
         let table = self.table;
         let transform = format_rounded(table.transform_seconds, 3, "s");
@@ -146,7 +146,7 @@ impl Report for CostReport<'_> {
     }
 }
 
-/// Returns whether an error is resolved, as text; empty for an unknown error.
+/// Returns text that states whether an error is resolved; empty for an unknown error.
 fn is_resolved(figure: Option<ErrorFigure>) -> &'static str {
     match figure {
         Some(figure) if figure.resolved => "true",
@@ -155,8 +155,8 @@ fn is_resolved(figure: Option<ErrorFigure>) -> &'static str {
     }
 }
 
-/// Returns the heading of the errors with one kind of setting, of which the first has this number
-/// of springs.
+/// Returns the heading of the table of errors with one kind of setting. `springs` is the number of
+/// springs of the first row.
 fn heading(knob: Knob, springs: u64) -> String {
     let name = knob.name();
     if knob != Knob::Step {
@@ -182,7 +182,8 @@ fn add_rows(sheet: &mut Sheet, knob: Knob, rows: &[&Row]) {
     sheet.table(&table);
 }
 
-/// Returns sentences on the solution from which the errors are counted, and on its own errors.
+/// Returns sentences on the reference solution, to which the errors refer, and on the errors of
+/// this solution.
 fn counted_from(table: &CostTable) -> String {
     let reference = &table.reference;
     let springs = grouped(reference.springs);
@@ -195,7 +196,7 @@ fn counted_from(table: &CostTable) -> String {
     }
     let mut own_errors = Vec::new();
     for (error, name) in reference.errors.into_iter().zip(ERRORS) {
-        // A closed form of the adhesion force has no error.
+        // If the adhesion force of the reference is known in closed form, it has no error.
         let is_exact = reference.closed_form && name == ERRORS[0];
         if let Some(error) = error
             && !is_exact
@@ -214,7 +215,7 @@ fn counted_from(table: &CostTable) -> String {
     )
 }
 
-/// Returns the row of a setting in the table of the text.
+/// Returns the row of a setting for the table of the text.
 fn cells(row: &Row) -> [String; 6] {
     let setting = match row.knob {
         Knob::Step => format_quantity(row.setting, "m"),

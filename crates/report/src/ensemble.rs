@@ -1,5 +1,5 @@
-//! Results on random profiles: the main numbers of a scene as text and JSON, a caption of figures,
-//! and a table of the profiles.
+//! Results on random profiles: the main numbers of a scene as text and JSON, the caption of a
+//! figure, and a table of the profiles.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -32,7 +32,7 @@ pub(crate) fn profiles_named(count: u64, first: u64) -> String {
     format!("{count} random profiles, seeds {first} to {last}")
 }
 
-/// Writes a value of a quantity to this number of digits; a share in per cent.
+/// Returns a value of a quantity as text with this number of digits. A share is in per cent.
 pub(crate) fn rounded(quantity: Quantity, value: f64, digits: usize) -> String {
     if quantity.bounds() == (0.0, 1.0) {
         percent(value, digits)
@@ -75,7 +75,7 @@ pub(crate) fn headline(sheet: &mut Sheet, ensemble: &Ensemble) {
     }
 }
 
-/// Returns the numbers of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
+/// Returns in words the number of profiles in each regime: `pressure-sensitive 12, non-adhesive 4`.
 fn regimes_in_words(counts: RegimeCounts) -> String {
     let regimes: Vec<String> = counts
         .present()
@@ -167,8 +167,8 @@ impl StatisticsJson {
     }
 }
 
-/// An ensemble, the results of a scene on several random profiles. The table has a row for each
-/// profile.
+/// An ensemble, the results of a scene on several random profiles, as a report. The table has a row
+/// for each profile.
 impl Report for Ensemble {
     fn json(&self) -> Option<Box<dyn Json + '_>> {
         Some(Box::new(EnsembleJson::new(self)))
@@ -197,15 +197,15 @@ impl Report for Ensemble {
 #[derive(Serialize)]
 struct ResultsJson<'a> {
     scene: &'a Scene,
-    /// Values on each axis of the study, by the path of its field.
+    /// Values on each axis of the study. The key is the path of the field of the axis.
     axes: BTreeMap<&'a str, &'a [f64]>,
     profiles: u64,
-    /// Premises of the model that some of the profiles do not meet in any cell.
+    /// Premises of the model that profiles do not meet, over all cells.
     warnings: Vec<String>,
     records: Table<'a>,
 }
 
-/// Results of a parameter study, all held in memory. The table has a row for each combination of
+/// Results of a parameter study in memory as a report. The table has a row for each combination of
 /// values on the axes of the study, on each random profile.
 impl Report for Results {
     fn json(&self) -> Option<Box<dyn Json + '_>> {

@@ -1,4 +1,4 @@
-//! The work of adhesion of a rough body from many curves, as text, JSON, a table and a figure.
+//! Work of adhesion of a rough body, found from many curves, as text, JSON, a table and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -12,14 +12,15 @@ use asperity_experiment::{CurveOfEnsemble, EnsembleFit, IntervalEstimate, Summar
 use asperity_plot::{Chart, ChartAxis, Figure, Ink, Label, Layer, Shape, Sign, Span, Stroke};
 use serde::Serialize;
 
-/// Relative change of the rms height whose effect is reported.
+/// Relative change of the rms height for which the report states the change of the work of
+/// adhesion.
 const HEIGHT_CHANGE: f64 = 0.05;
 
-/// Change of the Hurst exponent whose effect is reported.
+/// Change of the Hurst exponent for which the report states the change of the work of adhesion.
 const HURST_CHANGE: f64 = 0.05;
 
-/// Smallest and largest usual ratio of the scatter of the curves to the scatter of the random
-/// profiles.
+/// Range in which the scatter of the curves, divided by the scatter of the random profiles, is
+/// usual.
 const USUAL_SCATTER: [f64; 2] = [0.8, 1.2];
 
 const INDEPENDENT: &str = "Each curve counts as a place with a profile of its own: places closer than the contact or the \
@@ -34,7 +35,8 @@ pub struct EnsembleFitReport<'a> {
     pub fit: &'a EnsembleFit,
     /// True if the user stated a standard error of the rms height or of the Hurst exponent.
     pub has_roughness_errors: bool,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
@@ -95,8 +97,8 @@ impl Report for EnsembleFitReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a chart of the work of adhesion of each curve with its interval, before a band with
-    /// the interval of all curves.
+    /// Returns a chart of the work of adhesion of each curve with its interval. A band behind shows
+    /// the interval of all curves together.
     fn figure(&self) -> Option<Figure> {
         let low = self.lowest_drawn();
         let note = match self.fit.work_at_most {
@@ -128,12 +130,13 @@ struct EnsembleFitJson<'a> {
 
 impl EnsembleFitReport<'_> {
     /// Returns the premises of the model that random profiles with the found values do not meet,
-    /// one text for each.
+    /// with one text for each premise.
     pub fn warning_texts(&self) -> Vec<String> {
         counted_texts(&self.fit.warnings, EnsembleFit::EXAMINED)
     }
 
-    /// Adds the work of adhesion and the modulus, with the curves and profiles that gave them.
+    /// Adds the work of adhesion and the modulus, and states how many curves and profiles they
+    /// follow from.
     fn add_values(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let count = fit.curves.len();
@@ -175,7 +178,7 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Adds the causes of the width of the interval, and how more curves would narrow it.
+    /// Adds the reasons why the interval is wide, and how much more curves would narrow it.
     fn add_causes_of_width(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         if fit.work_at_most.is_none() {
@@ -213,7 +216,8 @@ impl EnsembleFitReport<'_> {
     fn add_effect_of_roughness(&self, sheet: &mut Sheet) {
         let mut errors = Note::new("The interval leaves out errors of the roughness.");
         if let Some(shifts) = self.fit.roughness {
-            // Errors of a measured roughness cannot be stated.
+            // The user can state errors only of a self-affine roughness, not of a measured
+            // roughness.
             errors = errors.with(Remedy::RoughnessErrors);
             let step = per_cent(HEIGHT_CHANGE);
             let by_height = relative_change(shifts.work_by_height * HEIGHT_CHANGE);
@@ -252,7 +256,7 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Adds the scatter of the curves, and the reason for an unusual scatter.
+    /// Adds the scatter of the curves, and the reason if the scatter is unusual.
     fn add_scatter(&self, sheet: &mut Sheet) {
         let Some(ratio) = self.fit.scatter_ratio else {
             return;
@@ -270,8 +274,8 @@ impl EnsembleFitReport<'_> {
         ));
     }
 
-    /// Returns sentences on the summaries in which the curves differ from the random profiles;
-    /// `None` if the profiles describe the curves.
+    /// Returns sentences on the summaries (numbers of a curve) in which the measured curves differ
+    /// from the random profiles; `None` if the profiles describe the curves.
     fn not_described(&self) -> Option<String> {
         let deviations = self.fit.deviations.iter();
         let deviating: Vec<String> = deviations
@@ -299,7 +303,8 @@ impl EnsembleFitReport<'_> {
         }
     }
 
-    /// Returns sentences on curves that are foreign to the ensemble; `None` without such a curve.
+    /// Returns sentences on curves that are farther from the random profiles than all but about one
+    /// in a thousand; `None` without such a curve.
     fn foreign(&self) -> Option<String> {
         let foreign = self.fit.curves.iter().filter(|curve| curve.foreign);
         let names: Vec<&str> = foreign.map(|curve| curve.name.as_str()).collect();
@@ -313,8 +318,9 @@ impl EnsembleFitReport<'_> {
         ))
     }
 
-    /// Returns the lower end of the drawn interval of all curves, J/m². The axis is logarithmic, so
-    /// that an interval from 0 is drawn from the lowest end of all curves.
+    /// Returns the lower end in J/m² of the interval of all curves as it is drawn. The axis is
+    /// logarithmic and cannot show 0, so an interval from 0 is drawn from the lowest end of the
+    /// curves.
     fn lowest_drawn(&self) -> f64 {
         let work = self.fit.work;
         if work.low > 0.0 {
@@ -332,8 +338,8 @@ impl EnsembleFitReport<'_> {
         ChartAxis::new(AxisScale::Linear, span, "number of the curve", "", "1")
     }
 
-    /// Returns the axis of the work of adhesion, on which the interval of all curves begins at
-    /// `low` in J/m².
+    /// Returns the axis of the work of adhesion. `low` is the drawn lower end in J/m² of the
+    /// interval of all curves.
     fn work_axis(&self, low: f64) -> ChartAxis {
         let mut ends = Vec::with_capacity(2 * self.fit.curves.len() + 2);
         for curve in &self.fit.curves {
@@ -346,8 +352,8 @@ impl EnsembleFitReport<'_> {
         ChartAxis::new(scale, span, "work of adhesion", "γ", "J/m²")
     }
 
-    /// Returns the interval and the value of all curves, and the intervals and values of single
-    /// curves. The interval of all curves begins at `low` in J/m².
+    /// Returns the layers of the chart: interval and value of all curves, and those of each curve.
+    /// `low` is the drawn lower end in J/m² of the interval of all curves.
     fn layers(&self, low: f64) -> Vec<Layer> {
         let IntervalEstimate { value, high, .. } = self.fit.work;
         let left = 0.5;
@@ -381,12 +387,12 @@ impl EnsembleFitReport<'_> {
     }
 }
 
-/// Returns the relative change of a quantity whose natural logarithm changes by `change`.
+/// Returns as text the relative change of a quantity whose natural logarithm changes by `change`.
 fn relative_change(change: f64) -> String {
     format!("{:+.0} %", 100.0 * change.exp_m1())
 }
 
-/// Writes `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
+/// Returns text such as `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(estimate: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(estimate.value, 3, unit);
     let interval = format_range((estimate.low, estimate.high), 3, unit);
@@ -410,7 +416,7 @@ fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     ]
 }
 
-/// Writes `pull-off force larger by 12 % (3.1 standard errors)`.
+/// Returns text such as `pull-off force larger by 12 % (3.1 standard errors)`.
 fn deviation_in_words(deviation: &SummaryDeviation) -> String {
     let direction = if deviation.logarithm > 0.0 {
         "larger"

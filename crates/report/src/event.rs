@@ -1,10 +1,10 @@
-//! The event at a point of a loading history in words, such as first contact, preload, pull-off or
+//! Names of the events at points of a loading history, such as first contact, preload, pull-off or
 //! separation.
 
 use asperity_contact::{Branch, CurvePoint, Direction, LegRecord};
 
-/// Share of the range of indentations of a loading or unloading within which a state counts as its
-/// end or its smallest force.
+/// Distance from the end or from the smallest force of a loading or unloading, as a share of its
+/// range of indentations, within which a point counts as this end or this smallest force.
 const NEAR: f64 = 0.01;
 
 /// Returns in a few words what happens at `point` of the force curve, such as `pull-off` or
@@ -74,7 +74,8 @@ mod tests {
             .history
     }
 
-    /// Events along a branch in the order of their first occurrence; on a rough profile some recur.
+    /// Returns the events along a branch in the order of their first occurrence. On a rough profile
+    /// some events occur several times.
     fn events(legs: &[LegRecord], branch: &Branch) -> Vec<&'static str> {
         let mut events = Vec::new();
         let points = legs[branch.stages.clone()]

@@ -1,4 +1,4 @@
-//! The number at which a quantity reaches a target, as text, JSON and a table.
+//! Answers to the question at which number a quantity reaches a target, as text, JSON and a table.
 
 use crate::ensemble::{profiles_named, rounded};
 use crate::report::{Json, Report};
@@ -12,7 +12,7 @@ use asperity_scene::Scene;
 use asperity_study::{Answer, Ensemble, Found, Quantity};
 use serde::Serialize;
 
-/// Largest number of listed profiles with several crossings. Further ones are counted.
+/// Largest number of profiles with several crossings that are listed. Further profiles are counted.
 const MOST_LISTED: usize = 8;
 
 /// Report on a search in a scene: which value of a number, such as the preload, gives a wanted
@@ -26,9 +26,9 @@ pub struct FindReport<'a> {
     pub found: &'a Found,
 }
 
-/// Returns the answer of a search in one or two sentences. They have the median and the quartiles,
-/// over the profiles, of the number at which the result reaches the wanted value, and state how
-/// many profiles have no such number and where a crossing may be missed.
+/// Returns the answer of a search in one or two sentences. They state the median and the quartiles,
+/// over the profiles, of the number at which the result reaches the wanted value. They also state
+/// how many profiles have no such number, and where a crossing may be missed.
 pub fn found_in_words(found: &Found) -> String {
     let words = SearchWords::new(found);
     let reaches_always = found.answers.iter().all(reaches_everywhere);
@@ -59,7 +59,7 @@ fn reaches_nowhere(answer: &Answer) -> bool {
     answer.crossings.is_empty() && answer.reached == [false; 2]
 }
 
-/// Words on a question, of which its answers are made.
+/// Parts of the sentences of an answer.
 struct SearchWords {
     /// Number that is sought.
     name: String,
@@ -68,9 +68,10 @@ struct SearchWords {
     target: String,
     /// Range of the searched numbers.
     searched: String,
-    /// Range of the quantity at the searched numbers; empty if it has no value there.
+    /// Range of the quantity at the searched numbers; empty if the quantity has no value there.
     reachable: String,
-    /// Sentence on profiles on which a crossing may be missed, after a blank; otherwise empty.
+    /// Sentence, after a blank, on the profiles on which a crossing may be missed; empty if there
+    /// are none.
     missed: String,
 }
 
@@ -92,7 +93,7 @@ impl SearchWords {
         }
     }
 
-    /// Returns the answer if no preload of the range is needed.
+    /// Returns the answer if the target is reached at every preload of the searched range.
     fn at_any_preload(&self, found: &Found) -> String {
         let SearchWords {
             quantity,
@@ -160,7 +161,7 @@ impl SearchWords {
         format!("{name} = {value} for {target}{at_least}.")
     }
 
-    /// Returns the answer on several profiles, of which at least half reach the target.
+    /// Returns the answer on several profiles, if at least half of them reach the target.
     fn on_several(&self, found: &Found, median: &str) -> String {
         let SearchWords {
             name,
@@ -195,8 +196,8 @@ fn quartiles_in_words(found: &Found) -> String {
     }
 }
 
-/// Returns a sentence, after a blank, on the profiles on which a crossing may be missed. It is
-/// empty without such a profile.
+/// Returns a sentence, after a blank, on the profiles on which a crossing may be missed; empty if
+/// there are none.
 fn missed_in_words(found: &Found) -> String {
     let answers = found.answers.iter();
     let count = answers.filter(|answer| answer.may_miss).count();
@@ -230,8 +231,8 @@ fn values_in_words(quantity: Quantity, range: (f64, f64)) -> String {
     one_unit([least, most].map(|value| rounded(quantity, value, 4)))
 }
 
-/// Returns words on the numbers at which the quantity was computed. They are empty if the crossings
-/// follow from a proof.
+/// Returns words on the numbers at which the quantity was computed; empty if the crossings follow
+/// from a proof.
 fn computed_in_words(found: &Found) -> String {
     let waves = if found.question.is_of_whole_waves() {
         ", only where a whole number of waves fits on the length"
@@ -261,8 +262,8 @@ fn computed_in_words(found: &Found) -> String {
 }
 
 impl FindReport<'_> {
-    /// Returns `On 3 of 16 profiles` for the profiles whose answers have a property. Returns `None`
-    /// if there are none, or if there is a single profile in all.
+    /// Returns words such as `On 3 of 16 profiles` for the number of profiles whose answers have a
+    /// property. Returns `None` if no profile has the property, or if there is only one profile.
     fn on_profiles(&self, has_property: impl Fn(&Answer) -> bool) -> Option<String> {
         let answers = self.found.answers.iter();
         let count = answers.filter(|answer| has_property(answer)).count();
@@ -273,13 +274,13 @@ impl FindReport<'_> {
         Some(format!("On {count} of {profiles} profiles"))
     }
 
-    /// Returns sentences on the profiles whose answer is not a single number.
+    /// Returns sentences on the profiles whose answers are not a single number.
     fn exceptions(&self) -> Vec<String> {
         let answers = &self.found.answers;
         let is_like_first =
             |answer: &Answer| answer.crossings.is_empty() && answer.reached == answers[0].reached;
         if answers.iter().all(is_like_first) {
-            // The answer itself says so.
+            // All profiles agree, and the main sentence of the answer already says so.
             return Vec::new();
         }
         let question = &self.found.question;
@@ -315,8 +316,8 @@ impl FindReport<'_> {
         sentences
     }
 
-    /// Adds the profiles whose quantity crosses the target more than once, or falls below it again;
-    /// nothing without such a profile.
+    /// Adds the profiles on which the quantity crosses the target more than once, or falls below it
+    /// again. If there are none, nothing is added.
     fn add_several_crossings(&self, sheet: &mut Sheet) {
         let answers = self.found.answers.iter();
         let several: Vec<&Answer> = answers
@@ -355,7 +356,8 @@ impl FindReport<'_> {
         }
     }
 
-    /// Returns sentences on the searched range, on what stays constant, and on the profiles.
+    /// Returns sentences on the searched range, on the numbers that stay constant, and on the
+    /// profiles.
     fn conditions(&self) -> String {
         let found = self.found;
         let question = &found.question;

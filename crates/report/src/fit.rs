@@ -1,4 +1,4 @@
-//! A fit as text, JSON, a table and a figure with residuals.
+//! Result of a fit as text, JSON, a table and a figure with residuals.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -18,7 +18,8 @@ use std::f64::consts::PI;
 const ROUGH: &str = "These errors leave out the error of the model: the adhesion force of rough bodies differs from three \
     dimensions by about 30 % where much of the surface adheres, else by a factor of 2 to 3.";
 
-/// Factor by which the range that a sentence proposes goes beyond the end of the range searched.
+/// Ratio of the proposed end of a range to the end of the searched range, if the best value lies at
+/// the end.
 const FARTHER: f64 = 1000.0;
 
 /// Report on a fit of a scene to one measured force curve. It has the fitted parameters, and a
@@ -31,7 +32,8 @@ pub struct FitReport<'a> {
     pub curve: &'a MeasuredCurve,
     /// Fitted parameters of the scene, and how well it describes the curve.
     pub fit: &'a FitResult,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
@@ -42,16 +44,17 @@ struct FitJson<'a> {
     fit: &'a FitResult,
     described: bool,
     noise: f64,
-    /// Numbers of the curve by itself.
+    /// Numbers that follow from the curve without the scene.
     curve: CurveFeatures,
     drag: Option<DragForce>,
-    /// Work of adhesion that the drag on the retraction would add to γ, if it had been left in.
+    /// Work of adhesion in J/m² that the drag during the retraction would add to γ, if the drag had
+    /// not been subtracted.
     drag_work: Option<f64>,
     pull_off_force: Option<f64>,
     pull_off_work: Option<f64>,
     points_used: usize,
     points_left_out: usize,
-    /// Sentences on what was assumed when the curve was read.
+    /// Sentences on the assumptions made when the curve was read.
     reading: Vec<String>,
 }
 
@@ -158,8 +161,8 @@ impl Report for FitReport<'_> {
 }
 
 impl FitReport<'_> {
-    /// Returns sentences on a curve that the model does not describe within its noise; `None` if it
-    /// does.
+    /// Returns sentences on the difference between model and curve; `None` if the model describes
+    /// the curve within its noise.
     fn not_described(&self) -> Option<String> {
         let fit = self.fit;
         let reason = fit.reason.as_ref()?.note().in_words(self.wording);
@@ -188,7 +191,7 @@ impl FitReport<'_> {
         Some(format!("{described} {reason} The intervals {intervals}."))
     }
 
-    /// Returns what was assumed when the curve was read, and when it was fitted.
+    /// Returns the assumptions made when the curve was read and when it was fitted.
     fn assumptions(&self) -> impl Iterator<Item = String> {
         let notes = self.curve.statements.iter().chain(&self.fit.assumptions);
         notes.map(|note| note.in_words(self.wording))
@@ -224,8 +227,8 @@ impl FitReport<'_> {
         }
     }
 
-    /// Returns the sentence on a parameter whose best value lies at the end of its range, unless
-    /// the curve cannot have it at all.
+    /// Returns a sentence on a parameter whose best value lies at the end of its range; `None` for
+    /// any other parameter, and for one that the curve does not determine at all.
     fn sentence_at_end(&self, fitted: &FittedParameter) -> Option<String> {
         let end = fitted.at_end?;
         if matches!(self.fit.reason, Some(Reason::Stiffness(..))) {
@@ -248,7 +251,7 @@ impl FitReport<'_> {
         Some(note.in_words(self.wording))
     }
 
-    /// Adds sentences on the residual and on the misfit, all over the same points.
+    /// Adds sentences on the residual and on the misfit, both over the same points.
     fn add_residual(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let agreement = fit.agreement;
@@ -280,7 +283,7 @@ impl FitReport<'_> {
     }
 
     /// Adds the upper bound of the work of adhesion, and the pull-off force with the work of
-    /// adhesion that follows from it.
+    /// adhesion of a sphere with this force.
     fn add_adhesion(&self, sheet: &mut Sheet) {
         if let Some(work) = self.fit.work_at_most {
             let work = format_rounded(work, 2, "J/m²");
@@ -302,7 +305,7 @@ impl FitReport<'_> {
         sheet.paragraph(&format!("Pull-off force of the curve {force}{work}."));
     }
 
-    /// Adds what the drag would do to the work of adhesion.
+    /// Adds the effect that the drag would have on the work of adhesion.
     fn add_drag(&self, sheet: &mut Sheet) {
         let Some(work) = self.drag_work() else {
             return;
@@ -313,13 +316,13 @@ impl FitReport<'_> {
         ));
     }
 
-    /// Returns the work of adhesion in J/m² that the drag on the retraction would add; `None`
-    /// without a drag, or for another body than a smooth sphere.
+    /// Returns the work of adhesion in J/m² that the drag during the retraction would add; `None`
+    /// without a drag, or for a body that is not a smooth sphere.
     fn drag_work(&self) -> Option<f64> {
         self.pull_off_work(-self.curve.drag?.pulled)
     }
 
-    /// Adds the largest correlation, and the parameters that the curve does not separate.
+    /// Adds the largest correlation, and the parameters that cannot be determined separately.
     fn add_correlations(&self, sheet: &mut Sheet) {
         let fit = self.fit;
         let strongest = fit
@@ -334,7 +337,7 @@ impl FitReport<'_> {
             ));
         }
         for &(first, second) in &fit.not_distinguished {
-            // The upper bound of the work of adhesion has a sentence of its own.
+            // Another sentence states the upper bound of the work of adhesion.
             let is_work = first == Parameter::Work && second == Parameter::Work;
             let is_at_end = first == second
                 && fit
@@ -347,8 +350,8 @@ impl FitReport<'_> {
         }
     }
 
-    /// Returns the work of adhesion in J/m² of a smooth sphere with this pull-off force in N
-    /// (Johnson, Kendall and Roberts); `None` for another body.
+    /// Returns the work of adhesion in J/m² of a smooth sphere with the pull-off force `force` in
+    /// N, by the theory of Johnson, Kendall and Roberts; `None` for another body.
     pub(super) fn pull_off_work(&self, force: f64) -> Option<f64> {
         let scene = self.fit.document.scene();
         let radius = scene.form.as_ref()?.sphere_radius()?;
@@ -359,8 +362,8 @@ impl FitReport<'_> {
     }
 }
 
-/// Writes a fitted value with half the width of its interval: `γ = 50 ± 2 mJ/m²`, or a bound. No
-/// line breaks inside.
+/// Returns a fitted value with the half-width of its interval, such as `γ = 50 ± 2 mJ/m²`, or its
+/// bound. The text has no place for a line break.
 fn with_half_width(fitted: &FittedParameter) -> String {
     let symbol = fitted.parameter.row().symbol;
     if let Some(bound) = fitted.bound() {
@@ -372,14 +375,14 @@ fn with_half_width(fitted: &FittedParameter) -> String {
     format!("{symbol} = {value} ± {half_width}").replace(' ', "\u{a0}")
 }
 
-/// Returns a linear axis with a margin around the second numbers of these points.
+/// Returns a linear axis that contains the vertical coordinates of these points and a margin.
 fn vertical_axis(points: &[(f64, f64)], name: &str, symbol: &str, unit: &str) -> ChartAxis {
     let span = Span::around(points.iter().map(|point| point.1), 0.06);
     ChartAxis::new(AxisScale::Linear, span, name, symbol, unit)
 }
 
-/// Returns a sentence on two parameters that the curve does not separate, or on one parameter that
-/// it does not determine.
+/// Returns a sentence on two parameters that the curve does not separate. If both are the same, the
+/// sentence is on one parameter that the curve does not determine.
 fn separation(first: Parameter, second: Parameter) -> String {
     let remedy = Parameter::remedy(first, second);
     let first = first.row().symbol;

@@ -1,5 +1,5 @@
-//! Fits to many curves: a row for each curve as text, JSON and a table, and the distribution of the
-//! results as a figure.
+//! Results of fits to many curves: a row for each curve as text, JSON and a table, and the
+//! distribution of the values as a figure.
 
 use crate::fit::FitReport;
 use crate::report::{Json, Report};
@@ -20,17 +20,18 @@ use std::fmt::Display;
 /// Smallest and largest number of bars of a histogram.
 const BARS: (usize, usize) = (5, 40);
 
-/// Largest number of curves that a sentence names.
+/// Largest number of curves that a sentence lists by name.
 const MOST_NAMES: usize = 4;
 
-/// One measured curve of many, with the result of its fit or with the reason why it was not fitted.
+/// Row of one of many measured curves: the result of its fit, or the reason why it was not fitted.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CurveRow {
     /// Path of the file of the curve, as the user gave it.
     pub file: String,
-    /// For each free parameter its value and both ends of its 95 % interval, in SI units; empty if
-    /// the curve was not fitted. A value at the end of its range is only a bound: it is the lower or
-    /// the upper end of the interval, and the others are `None`.
+    /// For each free parameter its value and the lower and upper end of its 95 % interval, in SI
+    /// units; empty if the curve was not fitted. If the fit finds only a bound of the parameter, at
+    /// an end of the searched range, the bound is the lower or the upper end, and the other two are
+    /// `None`.
     pub parameters: Vec<[Option<f64>; 3]>,
     /// Numbers of the curve and of its fit in the order of [`FACTS`], in SI units; `None` for an
     /// unknown number.
@@ -59,7 +60,7 @@ pub struct RowWarning {
 }
 
 impl RowWarning {
-    /// Text between the warnings in a cell of a table.
+    /// Text between two warnings in one cell of a table.
     const SEPARATOR: &'static str = " | ";
 
     fn of(warning: &Warning) -> Self {
@@ -69,7 +70,7 @@ impl RowWarning {
         }
     }
 
-    /// Returns the cell of a table that has these warnings: `name: text | name: text`.
+    /// Returns the text of a cell of a table with these warnings: `name: text | name: text`.
     fn cell(warnings: &[RowWarning]) -> String {
         let texts: Vec<String> = warnings
             .iter()
@@ -78,7 +79,7 @@ impl RowWarning {
         texts.join(Self::SEPARATOR)
     }
 
-    /// Reads the warnings in a cell of a table; `None` if it has something else.
+    /// Reads the warnings in a cell of a table; `None` if the cell has another form.
     fn in_cell(cell: &str) -> Option<Vec<RowWarning>> {
         let mut warnings = Vec::new();
         if cell.is_empty() {
@@ -97,7 +98,7 @@ impl RowWarning {
 
 /// Names of the columns after the parameters: pull-off force, work of adhesion of a smooth sphere
 /// with this pull-off force, residual in contact divided by the noise and by the largest force,
-/// misfit, noise, and the numbers of the curve by itself.
+/// misfit, noise, and numbers that follow from the curve without the scene.
 pub const FACTS: [&str; 9] = [
     "pull_off_force",
     "pull_off_work",
@@ -114,7 +115,7 @@ pub const FACTS: [&str; 9] = [
 const ENDINGS: [&str; 3] = ["", "_low", "_high"];
 
 impl CurveRow {
-    /// Runs `fit` on a curve and makes its row. If the curve was not read or the fit fails,
+    /// Fits the scene to one curve and makes its row. If the curve was not read or the fit fails,
     /// [`Self::error`] has the reason.
     pub fn of(
         title: &str,
@@ -207,7 +208,7 @@ impl CurveRow {
             return None;
         };
         let mut parameters = Vec::new();
-        // A curve that was not fitted has no values.
+        // A curve that was not fitted has empty cells, and its list of parameters is empty.
         if error.is_empty() {
             for parameter in numbers_of(values)?.chunks_exact(ENDINGS.len()) {
                 parameters.push([parameter[0], parameter[1], parameter[2]]);
@@ -227,8 +228,8 @@ impl CurveRow {
     }
 }
 
-/// Returns the numbers in the cells of a CSV line, with `None` for an empty cell. The whole is
-/// `None` if a cell has something else.
+/// Returns the numbers in the cells of a CSV line; `None` for an empty cell. The result is `None`
+/// if a cell is neither a number nor empty.
 fn numbers_of(cells: &[String]) -> Option<Vec<Option<f64>>> {
     let mut numbers = Vec::with_capacity(cells.len());
     for cell in cells {
@@ -262,7 +263,7 @@ fn cells_of(line: &str) -> Option<Vec<String>> {
     (!is_quoted).then_some(cells)
 }
 
-/// Report on fits of one scene to many measured curves, each fitted on its own.
+/// Report on fits of one scene to many measured curves. Each curve is fitted separately.
 #[derive(Clone, Copy, Debug)]
 pub struct FitsReport<'a> {
     /// Scene that is fitted to the curves.
@@ -271,7 +272,8 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
@@ -291,7 +293,7 @@ impl Distribution {
         })
     }
 
-    /// Returns a sentence on the distribution of a parameter over curves, which are described in
+    /// Returns a sentence on the distribution of a parameter. `curves` describes the curves in
     /// words.
     fn sentence(&self, parameter: Parameter, curves: &str) -> String {
         let row = parameter.row();
@@ -308,7 +310,8 @@ impl Distribution {
     }
 }
 
-/// Values of the first free parameter, from curves that the model describes and from the others.
+/// Values of the first free parameter on the curves that the model describes, and on the other
+/// curves.
 struct FirstParameter {
     described: Vec<f64>,
     others: Vec<f64>,
@@ -328,7 +331,7 @@ impl FitsReport<'_> {
         self.rows.iter().filter(|row| !row.error.is_empty())
     }
 
-    /// Returns the files of [`Self::failures`], each with its reason.
+    /// Returns in words the files of [`Self::failures`], each with its reason.
     fn failures_in_words(&self) -> Vec<String> {
         self.failures()
             .map(|row| format!("{}: {}", row.file, row.error))
@@ -350,8 +353,8 @@ impl FitsReport<'_> {
         Some(format!("no curve was fitted: {message}"))
     }
 
-    /// Returns a sentence for each reason why the model does not describe a curve, with the files
-    /// of these curves.
+    /// Returns a sentence for each reason why the model does not describe some of the curves, with
+    /// the files of these curves.
     fn reasons(&self) -> Vec<String> {
         let mut files_by_reason: Vec<(&str, Vec<&str>)> = Vec::new();
         for row in self.rows {
@@ -380,9 +383,9 @@ impl FitsReport<'_> {
         sentences
     }
 
-    /// Returns the premises of the model that the scenes fitted to some of the curves do not meet,
-    /// one text for each with the number of these curves. The values in a text are those of the
-    /// first such curve.
+    /// Returns the premises of the model that the scenes fitted to some of the curves do not meet.
+    /// There is one text for each premise, with the number of these curves. The values in the text
+    /// are those of the first of these curves.
     pub fn warning_texts(&self) -> Vec<String> {
         let mut first_of_kind: Vec<&RowWarning> = Vec::new();
         let mut counts: Vec<u64> = Vec::new();
@@ -430,8 +433,8 @@ impl FitsReport<'_> {
         values
     }
 
-    /// Returns sentences on the first parameter over the described curves and over all curves, and
-    /// on curves without a fit.
+    /// Returns sentences on the first parameter, over the described curves and over all curves, and
+    /// on the curves without a fit.
     fn summary(&self) -> Vec<String> {
         let Some(&parameter) = self.free.first() else {
             return Vec::new();
@@ -465,7 +468,7 @@ impl FitsReport<'_> {
         sentences
     }
 
-    /// Returns the row of a curve in the table of the text, with its first parameter.
+    /// Returns the row of a curve in the table of the text, which has only the first parameter.
     fn text_row(&self, row: &CurveRow) -> [String; 4] {
         let mut value = String::new();
         let mut interval = String::new();
@@ -556,8 +559,8 @@ impl Report for FitsReport<'_> {
         Some(table.done())
     }
 
-    /// Returns a histogram of the first parameter, in which bars of curves that are not described
-    /// are on top of the bars of described curves.
+    /// Returns a histogram of the first parameter. Bars of curves that the model does not describe
+    /// are stacked on the bars of the described curves.
     fn figure(&self) -> Option<Figure> {
         let row = self.free.first()?.row();
         let values = self.first_parameter();
@@ -596,19 +599,20 @@ impl Report for FitsReport<'_> {
 /// Range of a bar of a histogram along the horizontal and along the vertical axis.
 type Bar = ((f64, f64), (f64, f64));
 
-/// Numbers of curves over the first parameter.
+/// Histogram of the first parameter over the curves.
 struct Histogram {
     described: Vec<Bar>,
-    /// Bars of curves that are not described, on top of the bars of described curves.
+    /// Bars of the curves that the model does not describe, stacked on those of the described
+    /// curves.
     others: Vec<Bar>,
-    /// Largest number of curves in a bar of the parameter, at least 1.
+    /// Largest number of curves in a bar, at least 1.
     most: f64,
 }
 
 impl Histogram {
     fn new(values: &FirstParameter) -> Self {
         let all = values.all();
-        // Equal values are in the middle of a range around them.
+        // If all values are equal, they are in the middle of the range.
         let Span { low, high } = Span::around(all.iter().copied(), 0.0);
         let (fewest, most) = BARS;
         let bars = ((all.len() as f64).sqrt().ceil() as usize).clamp(fewest, most);
@@ -639,8 +643,8 @@ impl Histogram {
     }
 }
 
-/// Returns how many values lie in each of `bars` bars of the same width, of which the first begins
-/// at `low`. A value at the upper end belongs to the last bar.
+/// Returns the number of values in each of `bars` bars of equal width. The first bar begins at
+/// `low`. A value at the upper end belongs to the last bar.
 fn counts(values: &[f64], bars: usize, low: f64, width: f64) -> Vec<f64> {
     let mut counts = vec![0.0; bars];
     for value in values {
@@ -719,7 +723,8 @@ mod tests {
         }
     }
 
-    /// The whole table in every format.
+    /// Returns the table of a report, written in every format; `None` for a format that it does not
+    /// have.
     fn written(report: &FitsReport<'_>) -> [Option<Vec<u8>>; 6] {
         use crate::report::Format::{Csv, Json, Pdf, Png, Svg, Text};
         [Text, Json, Csv, Svg, Png, Pdf].map(|format| {
@@ -730,8 +735,9 @@ mod tests {
         })
     }
 
-    /// Every mixture of curves that are described, not described and not fitted has all forms;
-    /// without a fitted curve there are no pictures, and the failure names the files.
+    /// Every mixture of curves that are described, not described and not fitted can be written in
+    /// all formats. If no curve is fitted, there are no pictures, and the error message names the
+    /// files.
     #[test]
     fn tables_have_all_forms_for_every_mixture_of_curves() {
         let document = open("jkr-sphere").unwrap();
@@ -803,7 +809,8 @@ mod tests {
         }
     }
 
-    /// Each premise is said once, with the number of fitted curves and the values of the first one.
+    /// Each premise is stated only once, with the number of fitted curves and the values of the
+    /// first one.
     #[test]
     fn premises_are_counted_over_the_fitted_curves() {
         let failed = CurveRow {
@@ -879,7 +886,7 @@ mod tests {
         assert_eq!(report.failure().as_deref(), Some(expected));
     }
 
-    /// A row comes back from its line of the table; torn lines do not.
+    /// A row can be read from its line of the table. A damaged line is refused.
     #[test]
     fn rows_come_back_from_the_table() {
         let failed = CurveRow {

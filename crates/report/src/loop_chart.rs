@@ -1,4 +1,4 @@
-//! The chart of force loops, which is the same in figures of scenes and in the explorer.
+//! Charts of force loops, used both in figures of scenes and in the explorer.
 
 use asperity_contact::{CurvePoint, Direction, LegRecord, Mark};
 use asperity_data::{AxisScale, format_rounded};
@@ -23,8 +23,8 @@ pub enum LoopQuantities {
 }
 
 impl LoopQuantities {
-    /// Returns the pair of quantities that the explorer shows next. If `deflects` is false, as for
-    /// a rigid instrument, the pair `ForceDisplacement` is left out.
+    /// Returns the pair of quantities that the explorer shows after this one. `deflects` is false
+    /// for a rigid instrument, and the pair `ForceDisplacement` is then left out.
     pub fn next(self, deflects: bool) -> Self {
         match self {
             LoopQuantities::ForceIndentation if deflects => LoopQuantities::ForceDisplacement,
@@ -52,7 +52,7 @@ pub struct LoopUnits {
     length: Option<f64>,
 }
 
-/// Quantity of a point of the curve, which may be divided by a parameter of the scene.
+/// Quantity of a point of the force curve. It may be divided by a parameter of the scene.
 #[derive(Clone, Copy)]
 struct Quantity {
     name: &'static str,
@@ -95,8 +95,8 @@ impl Quantity {
         }
     }
 
-    /// Returns the number on the axis at a point of a curve. The stiffness of the instrument is in
-    /// N/m.
+    /// Returns the number on the axis at a point of a curve. `stiffness` is that of the instrument
+    /// in N/m.
     fn number(&self, point: &CurvePoint, stiffness: f64) -> f64 {
         let value = (self.value)(point, stiffness);
         value / self.divisor.map_or(1.0, |divisor| divisor.value)
@@ -252,7 +252,7 @@ impl LoopUnits {
         let x = Span::around(places.iter().map(|place| place.0), 0.06);
         let mut y = Span::around(places.iter().map(|place| place.1).chain([0.0]), 0.08);
         if up.symbol != "F" {
-            // There is no negative length or number.
+            // A length or a number of patches is never negative.
             y.low = 0.0;
         }
         [across.axis(x), up.axis(y)]
@@ -290,12 +290,12 @@ pub struct ForceLoop<'a> {
     pub unloading: Option<Stroke>,
 }
 
-/// Line of a force loop in a chart.
+/// Part of a force loop that is drawn as one line.
 struct LoopLine {
     direction: Direction,
     /// Points in the units of the axes.
     places: Vec<(f64, f64)>,
-    /// True for a jump of the instrument.
+    /// True for a jump of the instrument, which is drawn in another way.
     jumps: bool,
 }
 
@@ -324,8 +324,8 @@ impl<'a> ForceLoop<'a> {
         }
     }
 
-    /// Returns the lines of the curves. Over the displacement of an instrument a curve has steady
-    /// parts and jumps.
+    /// Returns the lines of the curves. A curve over the displacement of an instrument consists of
+    /// several lines: steady parts and jumps.
     fn lines(&self, units: LoopUnits) -> Vec<LoopLine> {
         let units = LoopUnits {
             stiffness: self.stiffness.or(units.stiffness),
@@ -392,8 +392,8 @@ impl<'a> ForceLoop<'a> {
         layers
     }
 
-    /// Returns the name in the legend of the lines of a direction; empty for lines without an
-    /// entry.
+    /// Returns the name in the legend of the lines of a direction; empty for lines without an entry
+    /// in the legend.
     fn legend_name(&self, direction: Direction) -> Label {
         let Some(name) = &self.name else {
             return Label::plain(match direction {
@@ -401,7 +401,7 @@ impl<'a> ForceLoop<'a> {
                 Direction::Unloading => "unloading",
             });
         };
-        // One sample in the legend is enough for a loop with a name.
+        // A loop with a name has only one entry in the legend, with a sample of one direction.
         let unloads = self
             .curves
             .iter()
@@ -483,7 +483,7 @@ pub fn force_figure(scenes: &[(&str, &Outcome)], units: LoopUnits) -> Figure {
         });
     }
     let mut chart = loop_chart(&loops, units);
-    // The legend explains loading and marks once for all loops.
+    // The legend explains the stroke of loading and the marked points once for all loops.
     let loading = Shape::line(Vec::new(), Stroke::Dotted);
     chart
         .layers
@@ -532,7 +532,7 @@ pub fn sign(mark: Mark) -> Sign {
     }
 }
 
-/// Returns the name of a mark with its force in N: `pull-off F_a = 2 µN`.
+/// Returns the name of a marked point with its force in N: `pull-off F_a = 2 µN`.
 fn mark_name(mark: Mark, force: f64) -> Label {
     let value = match mark {
         Mark::Preload => value_label("", "F_n", "N", force),

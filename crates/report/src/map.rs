@@ -1,4 +1,4 @@
-//! Cells of a map as a table.
+//! Table of the cells of a map.
 
 use crate::report::Report;
 use asperity_data::{Kind, Table};
@@ -6,7 +6,7 @@ use asperity_scene::Regime;
 use asperity_study::maps::{Grid, GridCell};
 use asperity_study::{Quantity, Statistics};
 
-/// Computed cell of a grid.
+/// Cell of a grid that has been computed.
 struct ComputedCell<'a> {
     /// Index of the cell in the grid, row by row.
     index: usize,

@@ -1,5 +1,5 @@
-//! Measured surfaces of one face, as samples of the same roughness, with facts about their files
-//! and warnings about their analysis.
+//! Measured surfaces of one body, taken as samples of the same roughness, with facts about their
+//! files and warnings about their analysis.
 
 use crate::words::plural;
 use asperity_data::{NamedHeight, Note, Warning, format_quantity, grouped, path_name, printable};
@@ -35,7 +35,7 @@ pub struct SurfaceFile {
     pub warnings: Vec<Note>,
 }
 
-/// Writes a path. Characters that are not Unicode become U+FFFD.
+/// Writes a path as text. Characters that are not Unicode become U+FFFD.
 fn in_unicode<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
 }
@@ -96,7 +96,7 @@ impl SurfaceFile {
         format!("{name} ({format}): {kind} of {counts} points, {lengths}{cropped}{interpolated}")
     }
 
-    /// Returns the share of interpolated points after a comma; empty without such points.
+    /// Returns the share of interpolated points, after a comma; empty if no point was interpolated.
     fn interpolated_in_words(&self) -> String {
         if self.interpolated == 0 {
             return String::new();
@@ -106,8 +106,8 @@ impl SurfaceFile {
         format!(", {percent:.2} % interpolated")
     }
 
-    /// Returns what was left out at the ends or borders after a comma; empty if nothing was left
-    /// out.
+    /// Returns how many points, columns or rows were left out, after a comma; empty if nothing was
+    /// left out.
     fn cropped_in_words(&self) -> String {
         match self.cropped[..] {
             [0] | [0, 0] => return String::new(),
@@ -135,8 +135,8 @@ pub struct MeasuredFace {
 }
 
 impl MeasuredFace {
-    /// Returns a warning for files whose rms heights differ much, although the files are samples of
-    /// one roughness.
+    /// Returns a warning if the rms heights of the files differ much. The files should be samples
+    /// of one roughness.
     fn far_apart(&self) -> Option<Warning> {
         let heights = || self.analysis.rms_heights.iter().zip(&self.files);
         let (least, flattest) = heights().min_by(|first, second| first.0.total_cmp(second.0))?;
@@ -152,7 +152,8 @@ impl MeasuredFace {
         Warning::of_rms_heights(flattest, roughest)
     }
 
-    /// Returns warnings about files whose surfaces are too large or too high for an instrument.
+    /// Returns warnings about files whose lengths or heights are larger than an instrument can
+    /// measure.
     fn improbable_lengths(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (file, rms_height) in self.files.iter().zip(&self.analysis.rms_heights) {
@@ -220,7 +221,8 @@ mod tests {
     use super::*;
     use asperity_surface::{AnalysisOptions, analyse};
 
-    /// The names of the warnings about heights in m on a map of `columns` points in a row.
+    /// Returns the names of the warnings about a map. `heights` are in m, and each row has
+    /// `columns` points at the distance `spacing` in m.
     fn names(heights: &[f64], columns: usize, spacing: f64) -> Vec<&'static str> {
         let surface = Topography::from_map(heights, columns, [spacing; 2]).unwrap();
         let options = AnalysisOptions::default();
@@ -231,7 +233,7 @@ mod tests {
         face.warnings().iter().map(Warning::name).collect()
     }
 
-    /// Heights of many waves in all directions, on 64 × 64 points.
+    /// Returns the heights of a sum of many waves in all directions, on 64 × 64 points.
     fn waves() -> Vec<f64> {
         let mut heights = vec![0.0; 64 * 64];
         for wave in 1..200_u32 {
@@ -252,10 +254,10 @@ mod tests {
     fn lengths_that_no_instrument_measures_are_named() {
         let heights = waves();
         assert!(!names(&heights, 64, 1e-7).contains(&"improbable_lengths"));
-        // A file in µm that is read in m: 6.4 m long.
+        // Heights in µm are read as m, and the map is 6.4 m long.
         let in_metres: Vec<f64> = heights.iter().map(|z| 1e6 * z).collect();
         assert!(names(&in_metres, 64, 0.1).contains(&"improbable_lengths"));
-        // Rms height of about 10 mm on 6.4 cm.
+        // The rms height is about 10 mm on a map of 6.4 cm.
         assert!(names(&in_metres, 64, 1e-3).contains(&"improbable_lengths"));
     }
 

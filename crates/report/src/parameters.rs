@@ -1,4 +1,4 @@
-//! The box of parameters in a figure: the numbers that define its scenes.
+//! The box in a figure with the numbers that define the scenes of the figure.
 
 use asperity_plot::{Label, statement};
 use asperity_scene::Scene;

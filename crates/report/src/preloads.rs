@@ -1,4 +1,4 @@
-//! The adhesion force against the preload as text, JSON, tables and a figure.
+//! Adhesion force as a function of the preload, as text, JSON, tables and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::{Sheet, thinned};
@@ -11,10 +11,10 @@ use asperity_study::{Results, Staircase, Statistics};
 use serde::Serialize;
 use std::ops::Range;
 
-/// Largest number of rows of a table in the text.
+/// Largest number of rows of a table in the text. Tables in files have all rows.
 const MOST_ROWS: usize = 32;
 
-/// Smallest ratio of adhesion forces that are drawn on a logarithmic scale.
+/// Ratio of the largest to the smallest adhesion force from which their scale is logarithmic.
 const LOGARITHMIC_RATIO: f64 = 30.0;
 
 /// Largest number of decades of a logarithmic axis of adhesion forces.
@@ -53,7 +53,7 @@ impl<'a> PreloadReport<'a> {
         Some(preload_figure(self.title, chart, beside))
     }
 
-    /// Returns true for several random profiles, whose statistics are reported.
+    /// Returns true if there are several random profiles, whose statistics are reported.
     fn is_mean(&self) -> bool {
         self.results.plan().lines > 1
     }
@@ -64,7 +64,7 @@ impl<'a> PreloadReport<'a> {
         plan.scene.seed().map(|_| plan.seed_of(line))
     }
 
-    /// Returns the staircase if its curve is to be written as a table.
+    /// Returns the staircase if the user asked for its curve as a table.
     fn listed_staircase(&self) -> Option<&'a Staircase> {
         self.staircase.filter(|_| self.curves)
     }
@@ -177,7 +177,7 @@ impl Report for PreloadReport<'_> {
 struct PreloadJson<'a> {
     warnings: Vec<String>,
     scene: &'a Scene,
-    /// Statistics over the profiles at each preload; `None` for one profile.
+    /// Statistics over the profiles at each preload; `None` for a single profile.
     mean: Option<Vec<SpreadJson>>,
     lines: Vec<ProfileJson<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -203,7 +203,7 @@ struct StaircaseJson<'a> {
     preloads: Table<'a>,
 }
 
-/// Force at which the loading turns, and the adhesion force after this turn.
+/// Force at which a loading without a preload turns, and the adhesion force of the unloading.
 #[derive(Serialize)]
 struct TurnJson {
     force: f64,
@@ -259,8 +259,8 @@ impl<'a> StaircaseJson<'a> {
     }
 }
 
-/// Returns the figure of `chart`, a [`preload_chart`], with `beside`, a [`distribution`], on its
-/// right.
+/// Returns a figure with `chart`, a [`preload_chart`], on the left and `beside`, a
+/// [`distribution`], on the right.
 pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figure {
     let Some(beside) = beside else {
         return Figure::of_chart(title, chart);
@@ -277,7 +277,7 @@ pub fn preload_figure(title: &str, chart: Chart, beside: Option<Chart>) -> Figur
     }
 }
 
-/// Row of the curves of [`preload_chart`].
+/// Row of the table of the curves of [`preload_chart`], for one preload.
 #[derive(Clone, Copy)]
 struct StaircaseRow {
     preload: f64,
@@ -286,8 +286,8 @@ struct StaircaseRow {
     statistics: Option<Statistics>,
 }
 
-/// Returns the curves of [`preload_chart`] as a table, with one row for each preload of the
-/// staircase and the known statistics.
+/// Returns the curves of [`preload_chart`] as a table. It has a row for each preload of the
+/// staircase, with the statistics that are known at this preload.
 fn curve_table<'a>(results: &Results, staircase: &'a Staircase) -> Table<'a> {
     let spread = results.spread_of_adhesion();
     let mut rows = Vec::with_capacity(staircase.forces.len());
@@ -327,8 +327,8 @@ fn largest_share(statistics: &Statistics) -> f64 {
     statistics.share_of_largest().unwrap_or(0.0)
 }
 
-/// Returns a table of the unloadings from all preloads on these profiles. If `has_seeds` is true,
-/// the first column has the seeds of the profiles.
+/// Returns a table of the unloadings from all preloads on the profiles `lines`. If `has_seeds` is
+/// true, the first column has the seeds of the profiles.
 pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: bool) -> Table<'_> {
     let plan = results.plan();
     let rows = move || {
@@ -349,7 +349,7 @@ pub(crate) fn preload_table(results: &Results, lines: Range<u64>, has_seeds: boo
     table.done()
 }
 
-/// Unloading from a turning point, in SI units; `None` for an unknown value.
+/// Unloading from a turning point, in SI units. A value is `None` if it is unknown.
 pub(crate) struct Unloading {
     pub(crate) turning_force: Option<f64>,
     pub(crate) turning_indentation: Option<f64>,
@@ -358,8 +358,8 @@ pub(crate) struct Unloading {
     pub(crate) dissipated_energy: Option<f64>,
 }
 
-/// Adds a table of unloadings. Its first columns have these headings for force and indentation at
-/// the turning point.
+/// Adds a table of unloadings. `force` and `indentation` are the headings of the first columns,
+/// which describe the turning point.
 pub(crate) fn unloadings_table(
     sheet: &mut Sheet,
     force: &str,
@@ -416,8 +416,8 @@ pub fn preload_chart(
     Chart::new(x, force_axis(staircase.scale, &forces), layers)
 }
 
-/// Returns the statistics over the profiles at each preload, as layers: range, quartiles, mean and
-/// median. There are none without statistics.
+/// Returns layers with the statistics over the profiles at each preload: range, quartiles, mean and
+/// median; empty without statistics.
 fn spread_layers(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<Layer> {
     let Some((_, first)) = spread.first() else {
         return Vec::new();
@@ -445,10 +445,10 @@ fn spread_layers(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<Lay
     ]
 }
 
-/// Returns the corners of the statistics over the preload. Values are constant from each preload to
-/// the next, as in a staircase.
+/// Returns the corners of the statistics as a function of the preload, drawn as a staircase: each
+/// value is constant up to the next preload.
 fn steps(staircase: &Staircase, spread: &[(f64, Statistics)]) -> Vec<(f64, Statistics)> {
-    // The first row is the turn at first touch, without a preload.
+    // The loading that turns at first touch has no preload and is left out.
     let (touch, _) = staircase.touch;
     let first_pressed = spread.partition_point(|(preload, _)| *preload <= touch);
     let pressed = &spread[first_pressed..];
@@ -475,7 +475,7 @@ fn preload_axis(staircase: &Staircase) -> ChartAxis {
     ChartAxis::new(scale, span, "preload", "F_n", "N")
 }
 
-/// Turn of the loading without a preload, as a mark in the chart.
+/// Turning point of a loading without a preload, marked in the chart.
 struct Turn {
     symbol: &'static str,
     protocol: &'static str,
@@ -487,8 +487,8 @@ struct Turn {
     ink: Ink,
 }
 
-/// Returns the marks of the turns at first touch and at zero force, on a horizontal axis with this
-/// span.
+/// Returns the marks of the loadings that turn at first touch and at zero force. `span` is the
+/// range of the horizontal axis.
 fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer> {
     let (touch, adhesion_at_touch) = staircase.touch;
     let turns = [
@@ -517,7 +517,8 @@ fn turn_layers(staircase: &Staircase, span: Span, has_values: bool) -> Vec<Layer
             name = name.then(&format!(" {value},"));
         }
         let name = name.then(&format!(" {}", turn.protocol));
-        // A force below the axis, as below zero on a logarithmic one, is marked at its left end.
+        // A force below the range of the axis, such as a negative force on a logarithmic axis, is
+        // marked at the left end of the axis.
         let is_inside = staircase.scale.coordinate(turn.force) >= span.low;
         let force = if is_inside {
             turn.force
@@ -549,8 +550,9 @@ fn forces_of(layers: &[Layer]) -> Vec<f64> {
     forces
 }
 
-/// Returns the axis of adhesion forces: logarithmic if the preloads are on a logarithmic scale and
-/// the forces differ much, otherwise linear from zero.
+/// Returns the axis of adhesion forces. It is logarithmic if the preloads are on a logarithmic
+/// scale and the largest force is much larger than the smallest. Otherwise it is linear and begins
+/// at zero.
 fn force_axis(scale_of_preloads: AxisScale, forces: &[f64]) -> ChartAxis {
     let above_zero = || forces.iter().copied().filter(|force| *force > 0.0);
     let least = above_zero().fold(f64::INFINITY, f64::min);
@@ -577,7 +579,7 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>)
     let own = sorted[0];
     sorted.sort_by(f64::total_cmp);
 
-    // Share of the first profiles in per cent.
+    // Returns the share in per cent of the given number of profiles with the smallest forces.
     let share = |profiles: usize| 100.0 * profiles as f64 / sorted.len() as f64;
     let mut steps = Vec::with_capacity(2 * sorted.len());
     for (index, &force) in sorted.iter().enumerate() {

@@ -1,20 +1,20 @@
-//! Where a result comes from, as written into its file: version, command, measured files and scene.
+//! Origin of a result, written into its file: version, command, measured files and scene.
 //!
-//! CSV has these lines first, each after `# `. SVG has them as metadata. JSON begins with version
-//! and command.
+//! CSV begins with these lines, each after `# `. SVG has the same lines as metadata. JSON begins
+//! with version and command.
 
 use asperity_data::{path_name, printable, sha256_of};
 use asperity_scene::text::to_ron;
 use asperity_scene::{Document, Scene};
 use std::path::{Path, PathBuf};
 
-/// Beginning of the line of a measured file.
+/// Beginning of a line that names a measured file.
 const HASH: &str = "sha256: ";
 
-/// Number of digits of a SHA-256 that a message shows.
+/// Number of hexadecimal digits of a SHA-256 that a message shows.
 const SHOWN_DIGITS: usize = 12;
 
-/// Beginning of the line of the command.
+/// Beginning of the line with the command.
 const COMMAND: &str = "command: ";
 
 /// Returns the first lines of a table, which say how to compute it again: version, command,
@@ -85,7 +85,7 @@ pub fn files_provenance(
 }
 
 /// Returns lines with the version, the measured files with the SHA-256 of their contents, and the
-/// command. The name of a file is a RON string, which is always on one line.
+/// command. The name of a file is written as a RON string, which never contains a line break.
 fn head(
     command: &str,
     files: &[&str],
@@ -158,7 +158,7 @@ fn hash_of(path: &Path) -> Result<String, String> {
 }
 
 /// Returns the path by which a table in the folder `destination` names a file. `file` is the path
-/// relative to `folder`. If the two folders differ, the result is an absolute path.
+/// relative to `folder`. If the folders differ, the result is an absolute path.
 pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     if is_same_folder(folder, destination) {
         return file.to_owned();
@@ -169,7 +169,7 @@ pub fn named_from(file: &str, folder: &Path, destination: &Path) -> String {
     }
 }
 
-/// Returns true if two paths name the same folder, perhaps by links.
+/// Returns true if two paths lead to the same folder, even if one of them contains links.
 fn is_same_folder(first: &Path, second: &Path) -> bool {
     if first == second {
         return true;

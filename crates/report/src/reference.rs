@@ -1,4 +1,5 @@
-//! A scene as a profile and in three dimensions, as text, JSON, a table and a figure.
+//! Comparison of a scene on profiles with the same scene in three dimensions, as text, JSON, a
+//! table and a figure.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -28,11 +29,12 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
-/// Writes the ratio of both models with its interval: `0.84 ± 0.05`.
+/// Returns the ratio of both models with the half-width of its interval, as text: `0.84 ± 0.05`.
 fn ratio(compared: &Compared) -> String {
     let ratio = decimals(compared.ratio);
     match compared.error {
@@ -49,10 +51,10 @@ fn decimals(value: f64) -> String {
     }
 }
 
-/// Time in s above which a comparison takes long.
+/// Computing time in s from which a comparison is announced as long.
 const LONG: f64 = 10.0;
 
-/// Smallest share of the squares from whose time the time left follows.
+/// Smallest computed share of the squares from which the remaining time is estimated.
 const LEAST_SHARE: f64 = 0.02;
 
 /// Progress, in words, of a comparison of a scene with three dimensions. Such a comparison computes
@@ -114,7 +116,8 @@ impl ReferenceProgress {
                 self.squares_in_words()
             }
             ReferenceEvent::Loaded { share } => {
-                // The number of loads is an estimate.
+                // The number of loads is an estimate, so the sum of the shares may exceed 1 before
+                // the end.
                 self.share = (self.share + share).min(0.99);
                 self.squares_in_words()
             }
@@ -126,8 +129,8 @@ impl ReferenceProgress {
         (line, false)
     }
 
-    /// Returns how many squares are finished, the share of the computation that is done, and the
-    /// time left.
+    /// Returns in words how many squares are finished, the share of the computation that is done,
+    /// and the remaining time.
     fn squares_in_words(&self) -> String {
         let share_of_squares = self.done as f64 / self.maps.max(1) as f64;
         let share = self.share.max(share_of_squares);
@@ -215,8 +218,8 @@ fn error_sentence(reference: &Reference) -> String {
     }
 }
 
-/// Returns the difference of the line from three dimensions with its interval and the compared
-/// waves, such as `line against three dimensions, +4 ± 45 %`; `None` if it is unknown.
+/// Returns in words the difference between line and three dimensions with its interval and the
+/// compared waves: `line against three dimensions, +4 ± 45 %`; `None` if the difference is unknown.
 pub fn difference_words(reference: &Reference) -> Option<String> {
     let compared = reference.headline()?;
     let sign = if compared.difference() > 0.0 { "+" } else { "" };
@@ -231,7 +234,8 @@ pub fn difference_words(reference: &Reference) -> Option<String> {
     ))
 }
 
-/// Returns the error of the model in words: what exceeds the errors of sample and grid.
+/// Returns the error of the model in words: the part of the difference that exceeds the errors of
+/// sample and grid.
 pub fn model_words(reference: &Reference) -> String {
     if reference.line_is_exact {
         return "none: the line is exact for this body of revolution".to_owned();
@@ -250,8 +254,8 @@ pub fn model_words(reference: &Reference) -> String {
     }
 }
 
-/// Returns the waves that are compared, if the squares leave out some of the scene:
-/// `, of waves 4 to 8 of 4 to 3 200`.
+/// Returns which waves are compared, if the squares leave out some waves of the scene, for example
+/// `, of waves 4 to 8 of 4 to 3 200`; otherwise empty.
 pub fn omitted_waves(reference: &Reference) -> String {
     let (Some((first, last)), Some(last_of_scene)) = (reference.waves, reference.omitted) else {
         return String::new();
@@ -266,17 +270,17 @@ fn percent_or_unknown(share: Option<f64>) -> String {
     share.map_or_else(|| "not known".to_owned(), |share| percent(share, 2))
 }
 
-/// Returns the headings of a table of both models.
+/// Returns the headings of a table with both models.
 fn header() -> [String; 4] {
     ["", "line", "three dimensions", "ratio"].map(String::from)
 }
 
-/// Returns the headings of a table of both models with the error of the grid of the squares.
+/// Returns the headings of a table with both models and the error of the grid of the squares.
 fn header_with_grid() -> [String; 5] {
     ["", "line", "three dimensions", "ratio", "grid"].map(String::from)
 }
 
-/// Returns the row of a quantity in a table of both models with the error of the grid.
+/// Returns the row of a quantity in a table with both models and the error of the grid.
 fn compared_row(name: String, compared: &Compared, unit: &str) -> [String; 5] {
     [
         name,
@@ -298,7 +302,7 @@ fn roughness_row(name: &str, line: f64, half_space: f64, unit: &str) -> [String;
 }
 
 impl ReferenceReport<'_> {
-    /// Returns sentences on what is compared.
+    /// Returns sentences that state what is compared.
     fn compared(&self) -> String {
         let options = &self.reference.options;
         let cells = options.cells;
@@ -323,8 +327,8 @@ impl ReferenceReport<'_> {
         sentences
     }
 
-    /// Returns a sentence on the part of the loading that is compared; `None` if it is the loading
-    /// of the scene.
+    /// Returns a sentence on the part of the loading that is compared; `None` if the whole loading
+    /// of the scene is compared.
     fn compared_loading(&self) -> Option<String> {
         let reference = self.reference;
         if reference.compared_loading[..] == self.scene.loading[..] {
@@ -390,7 +394,8 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Adds a table of the loading without adhesion, and the forces that it leaves out.
+    /// Adds a table of the loading without adhesion, and a sentence on the forces that are left
+    /// out.
     fn add_loading(&self, sheet: &mut Sheet) {
         sheet.heading(
             "Without adhesion, indentations from first touch, ratio of the line to three dimensions",
@@ -411,7 +416,7 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Adds a table of the adhesion in both models; nothing without adhesion.
+    /// Adds a table of the adhesion in both models. For a scene without adhesion nothing is added.
     fn add_adhesion(&self, sheet: &mut Sheet) {
         let reference = self.reference;
         let quantities = [
@@ -438,8 +443,8 @@ impl ReferenceReport<'_> {
         }
     }
 
-    /// Returns a sentence on the forces at which too few cells are in contact; `None` if there are
-    /// none.
+    /// Returns a sentence on the forces at which too few grid cells are in contact; `None` if there
+    /// is no such force.
     fn left_out(&self) -> Option<String> {
         let left_out = &self.reference.left_out;
         let finer_grid = left_out.first()?.grid;
@@ -460,7 +465,7 @@ impl ReferenceReport<'_> {
         ))
     }
 
-    /// Returns the errors of the comparison by their sources, and the largest in words.
+    /// Returns the error of each source as text, and a sentence on the largest error.
     fn errors(&self) -> (Vec<(&'static str, String)>, String) {
         let reference = self.reference;
         let budget = &reference.budget;
@@ -480,7 +485,7 @@ impl ReferenceReport<'_> {
         (rows, self.largest_error())
     }
 
-    /// Returns an error with the compared waves.
+    /// Returns an error as text, with the compared waves if some are left out.
     fn with_waves(&self, error: Option<f64>) -> String {
         let words = percent_or_unknown(error);
         if error.is_none() {
@@ -489,7 +494,7 @@ impl ReferenceReport<'_> {
         words + &omitted_waves(self.reference)
     }
 
-    /// Returns a sentence on the largest error.
+    /// Returns a sentence that names the largest error.
     fn largest_error(&self) -> String {
         let budget = &self.reference.budget;
         match (budget.largest, budget.model) {
@@ -604,14 +609,14 @@ impl Report for ReferenceReport<'_> {
     }
 }
 
-/// Returns a logarithmic axis with a margin around these values.
+/// Returns a logarithmic axis that contains these values and a margin.
 fn logarithmic_axis(values: &[f64], name: &str, symbol: &str, unit: &str) -> ChartAxis {
     let scale = AxisScale::Logarithmic;
     let coordinates = values.iter().map(|value| scale.coordinate(*value));
     ChartAxis::new(scale, Span::around(coordinates, 0.05), name, symbol, unit)
 }
 
-/// How the indentation of one model is drawn over the force.
+/// Style in which the indentation of one model is drawn over the force.
 struct LayersOfModel {
     name: &'static str,
     ink: Ink,
@@ -669,7 +674,7 @@ struct ReferenceJson<'a> {
     seconds_of_square: f64,
 }
 
-/// Numbers of one model, or ratios of both models.
+/// Numbers of one model, or ratios between both models.
 #[derive(Serialize)]
 struct ModelJson<V> {
     #[serde(flatten)]
@@ -689,7 +694,8 @@ struct LoadedJson<V> {
     /// Mean area of contact of the squares, m².
     #[serde(skip_serializing_if = "Option::is_none")]
     contact_area: Option<f64>,
-    /// Error of the grid of the squares; the inner `None` is an unknown error.
+    /// Error of the grid of the squares. The outer `None` leaves out the entry, the inner `None` is
+    /// an unknown error.
     #[serde(skip_serializing_if = "Option::is_none")]
     grid: Option<Option<f64>>,
 }
@@ -713,7 +719,8 @@ impl RatioJson {
 }
 
 impl<V> ModelJson<V> {
-    /// Collects one number of each comparison, without roughness, areas and errors of the grid.
+    /// Collects one number from each comparison. Roughness, areas and errors of the grid are not
+    /// set.
     fn new(reference: &Reference, number: fn(&Compared) -> V) -> Self {
         let mut loading = Vec::with_capacity(reference.loading.len());
         for loaded in &reference.loading {
@@ -800,7 +807,7 @@ mod tests {
     use asperity_study::half_space::ReferenceOptions;
     use asperity_study::trust::Budget;
 
-    /// The figure has room for a curve and a band of each model.
+    /// The figure shows a curve and a band for each model within its axes.
     #[test]
     fn the_figure_has_both_models() {
         let document = open("jkr-sphere").unwrap();
@@ -839,8 +846,8 @@ mod tests {
         assert_eq!(figure.charts[0].layers.len(), 4);
     }
 
-    /// All numbers of the budget name the waves that are compared, and forces with few cells in
-    /// contact are left out.
+    /// All errors of the budget state which waves are compared. Forces with few cells in contact
+    /// are left out.
     #[test]
     fn what_is_left_out_is_said() {
         let document = open("pressure-sensitive").unwrap();
@@ -904,7 +911,7 @@ mod tests {
         assert!(sentence.contains(waves), "{sentence}");
     }
 
-    /// The error of a smooth body of revolution is that of the grid, and not of the model.
+    /// For a smooth body of revolution the difference is an error of the grid and not of the model.
     #[test]
     fn a_sphere_has_no_error_of_the_model() {
         let document = open("jkr-sphere").unwrap().set("length", "4.2e-5").unwrap();

@@ -47,8 +47,8 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// A figure. If it has a single chart, it can also be written as a table of the points of the
-/// curves.
+/// A figure as a report. A figure with a single chart can also be written as a table of the points
+/// of its curves.
 impl Report for Figure {
     /// Returns a table with a row for each point of each curve of the chart; `None` for a figure of
     /// several charts.
@@ -73,7 +73,7 @@ impl Report for Figure {
     }
 }
 
-/// Point of a curve of a chart.
+/// Point of a curve of a chart, with the name of the curve.
 struct PointOfCurve {
     /// Name of the curve.
     curve: String,
@@ -256,7 +256,8 @@ pub fn check_extension(file: &Path, allowed: &[&str]) -> Result<Option<usize>, S
     ))
 }
 
-/// Returns a list in words, such as `.txt, .json or .csv`. Each word follows the text `before`.
+/// Returns alternatives in words, such as `.txt, .json or .csv`. The text `before` is put in front
+/// of each word.
 fn alternatives<'a>(before: &str, words: impl Iterator<Item = &'a str>) -> String {
     let words: Vec<String> = words.map(|word| format!("{before}{word}")).collect();
     match words.split_last() {
@@ -298,7 +299,8 @@ mod tests {
         assert_eq!(of("a", Some(Format::Csv)), Err(expected.to_owned()));
     }
 
-    /// Figures of every kind, of usual scenes and of scenes without adhesion, roughness or contact.
+    /// The figures are of every kind, of usual scenes and of scenes without adhesion, roughness or
+    /// contact.
     #[test]
     fn every_figure_lies_within_its_picture() {
         use crate::preloads::PreloadReport;

@@ -32,8 +32,8 @@ pub struct ReversalReport<'a> {
     /// Adhesion force as a function of the preload, in the quantities [`Results::OF_PRELOADS`];
     /// `None` if no preload presses the bodies together.
     pub preloads: Option<&'a Results>,
-    /// Adhesion force of one profile as a function of the preload, for the figure; `None` leaves it
-    /// out.
+    /// Adhesion force of one profile as a function of the preload, for the figure. `None` leaves
+    /// this curve out.
     pub staircase: Option<&'a Staircase>,
     /// Premises of the model that the deepest loading does not meet.
     pub warnings: &'a [Warning],
@@ -77,8 +77,8 @@ impl Report for ReversalReport<'_> {
         Some(turning_points(self.map))
     }
 
-    /// Returns a figure with a heat map of the Everett function, and before it a chart of the
-    /// adhesion force over the preload if [`Self::staircase`] is given.
+    /// Returns a figure with a heat map of the Everett function. If [`Self::staircase`] is given, a
+    /// chart of the adhesion force over the preload comes first.
     fn figure(&self) -> Option<Figure> {
         let mut charts = Vec::new();
         if let Some(staircase) = self.staircase {
@@ -106,9 +106,9 @@ struct ReversalJson<'a> {
     reversals: Table<'a>,
     indentations: &'a [f64],
     step: f64,
-    /// Forces of the unloading from each turning point at the indentations.
+    /// For each turning point, the forces in N of the unloading at the indentations.
     forces: Vec<&'a [f64]>,
-    /// Everett function of each turning point at the indentations.
+    /// For each turning point, the Everett function in N at the indentations.
     everett: Vec<Vec<Option<f64>>>,
 }
 
@@ -202,8 +202,8 @@ pub fn everett_chart(map: &ReversalMap) -> Chart {
     }
 }
 
-/// Returns the indices of the points of a fine map that are drawn: the eye cannot distinguish more
-/// cells.
+/// Returns the indices of the turning points or indentations of a fine map that are drawn. More
+/// cells could not be distinguished in the figure.
 fn drawn_indices(count: usize) -> Vec<usize> {
     let step = count.div_ceil(MOST_CELLS).max(1);
     (0..count).step_by(step).collect()

@@ -1,4 +1,5 @@
-//! A computed scene as JSON, its force curve as a table and a figure, and the table of a profile.
+//! Results of a computed scene as JSON, its force curve as a table and a figure, and the table of a
+//! profile.
 
 use crate::ensemble::{EnsembleJson, caption};
 use crate::loop_chart::{LoopUnits, force_figure};
@@ -25,8 +26,8 @@ pub struct RunReport<'a> {
     pub scene: &'a Scene,
     /// Results on the profile of the scene.
     pub outcome: &'a Outcome,
-    /// How the number of springs was chosen so that the error is within a tolerance; `None` if no
-    /// tolerance was given.
+    /// Way in which the number of springs was chosen so that the error is within a tolerance;
+    /// `None` if no tolerance was given.
     pub choice: Option<&'a Choice>,
     /// Estimated error of the adhesion force due to the finite number of springs; `None` if it is
     /// unknown.
@@ -36,13 +37,14 @@ pub struct RunReport<'a> {
     /// Standard deviation of the adhesion force due to errors of a measured spectrum, in N; `None`
     /// if it was not computed.
     pub deviation: Option<f64>,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
 impl<'a> RunReport<'a> {
-    /// Returns the estimate of the error; `None` if a premise does not hold, so that no error is
-    /// known.
+    /// Returns the estimate of the error; `None` if a premise of the model does not hold, because
+    /// the error is unknown then.
     fn known_estimate(&self) -> Option<&'a Estimate> {
         let mut warnings = self.outcome.warnings.iter();
         if warnings.any(Warning::leaves_errors_unknown) {
@@ -136,10 +138,12 @@ struct RunJson<'a> {
     adhesion_coefficient: Option<f64>,
     pull_off_indentation: Option<f64>,
     dissipated_energy: Option<f64>,
-    /// For a scene with an instrument; the inner `None` is an unknown area.
+    /// Loop area ∮F dD in J. The outer `None` leaves out the entry for a scene without an
+    /// instrument, the inner `None` is an unknown area.
     #[serde(skip_serializing_if = "Option::is_none")]
     loop_area: Option<Option<f64>>,
-    /// For a scene with an instrument; the inner `None` is a loading without a pull-off.
+    /// Displacement of the instrument at pull-off in m. The outer `None` leaves out the entry for a
+    /// scene without an instrument, the inner `None` is a loading without a pull-off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pull_off_displacement: Option<Option<f64>>,
     tabor_number: Option<f64>,
@@ -307,8 +311,8 @@ struct CurveRow<'a> {
     displacement: f64,
 }
 
-/// Begins the table of a force curve in SI units: points, with the index of the loading stage of
-/// each point.
+/// Begins the table of a force curve in SI units. Each row has a point of the curve and the index
+/// of its loading stage.
 fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
     rows: impl Fn() -> I + 'a,
 ) -> TableOf<'a, CurveRow<'a>> {
@@ -321,7 +325,8 @@ fn curve<'a, I: Iterator<Item = CurveRow<'a>> + 'a>(
         .real("stored_energy", |row| row.point.stored_energy)
 }
 
-/// A profile can be written as a table: a row has the position x and the height z of a spring in m.
+/// A profile as a report. The table has a row for each spring, with the position x and the height z
+/// in m.
 impl Report for Line {
     fn table(&self) -> Option<Table<'_>> {
         let table = Table::of(|| self.heights().enumerate())

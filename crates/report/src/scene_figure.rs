@@ -1,4 +1,4 @@
-//! Figures of the contact: the profile in contact, and contact patches over the indentation.
+//! Figures of the contact: the profile in contact, and the contact patches at each indentation.
 
 use crate::section::{LineColumns, Part, SectionContact};
 use asperity_contact::motion::Leg;
@@ -10,19 +10,20 @@ use asperity_scene::stages::LineFacts;
 use asperity_surface::lines::Line;
 use std::slice;
 
-/// Number of indentations of a loading stage at which contact patches are drawn.
+/// Number of indentations of each loading stage at which contact patches are drawn.
 const ROWS: usize = 160;
 
 /// Largest number of loading stages whose contact patches are drawn.
 const MOST_STAGES: usize = 4;
 
-/// Share of the profile below which a gap between contact patches is drawn as closed.
+/// Width of a gap between two contact patches, as a share of the profile, below which the gap is
+/// not drawn.
 const LEAST_GAP: f64 = 5e-4;
 
 /// Size of the frame of a chart of contact patches, px.
 const PATCHES: (f64, f64) = (400.0, 300.0);
 
-/// Contact patches at an indentation, m.
+/// Contact patches, and the indentation in m at which they exist.
 #[derive(Default)]
 struct Patches {
     indentation: f64,
@@ -39,8 +40,8 @@ impl Patches {
     }
 }
 
-/// Contact patches of a scene, which are collected while its loading is computed. Figures are drawn
-/// from them.
+/// Contact patches of a scene, collected while its loading is computed, from which figures are
+/// drawn.
 #[derive(Default)]
 pub struct ContactSets {
     over_indentation: bool,
@@ -114,7 +115,7 @@ impl ContactSets {
         };
         let section = contact.section(Part::drawn(0, line.gaps.len()), &mut LineColumns::default());
         let (low, high) = section.heights;
-        // A surface far above the profile does not stretch the axis.
+        // If the surface is far above the profile, the range of the axis does not contain it.
         let level = section.level.min(high + 0.5 * (high - low));
         let z = Span::around([low, high, level].into_iter(), 0.05);
         let mut chart = section.chart(outcome.line, z);
@@ -157,7 +158,7 @@ impl ContactSets {
         ChartAxis::new(AxisScale::Linear, span, "indentation", "d", "m")
     }
 
-    /// Returns a note on loading stages that are not drawn; `None` if all are drawn.
+    /// Returns a note on loading stages that are not drawn; `None` if all stages are drawn.
     fn note(&self) -> Option<Label> {
         let drawn = self.stages.len();
         if drawn == 0 {
@@ -201,8 +202,8 @@ fn patches_chart(
     }
 }
 
-/// Returns the positions of both ends of contact patches in m. Patches with a small gap between
-/// them are drawn as one.
+/// Returns the positions in m of both ends of each contact patch. Patches with only a small gap
+/// between them are drawn as one patch.
 fn drawn_patches(patches: &[Patch], line: LineFacts) -> Vec<(f64, f64)> {
     let least_gap = LEAST_GAP * line.length;
     let position = |spring: usize| (line.first + spring) as f64 * line.spacing;
@@ -312,7 +313,8 @@ mod tests {
                 .flat_map(|row| &row.patches)
                 .map(|patch| patch.springs().len())
                 .sum();
-            // Gaps of one spring are wider than the merged ones.
+            // Even a gap of a single spring is wider than the gaps that are not drawn, so the
+            // lengths are equal.
             assert!((drawn / (springs as f64 * outcome.line.spacing) - 1.0).abs() < 1e-9);
             assert_eq!(rows.len(), ROWS);
         }

@@ -1,5 +1,5 @@
-//! The power spectra of a computed scene: of its measured files, of its profile as intended, and of
-//! the heights of its profile.
+//! Power spectra of a computed scene: of its measured files, of its profile as the scene defines
+//! it, and of the heights of its profile.
 
 use crate::spectrum_figure::{Spectra, SpectrumPoint};
 use asperity_data::check_room;
@@ -83,8 +83,8 @@ fn equivalent_line(faces: &[&Analysis]) -> Option<EquivalentLine> {
     })
 }
 
-/// Returns the intended spectrum of the profile at some of its modes: A²L/4 for a mode with the
-/// amplitude A.
+/// Returns the spectrum that the scene defines for its profile, at some of the modes. A mode with
+/// the amplitude A has the power A²L/4.
 fn intended_power(
     scene: &Scene,
     outcome: &Outcome,
@@ -130,8 +130,8 @@ fn drawn_modes(first: u64, last: u64) -> Vec<u64> {
     modes
 }
 
-/// Returns the spectrum of the heights of the profile without its form. A measured profile that is
-/// itself pressed is not periodic.
+/// Returns the spectrum of the heights of the profile without its form. A profile that consists of
+/// measured heights is not periodic, so its spectrum is computed in another way.
 fn power_of_heights(scene: &Scene, line: &Line) -> Result<Vec<SpectrumPoint>, String> {
     if scene.roughness.is_none() || line.gaps.len() < line.points {
         return Ok(Vec::new());
@@ -179,7 +179,8 @@ mod tests {
         let roughness = "SelfAffine(hurst: 0.7, rms_height: 1.0e-7, modes: (2, 200), seed: 3)";
         for form in ["None", "Paraboloid(radius: 1.0e-4)"] {
             let found = spectra(roughness, form).spectra;
-            // Each of the first bins has one mode, with the power of the spectrum.
+            // Each of the first ranges of wave numbers contains a single mode, and has the power of
+            // the spectrum there.
             let single = |q: f64| {
                 found
                     .line

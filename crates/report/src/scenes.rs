@@ -1,5 +1,5 @@
-//! Several computed scenes, with differences and results in one table and force curves in one
-//! figure.
+//! Comparison of several computed scenes: differences and results in tables, and force curves in
+//! one figure.
 
 use crate::ensemble::{NAMES, rounded};
 use crate::loop_chart::{LoopUnits, force_figure, force_panels};
@@ -33,7 +33,7 @@ pub struct ScenesReport<'a> {
     pub panels: bool,
 }
 
-/// Result of a scene in a row of the table.
+/// Quantity that has a row in the table of results.
 struct ComparedQuantity {
     name: &'static str,
     unit: &'static str,
@@ -83,8 +83,8 @@ const QUANTITIES: [ComparedQuantity; 8] = [
     },
 ];
 
-/// Returns a row of a table: a name, and values with their ratios to the first one; `None` without
-/// values.
+/// Returns a row of a table: a name, and the values with their ratios to the first value; `None` if
+/// no scene has a value.
 fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Option<Vec<String>> {
     let first = *values.first()?;
     if values.iter().all(Option::is_none) {
@@ -97,7 +97,8 @@ fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
             continue;
         };
         let mut cell = words(value);
-        // A position may lie on either side of first touch, where a ratio means nothing.
+        // An indentation may be positive or negative, and a ratio of different signs has no
+        // meaning.
         if let Some(first) = first
             && number > 0
             && first > 0.0
@@ -112,8 +113,8 @@ fn row(name: &str, words: impl Fn(f64) -> String, values: &[Option<f64>]) -> Opt
 }
 
 impl ScenesReport<'_> {
-    /// Returns the figure of the force curves. With `has_letters` the legend names the scenes by
-    /// the letters of the table.
+    /// Returns the figure of the force curves. If `has_letters` is true, the legend names the
+    /// scenes by their letters in the table.
     fn drawn(&self, has_letters: bool) -> Figure {
         let mut titles = Vec::with_capacity(self.scenes.len());
         for (number, scene) in self.scenes.iter().enumerate() {
@@ -158,8 +159,8 @@ impl ScenesReport<'_> {
         header
     }
 
-    /// Returns rows of the medians over random profiles, with the quartiles of the adhesion force;
-    /// none if no scene has several profiles.
+    /// Returns rows with the medians over random profiles, and a row with the quartiles of the
+    /// adhesion force; empty if no scene has several profiles.
     fn medians(&self) -> Vec<Vec<String>> {
         if self.scenes.iter().all(|scene| scene.ensemble.is_none()) {
             return Vec::new();
@@ -184,7 +185,8 @@ impl ScenesReport<'_> {
         rows
     }
 
-    /// Adds the titles of the scenes, and the fields in which each scene differs from the first.
+    /// Adds the titles of the scenes, and the fields in which each scene differs from the first
+    /// scene.
     fn add_differences(&self, sheet: &mut Sheet, first: &Document) {
         for (number, scene) in self.scenes.iter().enumerate() {
             let letter = letter(number);
@@ -206,7 +208,7 @@ impl ScenesReport<'_> {
         }
     }
 
-    /// Adds a table of the results on the own profile of each scene.
+    /// Adds a table of the results on the profile with the seed of each scene.
     fn add_results(&self, sheet: &mut Sheet) {
         let mut rows = vec![self.header()];
         for quantity in &QUANTITIES {
@@ -228,8 +230,8 @@ impl ScenesReport<'_> {
 }
 
 impl ComparedScene<'_> {
-    /// Returns lower quartile, median and upper quartile over the random profiles; `None` if they
-    /// are unknown.
+    /// Returns the lower quartile, the median and the upper quartile over the random profiles;
+    /// `None` if they are unknown.
     fn quartiles(&self, quantity: Quantity) -> Option<[f64; 3]> {
         let statistics = self.ensemble.as_ref()?.statistics(quantity)?;
         Some(statistics.quartiles)

@@ -32,11 +32,11 @@ pub struct Part {
     pub columns: usize,
 }
 
-/// Largest number of columns of a profile in a picture.
+/// Largest number of columns of a profile in a picture in a file.
 const DRAWN: usize = 1200;
 
 /// Lowest and highest point of a profile in each column of a [`Part`]. [`SectionContact::section`]
-/// stores them here for its next call.
+/// stores them, so that its next call need not compute them again.
 #[derive(Default)]
 pub struct LineColumns {
     part: Part,
@@ -93,7 +93,8 @@ impl Section {
         Chart::new(x, y, layers)
     }
 
-    /// Returns the lowest and the highest heights in each column, over positions in m.
+    /// Returns a shape with the lowest and the highest heights in each column. `positions` is the
+    /// range of the columns in m.
     fn envelope(&self, positions: Span, heights: fn(&Column) -> Option<(f64, f64)>) -> Shape {
         Shape::Envelope {
             x: (positions.low, positions.high),
@@ -130,8 +131,8 @@ impl Part {
         begin..end.max(begin + 1)
     }
 
-    /// Returns the index of the first spring of a column. Columns of equal width need products that
-    /// may exceed 64 bits.
+    /// Returns the index of the first spring of a column. The product of both numbers may exceed 64
+    /// bits, so it is computed with 128 bits.
     fn begin_of(self, column: usize) -> usize {
         let before = column as u128 * self.springs as u128 / self.columns.max(1) as u128;
         self.first + before as usize
@@ -178,7 +179,7 @@ impl SectionContact<'_> {
         }
         let heights = match line.heights.iter().copied().reduce(wider) {
             Some(heights) => heights,
-            // A hidden chart has no columns.
+            // A hidden chart has no columns, so the heights are those of all springs of the part.
             None => self.heights(part.first..part.first + part.springs),
         };
         Section {
@@ -202,8 +203,8 @@ impl SectionContact<'_> {
         (lowest, highest)
     }
 
-    /// Returns the column of a range of springs, on which the profile has these lowest and highest
-    /// heights.
+    /// Returns the column of a range of springs. `line` are the lowest and the highest height of
+    /// the profile in this range.
     fn column(&self, springs: Range<usize>, line: (f64, f64)) -> Column {
         let mut free = springs.len();
         let mut contact: Option<(f64, f64)> = None;
@@ -233,7 +234,7 @@ impl SectionContact<'_> {
     }
 }
 
-/// Returns the range from the lower to the higher ends of two ranges.
+/// Returns the smallest range that contains two ranges.
 fn wider(first: (f64, f64), second: (f64, f64)) -> (f64, f64) {
     (first.0.min(second.0), first.1.max(second.1))
 }
@@ -264,7 +265,8 @@ mod tests {
                 let held = part.springs_of(column).filter(|&spring| touching[spring]).collect();
                 prop_assert_eq!(Some(found.line), heights(part.springs_of(column).collect()));
                 prop_assert_eq!(found.contact, heights(held));
-                // Beside the contact the surface lies at the summit less the indentation.
+                // Outside the contact the height of the surface is the summit minus the
+                // indentation.
                 let surface = |spring: usize| if touching[spring] { 20.0 - gaps[spring] } else { 17.0 };
                 let surfaces = part.springs_of(column).map(|spring| (surface(spring), surface(spring)));
                 prop_assert_eq!(Some(found.surface), surfaces.reduce(wider));

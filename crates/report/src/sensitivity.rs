@@ -1,4 +1,4 @@
-//! The sensitivity of a scene as text, JSON and a table, and the chart of the explorer.
+//! The sensitivity of a scene as text, JSON and a table, and as a chart of the explorer.
 
 use crate::report::{Json, Report};
 use crate::sheet::Sheet;
@@ -10,16 +10,17 @@ use asperity_scene::{Adhesion, Scene};
 use asperity_study::{Changed, Ensemble, Influence, Sensitivity};
 use serde::Serialize;
 
-/// Smallest relative change that is written as a factor.
+/// Relative change from which a change is written as a factor; 2 is the change to three times the
+/// value.
 const LARGE: f64 = 2.0;
 
-/// Smallest end of the axis of a chart in per cent.
+/// Smallest end of the axis of changes in a chart, in per cent.
 const LEAST: f64 = 1.0;
 
-/// Half the height of a bar, divided by the distance of bars.
+/// Half the height of a bar, divided by the distance between two bars.
 const HALF: f64 = 0.35;
 
-/// Text in place of the range of changes, if the scene does not allow the number.
+/// Text in place of a change if the scene does not allow the changed number.
 const NOT_ALLOWED: &str = "not allowed";
 
 const PROFILES: &str = "profiles";
@@ -36,7 +37,7 @@ pub struct SensitivityReport<'a> {
     pub sensitivity: &'a Sensitivity,
 }
 
-/// Writes a relative change: `+12 %`, `×4.2`.
+/// Returns a relative change as text: `+12 %`, or `×4.2` for a large change.
 fn change_text(change: f64) -> String {
     let percent = 100.0 * change;
     if percent.abs() < 0.05 {
@@ -49,21 +50,23 @@ fn change_text(change: f64) -> String {
     }
 }
 
-/// Writes the relative change of a number to two digits: `+10 %`, `-11 %`.
+/// Returns the relative change of a number as text with two digits: `+10 %`, `-11 %`.
 fn step_text(step: f64) -> String {
     let sign = if step < 0.0 { "-" } else { "+" };
     format!("{sign}{}", percent(step.abs(), 2))
 }
 
-/// Changes of the results for one changed number, or for one end of the range over the profiles.
+/// One row of changes: for a smaller or larger number, or for the smallest or largest results over
+/// the profiles.
 struct Side<'a> {
-    /// Influence of the changed number; `None` for the profiles.
+    /// Number that is changed; `None` in a row for the profiles.
     influence: Option<&'a Influence>,
-    /// 0 for the smaller number or the smallest result, otherwise 1.
+    /// 0 for the smaller number or the smallest results, 1 for the larger number or the largest
+    /// results.
     side: usize,
     /// Relative changes of the medians; `None` for a number that is not allowed.
     changes: Option<[Option<f64>; 3]>,
-    /// Smallest and largest relative change of F_a on single profiles.
+    /// Smallest and largest relative change of F_a among the profiles.
     range: Option<(f64, f64)>,
 }
 
@@ -91,7 +94,7 @@ impl<'a> Side<'a> {
         Label::symbol_or_name(axis.symbol, &short)
     }
 
-    /// Returns the value of the unchanged number; empty for the profiles.
+    /// Returns the value of the number in the unchanged scene; empty in a row for the profiles.
     fn value(&self) -> String {
         match self.influence {
             Some(influence) => format_quantity(influence.value, influence.axis.unit),
@@ -125,7 +128,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    /// Returns the changes of F_a on single profiles in words; empty for a fixed profile.
+    /// Returns the range of the changes of F_a among the profiles, in words; empty for a fixed
+    /// profile.
     fn range_in_words(&self) -> String {
         match self.range {
             Some((least, most)) => one_unit([change_text(least), change_text(most)]),
@@ -135,8 +139,8 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Returns both changes of at most `most` numbers, with the largest influence on a result first.
-/// The range over the profiles follows.
+/// Returns the rows of at most `most` numbers, two for each. The number with the largest influence
+/// on a result comes first. The rows for the range over the profiles are last.
 fn sides(sensitivity: &Sensitivity, result: usize, most: usize) -> Vec<Side<'_>> {
     let mut sides = Vec::new();
     for influence in sensitivity.ordered(result).into_iter().take(most) {
@@ -167,7 +171,7 @@ pub fn sensitivity_table(sensitivity: &Sensitivity, most: usize) -> Vec<[String;
         present_row(sensitivity, has_profiles),
     ];
     for side in sides(sensitivity, 0, most) {
-        // Only the first of both rows has name and value.
+        // Name and value of the number are shown only in the first of its two rows.
         let mut name = String::new();
         let mut value = String::new();
         if side.side == 0 {
@@ -227,7 +231,7 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
     let span = span_of_changes(&sides, result);
     let mut bars = Bars::default();
     let mut names = Vec::new();
-    // The lowest bar is at 0.
+    // The last row has the lowest bar, at 0 on the vertical axis.
     for (place, side) in (0..).map(f64::from).zip(sides.iter().rev()) {
         let step = side.step();
         let words = side.change_in_words(result);
@@ -241,8 +245,8 @@ pub fn sensitivity_chart(sensitivity: &Sensitivity, result: usize, most: usize) 
     Chart::new(x, ChartAxis::of_names(names), bars.layers())
 }
 
-/// Returns the span of the axis of changes in per cent. Changes over the profiles may lie beyond
-/// it.
+/// Returns the range of the axis of changes in per cent. Changes over the profiles do not widen it
+/// and may lie beyond it.
 fn span_of_changes(sides: &[Side<'_>], result: usize) -> Span {
     let mut largest = LEAST;
     for side in sides {
@@ -254,7 +258,7 @@ fn span_of_changes(sides: &[Side<'_>], result: usize) -> Span {
     }
     let end = 1.05 * largest;
     Span {
-        // Nothing falls by more than all of itself.
+        // A positive result cannot fall by more than 100 %.
         low: -end.min(105.0),
         high: end,
     }
@@ -274,7 +278,7 @@ struct Bars {
 }
 
 impl Bars {
-    /// Adds a bar at a place of the vertical axis, with a change in per cent.
+    /// Adds a bar for a change in per cent. `place` is its position on the vertical axis.
     fn add(&mut self, side: &Side<'_>, place: f64, change: f64, span: Span) {
         let bars = match side.influence {
             None => &mut self.of_profiles,
@@ -307,7 +311,8 @@ impl Bars {
 }
 
 impl SensitivityReport<'_> {
-    /// Returns sentences on what stays constant while a number changes, and on the profiles.
+    /// Returns sentences on the numbers that stay constant while one of them changes, and on the
+    /// profiles.
     fn note(&self) -> String {
         if let Some(missing) = self.sensitivity.missing() {
             return missing.to_owned();
@@ -334,8 +339,8 @@ impl SensitivityReport<'_> {
     }
 }
 
-/// Returns a sentence on the numbers of a scene with this adhesion that stay constant while one of
-/// them changes.
+/// Returns a sentence on the numbers of a scene that stay constant while one of them changes.
+/// `adhesion` is the adhesion of the scene.
 pub(crate) fn others_stay(adhesion: Option<Adhesion>) -> String {
     let by_parameter = adhesion.is_some_and(|adhesion| adhesion.parameter().is_some());
     let follows = if by_parameter {
@@ -413,7 +418,7 @@ impl Report for SensitivityReport<'_> {
     }
 }
 
-/// Row of the table: results for a value of a number of the scene.
+/// Row of the table: results for one value of a number of the scene.
 #[derive(Clone)]
 struct TableRow<'a> {
     /// Path of the changed number; empty for the unchanged scene.
@@ -549,8 +554,8 @@ mod tests {
         }
     }
 
-    /// Each change has a row and a bar: a whole number changes by a whole step, what is not allowed
-    /// is stated, and a bar beyond the frame has an arrow.
+    /// Each change has a row and a bar. A whole number changes by at least 1. If a number is not
+    /// allowed, the row says so. A bar that is longer than the chart has an arrow.
     #[test]
     fn each_change_has_a_row_and_a_bar_of_its_own() {
         let scene = asperity_scene::open("jkr-sphere").unwrap().scene().clone();

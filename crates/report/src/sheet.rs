@@ -6,21 +6,21 @@ use std::ops::Range;
 /// Width of a line in characters, which is the width of the smallest usual terminal.
 pub(crate) const WIDTH: usize = 80;
 
-/// Smallest width in characters of a last column. A last column with less room begins on a line of
-/// its own.
+/// Smallest width in characters of the last column. With less room the last column begins on the
+/// next line.
 const FEWEST_IN_LAST: usize = 20;
 
-/// Indentation in characters of a last column on a line of its own.
+/// Indentation in characters of a last column that begins on the next line.
 const INDENT: usize = 4;
 
-/// Width in characters of the labels before the values of rows.
+/// Width in characters of the labels of rows.
 const LABEL: usize = 26;
 
-/// Blanks between two columns of a table.
+/// Number of blanks between two columns of a table.
 const BETWEEN: usize = 2;
 
-/// Plain text of at most 80 columns, to which headings, rows, tables and paragraphs are added one
-/// by one.
+/// Plain text with lines of at most 80 columns. Headings, rows, tables and paragraphs are added one
+/// after the other.
 #[derive(Default)]
 pub struct Sheet {
     text: String,
@@ -86,8 +86,8 @@ impl Sheet {
         }
     }
 
-    /// Adds a table with aligned columns. Columns that do not fit beside each other are further
-    /// tables, each with the first column again.
+    /// Adds a table with aligned columns. If the table is too wide, the remaining columns follow in
+    /// further tables, each of which repeats the first column.
     pub fn table<R: AsRef<[String]>>(&mut self, rows: &[R]) {
         let widths = widths_of(rows);
         let mut begin = widths.len().min(1);
@@ -104,7 +104,7 @@ impl Sheet {
         }
     }
 
-    /// Adds a line with the first cell of a row and the cells of some columns.
+    /// Adds a line with the first cell of a row and the cells of the columns `columns`.
     fn table_row(&mut self, row: &[String], widths: &[usize], columns: Range<usize>) {
         let mut cells = Vec::with_capacity(row.len());
         for (column, text) in row.iter().enumerate() {
@@ -116,7 +116,8 @@ impl Sheet {
         self.cells(&cells);
     }
 
-    /// Adds a line of cells. The last cell begins on the next line if it has too little room.
+    /// Adds a line of cells. The last cell begins on the next line if it has too little room on
+    /// this line.
     fn cells(&mut self, cells: &[Cell<'_>]) {
         let Some((last, others)) = cells.split_last() else {
             return;
@@ -138,7 +139,8 @@ impl Sheet {
     }
 
     fn line(&mut self, line: &str) {
-        // Titles and names of files, machines and processes are foreign text.
+        // Titles and names of files, machines and processes may contain control characters, which
+        // are replaced.
         self.text.push_str(&printable(line.trim_end()));
         self.text.push('\n');
     }
@@ -160,13 +162,13 @@ fn widths_of<R: AsRef<[String]>>(rows: &[R]) -> Vec<usize> {
     widths
 }
 
-/// Returns the index after the last column that fits beside the first column, counted from the
-/// column `begin`. At least one column counts as fitting.
+/// Returns the index after the last column that fits beside the first column, if column `begin`
+/// follows the first column. At least one column counts as fitting.
 fn end_of_part(widths: &[usize], begin: usize) -> usize {
     let first = widths.first().map_or(0, |width| width + BETWEEN);
     let mut room = WIDTH.saturating_sub(first);
     for (column, &width) in widths.iter().enumerate().skip(begin) {
-        // Only the last column holds sentences, which continue on further lines.
+        // Only the last column may have long sentences, which are broken into several lines.
         let is_last = column + 1 == widths.len();
         let needed = if is_last {
             width.min(FEWEST_IN_LAST)
@@ -181,7 +183,7 @@ fn end_of_part(widths: &[usize], begin: usize) -> usize {
     widths.len()
 }
 
-/// Returns at most `most` evenly spaced rows of a table, always with the last one.
+/// Returns at most `most` evenly spaced rows of a table, including the last row.
 pub(crate) fn thinned<I: ExactSizeIterator>(rows: I, most: usize) -> impl Iterator<Item = I::Item> {
     let last = rows.len().saturating_sub(1);
     let stride = rows.len().div_ceil(most).max(1);

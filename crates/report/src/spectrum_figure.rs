@@ -1,5 +1,5 @@
-//! Power spectra over the wave number: as measured, as fitted, and of profiles with the measured
-//! spectrum.
+//! Charts of power spectra over the wave number: measured spectra, their fits, and spectra of
+//! profiles.
 
 use asperity_data::AxisScale;
 use asperity_plot::{Chart, ChartAxis, Ink, Label, Layer, Shape, Sign, Span, Stroke};
@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 /// Number of points of a curve per decade of wave numbers.
 const PER_DECADE: f64 = 20.0;
 
-/// Largest number of decades of the vertical axis. Powers far below the others are rounding errors.
+/// Largest number of decades of the vertical axis. Powers below this range are rounding errors.
 const MOST_DECADES: f64 = 12.0;
 
-/// Stroke of the self-affine fit, which has no influence on the range of the axes.
+/// Stroke of the self-affine fit. The range of the axes does not depend on curves with this stroke.
 const SELF_AFFINE: Stroke = Stroke::Dotted;
 
 /// Point of a power spectrum along one direction: wave number in rad/m, and power spectral density
@@ -43,7 +43,7 @@ pub(crate) fn spectrum_name(face: usize, direction: Along) -> &'static str {
     }
 }
 
-/// Returns logarithmically spaced wave numbers between two wave numbers, about `per_decade` per
+/// Returns wave numbers between two wave numbers, with equal ratios, about `per_decade` in each
 /// decade.
 pub(crate) fn wave_numbers(range: [f64; 2], per_decade: f64) -> impl Iterator<Item = f64> {
     let [low, high] = range;
@@ -77,7 +77,7 @@ fn measured_layers(faces: &[&Analysis]) -> Vec<Layer> {
     layers
 }
 
-/// Returns the limits of a measured spectrum, as upright lines.
+/// Returns the ends of the used range of a measured spectrum, as vertical lines.
 fn limits(analysis: &Analysis) -> Vec<Layer> {
     let mut limits = Vec::new();
     if let Some(roll_off) = analysis.power_law.and_then(|fit| fit.roll_off) {
@@ -160,7 +160,7 @@ impl Spectra {
         let without_heights = points.len();
         points.extend(&self.heights);
         let x = Span::around(points.iter().map(|(q, _)| q.log10()), 0.03);
-        // Besides the waves of the line, heights contain only rounding errors.
+        // The heights have only rounding errors at wave numbers that the profile does not have.
         if without_heights > 0 {
             points.truncate(without_heights);
         }
@@ -174,7 +174,8 @@ impl Spectra {
         )
     }
 
-    /// Returns the points of the measured spectra and of their fit, without the self-affine fit.
+    /// Returns the points of the measured spectra and of their fit, except those of the self-affine
+    /// fit.
     fn measured_points(&self) -> Vec<SpectrumPoint> {
         let mut points = Vec::new();
         for layer in &self.measured {
@@ -274,8 +275,8 @@ mod tests {
     #[test]
     fn the_fit_goes_through_the_measured_powers() {
         let analysis = analysis(End::Ends);
-        // At the largest likelihood the mean over the waves of powers over their means is 1; wave 1
-        // is not fitted.
+        // At the largest likelihood the mean over the waves of measured over fitted power is 1.
+        // Wave 1 is not part of the fit.
         let bins = &analysis.spectra[0].1[2..];
         let fit = |q: f64| analysis.isotropic.cut(q);
         let sum: f64 = bins

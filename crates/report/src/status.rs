@@ -49,7 +49,7 @@ fn add_shards(sheet: &mut Sheet, status: &Status) {
     let mut rows = vec![header.map(String::from)];
     for shard in &status.shards {
         for (index, attempt) in shard.attempts.iter().enumerate() {
-            // Only the first row of a shard has its numbers.
+            // Only the first row of a shard has the numbers of records of the shard.
             let [name, done, total] = if index == 0 {
                 [
                     shard.shard.clone(),
@@ -77,8 +77,8 @@ fn add_shards(sheet: &mut Sheet, status: &Status) {
     sheet.table(&rows);
 }
 
-/// Returns the progress of a running study in one line: results computed so far and in all, results
-/// per second, and estimated time left.
+/// Returns the progress of a running study in one line: number of computed results and of all
+/// results, results per second, and estimated remaining time.
 pub fn progress_text(progress: &StudyProgress) -> String {
     let StudyProgress {
         done,
@@ -108,7 +108,7 @@ pub fn progress_text(progress: &StudyProgress) -> String {
     text
 }
 
-/// Writes a duration: `2 min 5 s`.
+/// Returns a duration as text: `2 min 5 s`.
 pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs();
     let minutes = seconds / 60;

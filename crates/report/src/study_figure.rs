@@ -9,7 +9,8 @@ use asperity_scene::Regime;
 use asperity_study::maps::{Grid, GridLayer};
 use asperity_study::{Axis, Quantity, Statistics};
 
-/// Smallest number of decades of a quantity that gets a second, logarithmic chart.
+/// Number of decades over which a quantity must extend to get a second chart, with a logarithmic
+/// scale.
 const DECADES_FOR_SECOND: f64 = 1.5;
 
 /// Largest number of decades of a logarithmic axis.
@@ -18,19 +19,20 @@ const MOST_DECADES: f64 = 12.0;
 /// Largest number of decades of the colour scale of a map.
 const MOST_DECADES_OF_MAP: f64 = 6.0;
 
-/// Upper end, in units of the largest mean, above which a confidence interval is not drawn. Few
-/// profiles have wide intervals.
+/// Upper end of a confidence interval, divided by the largest mean, above which the axis does not
+/// make room for the interval. With few profiles the intervals may be very wide.
 const MOST_OF_BAND: f64 = 2.0;
 
-/// Smallest ratio of the ranges of both signs whose colours show the sign.
+/// Smallest ratio of the ranges of negative and positive values for which the colours of a map show
+/// the sign.
 const LEAST_OF_A_SIGN: f64 = 0.25;
 
-/// How a regime is shown on a map.
+/// Mark of a regime on a map.
 struct RegimeMark {
     regime: Regime,
     /// Sign in a picture.
     sign: Sign,
-    /// Letter in a terminal.
+    /// Letter of the regime in a terminal.
     letter: char,
     ink: Ink,
 }
@@ -102,7 +104,7 @@ pub fn study_map(grid: &Grid, quantity: Quantity, whole: bool) -> Option<Chart> 
     })
 }
 
-/// Colours of a map: their scale, and the span of values that they show.
+/// Colours of a map: scale, kind of colours, and range of the values.
 struct Shading {
     scale: AxisScale,
     shades: Shades,
@@ -116,7 +118,8 @@ impl Shading {
             Some(layer) => (layer.scale, layer.range),
             None => (AxisScale::Linear, Some((0.0, 1.0))),
         };
-        // Both signs of a quantity have colours of their own, unless one of them is rare.
+        // Negative and positive values have different colours, unless one of the signs has only
+        // small values.
         if let Some((low, high)) = range
             && -low > LEAST_OF_A_SIGN * high
             && high > -LEAST_OF_A_SIGN * low
@@ -136,7 +139,8 @@ impl Shading {
     }
 }
 
-/// Returns the index of each regime in [`REGIMES`]; `None` for a cell without a regime.
+/// Returns for each cell the index of its regime in [`REGIMES`]; `None` for a cell without a
+/// regime.
 fn classes(regimes: &[Option<Regime>]) -> Vec<Option<usize>> {
     let mut classes = Vec::with_capacity(regimes.len());
     for regime in regimes {
@@ -145,10 +149,11 @@ fn classes(regimes: &[Option<Regime>]) -> Vec<Option<usize>> {
     classes
 }
 
-/// Returns the regimes in the legend of a map of a quantity.
+/// Returns the names of the regimes in the legend of a map of a quantity.
 fn class_names(quantity: Quantity) -> Vec<Class> {
-    // The axis of a regime names its protocol; beside other quantities letters show the regime from
-    // first touch.
+    // If the map shows a regime, the name of its axis states where the loading turns. On a map of
+    // another quantity the legend states it, because the letters show the regime of a loading
+    // turned at first touch.
     let protocol = if quantity.is_regime() {
         String::new()
     } else {
@@ -207,7 +212,7 @@ fn study_axis(axis: &Axis, span: Span) -> ChartAxis {
     ChartAxis::new(axis.scale(), span, &axis.name, axis.symbol, axis.unit)
 }
 
-/// Returns the name of a quantity in words, with hyphens where the name of the column has none.
+/// Returns the name of a quantity in words, with hyphens that the name of its column does not have.
 fn name(quantity: Quantity) -> String {
     if quantity.is_regime() {
         return format!("regime {}", quantity.protocol());
@@ -233,8 +238,8 @@ fn quantity_axis(quantity: Quantity, scale: AxisScale, span: Span) -> ChartAxis 
     ChartAxis::new(scale, span, &name, quantity.symbol(), quantity.unit())
 }
 
-/// Returns the recorded F_a(d=0)/F_a,max whose vanishing is drawn in a figure of this quantity. It
-/// is the quantity itself, or the first recorded one.
+/// Returns the share of F_a,max, such as F_a(d=0)/F_a,max, whose vanishing is marked in a figure of
+/// a quantity. It is the quantity itself if it is such a share, otherwise the first recorded share.
 fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
     let shares = Quantity::ADHESION_SHARES;
     if shares.contains(&quantity) {
@@ -245,14 +250,14 @@ fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
         .find(|share| grid.layer(*share).is_some())
 }
 
-/// Returns the name of the boundary in the legend: `F_a(F=0) = 0.05 F_a,max`.
+/// Returns the name of the boundary of adhesion in the legend: `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let symbol = share.symbol();
     let (force, ideal) = symbol.split_once('/').unwrap_or((symbol, ""));
     Label::symbol(&format!("{force} = {} {ideal}", Regime::VANISHING_SHARE))
 }
 
-/// Returns true if a quantity falls over too many decades for a linear scale.
+/// Returns true if the means of a quantity extend over too many decades for a linear scale.
 fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
     let mut lowest = f64::INFINITY;
     let mut highest: f64 = 0.0;
@@ -262,7 +267,7 @@ fn spans_decades(estimates: &[Option<Statistics>]) -> bool {
             lowest = lowest.min(mean);
             highest = highest.max(mean);
         } else if mean != 0.0 {
-            // A negative mean, or none, has no place on a logarithmic scale.
+            // Zero and negative means cannot be drawn on a logarithmic scale.
             return false;
         }
     }
@@ -277,7 +282,7 @@ struct Curves<'a> {
 }
 
 impl Curves<'_> {
-    /// Returns the chart of all curves with this vertical scale.
+    /// Returns the chart of all curves with the given scale of the vertical axis.
     fn chart(&self, scale: AxisScale) -> Chart {
         let across = &self.grid.across;
         let places = coordinates(across);
@@ -289,8 +294,8 @@ impl Curves<'_> {
         }
     }
 
-    /// Returns the span of the vertical axis. It has room for the means, for confidence intervals
-    /// that are not very wide, and for the quartiles of a single curve.
+    /// Returns the range of the vertical axis. It contains the means, the confidence intervals
+    /// except very wide ones, and the quartiles if there is a single curve.
     fn span(&self, scale: AxisScale) -> Span {
         let known = || self.estimates.iter().flatten();
         let of_means = known().map(|estimate| estimate.mean);
@@ -321,7 +326,7 @@ impl Curves<'_> {
         all.widened(0.05)
     }
 
-    /// Returns true for a single curve, which is drawn with the spread of the profiles.
+    /// Returns true if there is a single curve, which is drawn with the quartiles of the profiles.
     fn is_single(&self) -> bool {
         self.grid.up.is_none()
     }
@@ -334,7 +339,8 @@ impl Curves<'_> {
         let curves: Vec<_> = self.estimates.chunks(places.max(1)).collect();
         let mut layers = Vec::new();
         match (&self.grid.up, curves.first()) {
-            // Curves that are equal to the last bit do not depend on the axis up.
+            // If all curves are exactly equal, the quantity does not depend on the second axis, and
+            // one curve is drawn.
             (Some(up), Some(first)) if curves.iter().all(|curve| curve == first) => {
                 let symbol = Label::symbol_or_name(up.symbol, &up.name);
                 let name = Label::plain("any ").join(&symbol);
@@ -362,7 +368,7 @@ impl Curves<'_> {
         layers
     }
 
-    /// Adds the layers of one curve. A cell without an estimate interrupts it.
+    /// Adds the layers of one curve. The curve has a gap at a cell without an estimate.
     fn add_curve(
         &self,
         layers: &mut Vec<Layer>,
@@ -397,7 +403,8 @@ impl Curves<'_> {
         layers.push(Layer::new(name, ink, mean));
     }
 
-    /// Returns a number of each estimate over the first axis; NaN where there is no estimate.
+    /// Returns the points of a curve over the first axis. `number` takes the value from an
+    /// estimate; NaN where there is no estimate.
     fn points(
         &self,
         estimates: &[Option<Statistics>],
@@ -410,8 +417,8 @@ impl Curves<'_> {
         points
     }
 
-    /// Returns a band between two numbers of each estimate over the first axis; NaN where there is
-    /// no estimate.
+    /// Returns a band over the first axis. `ends` takes its lower and upper end from an estimate;
+    /// NaN where there is no estimate.
     fn band(&self, estimates: &[Option<Statistics>], ends: fn(&Statistics) -> (f64, f64)) -> Shape {
         let mut band = Vec::with_capacity(estimates.len());
         for (place, estimate) in self.grid.across.values.iter().zip(estimates) {
@@ -426,7 +433,8 @@ impl Curves<'_> {
 fn crossings(grid: &Grid, share: Quantity) -> Vec<f64> {
     let shares = means(&grid.statistics(share, false));
     let places = coordinates(&grid.across);
-    // Without a preload all curves are equal; curves that differ have no single crossing.
+    // A loading without a preload has the same F_a on all curves. If the curves differ, there is no
+    // common crossing.
     let mut curves = shares.chunks(places.len().max(1));
     let first = curves.next();
     if curves.any(|curve| Some(curve) != first) {
@@ -545,7 +553,7 @@ mod tests {
         }
     }
 
-    /// A map of two quantities over H and κ, with gaps.
+    /// Results over H and κ as a map of two quantities, with missing cells.
     fn phase_map() -> Study {
         let hursts: Vec<f64> = (0..9).map(|index| f64::from(index + 1) / 10.0).collect();
         let places = kappas().values;
@@ -570,7 +578,7 @@ mod tests {
         )
     }
 
-    /// Curves of both quantities at H = 0.3, with a gap.
+    /// Results at H = 0.3 as curves of two quantities, with a missing cell.
     fn sections() -> Study {
         let places = kappas().values;
         let cells = places
@@ -595,7 +603,7 @@ mod tests {
         study_figure(title, grid, [SHARE, COEFFICIENT].map(charts).concat())
     }
 
-    /// Estimates of a quantity in all cells.
+    /// Returns the estimates of a quantity in all cells.
     fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
         study
             .grid
@@ -610,7 +618,7 @@ mod tests {
     fn words_lie_within_the_picture_and_not_on_each_other() {
         let mut large = phase_map();
         large.title = "A title that is a good deal longer than the figure is wide ".repeat(4);
-        // Numbers that differ only in late digits.
+        // The numbers on this axis differ only in late digits, so their labels are long.
         let mut long = [phase_map(), sections()];
         for study in &mut long {
             study.grid.layers[0].range = Some((1e5, 1e5 + 1.0));
@@ -639,7 +647,7 @@ mod tests {
         let mut study = sections();
         let own = upright(&study, SHARE);
         assert_eq!(own.0, "F_a(d=0) = 0.05 F_a,max");
-        // A quantity other than a share of F_a(d=0) shows where F_a(d=0) vanishes.
+        // A figure of any other quantity also marks where F_a(d=0) vanishes.
         assert_eq!(upright(&study, COEFFICIENT), own);
         study.grid.layers[1].quantity = Quantity::ZeroForceAdhesionShare;
         let shares: Vec<_> = estimates(&mut study, 0).map(|one| *one).collect();
@@ -652,7 +660,8 @@ mod tests {
         let later = upright(&study, Quantity::ZeroForceAdhesionShare);
         assert!(later.1 > own.1, "{later:?} {own:?}");
         assert_eq!(later.0, "F_a(F=0) = 0.05 F_a,max");
-        // Recorded alone, the share after zero force bounds the other quantities.
+        // If only F_a(F=0)/F_a,max is recorded, figures of other quantities mark where F_a(F=0)
+        // vanishes.
         study.grid.layers[0].quantity = COEFFICIENT;
         assert_eq!(upright(&study, COEFFICIENT), later);
         let mut map = phase_map();

@@ -1,4 +1,4 @@
-//! The summary of a computed scene for a reader.
+//! Summary of a computed scene as text.
 
 use crate::ensemble::{headline, rounded};
 use crate::sheet::Sheet;
@@ -12,11 +12,11 @@ use asperity_scene::stages::Timings;
 use asperity_scene::{Estimate, Outcome, Regime, Scene};
 use asperity_study::{Ensemble, Quantity};
 
-/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further ones
-/// are counted.
+/// Largest number of loading stages, or of repeated groups of stages, that are listed. Further
+/// stages are counted.
 const MOST_STAGES: usize = 8;
 
-/// Results of a scene that are summed up for a reader.
+/// Results of a scene that the summary contains.
 #[derive(Clone, Copy)]
 pub(crate) struct Summary<'a> {
     pub(crate) scene: &'a Scene,
@@ -24,19 +24,19 @@ pub(crate) struct Summary<'a> {
     pub(crate) outcome: &'a Outcome,
     /// Estimated error of the adhesion force; `None` if it is unknown.
     pub(crate) estimate: Option<&'a Estimate>,
-    /// How the number of springs was chosen for a tolerance; `None` without a tolerance.
+    /// Way in which the number of springs was chosen for a tolerance; `None` without a tolerance.
     pub(crate) choice: Option<&'a Choice>,
     /// Results over random profiles; `None` if they were not computed.
     pub(crate) ensemble: Option<&'a Ensemble>,
-    /// Deviation of the adhesion force due to the spectrum of a measured surface, in N; `None` if
-    /// it was not computed.
+    /// Standard deviation in N of the adhesion force due to the uncertainty of the spectrum of a
+    /// measured surface; `None` if it was not computed.
     pub(crate) deviation: Option<f64>,
     pub(crate) wording: Wording,
 }
 
 impl Summary<'_> {
-    /// Returns the results as plain text of at most 80 columns. Results over random profiles come
-    /// first, results on the own profile follow.
+    /// Returns the results as plain text of at most 80 columns: first the results over random
+    /// profiles, then the results on the profile with the seed of the scene.
     pub(crate) fn text(&self) -> String {
         let outcome = self.outcome;
         let mut sheet = Sheet::default();
@@ -135,7 +135,7 @@ pub fn brief_summary(scene: &Scene, outcome: &Outcome) -> String {
 
 fn add_line(sheet: &mut Sheet, outcome: &Outcome) {
     let facts = &outcome.line;
-    // The numbers from here on are those of one profile.
+    // All following rows are about one profile.
     match facts.seed {
         Some(seed) => sheet.heading(&format!("Profile of seed {seed}")),
         None => sheet.heading("Profile"),
@@ -183,7 +183,7 @@ fn add_bodies(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.quantity("e_el/γ", governing.elastic_energy_ratio, "1");
 }
 
-/// Returns the regime of adhesion in words, with the protocol that decides it.
+/// Returns the regime of adhesion in words, and where the loading turns that decides it.
 fn regime(outcome: &Outcome) -> String {
     let is_adhesive = outcome.governing.adhesive_work().is_some();
     let Some(regime) = outcome.regime else {
@@ -216,7 +216,8 @@ fn regime(outcome: &Outcome) -> String {
     format!("{name} turned at first touch{both_protocols}: {meaning}")
 }
 
-/// Returns the adhesion after a turn at zero force in words: `62 % of F_a`, `full adhesion`.
+/// Returns in words the adhesion after a loading turned at zero force: `62 % of F_a`, `full
+/// adhesion`.
 fn zero_force_adhesion(outcome: &Outcome) -> String {
     let at_zero_force = outcome.zero_force_adhesion_force;
     let percent = match (at_zero_force, outcome.figures.adhesion_force) {
@@ -230,7 +231,7 @@ fn zero_force_adhesion(outcome: &Outcome) -> String {
     }
 }
 
-/// Adds the regime, and the shares of adhesion that decide it.
+/// Adds the regime, and the ratios of adhesion forces that decide it.
 fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("regime", regime(outcome));
     if outcome.regime.is_none() {
@@ -280,16 +281,16 @@ fn add_deciding_shares(sheet: &mut Sheet, outcome: &Outcome) {
     add_share(sheet, "  F_a/F_n", adhesion, preload, &of_preload);
 }
 
-/// Share from which a conclusion holds.
+/// Value of a ratio that separates two conclusions.
 struct Threshold {
     value: f64,
-    /// Conclusion for a share at or above the threshold.
+    /// Conclusion if the ratio is at least the threshold.
     reached: &'static str,
-    /// Conclusion for a smaller share.
+    /// Conclusion if the ratio is below the threshold.
     below: &'static str,
 }
 
-/// Adds a row on the share of `part` in `whole`, with its threshold and the conclusion.
+/// Adds a row with the ratio of `part` to `whole`, its threshold and the conclusion.
 fn add_share(
     sheet: &mut Sheet,
     label: &str,
@@ -300,11 +301,12 @@ fn add_share(
     let (Some(part), Some(whole)) = (part, whole) else {
         return;
     };
-    // A share of zero has no meaning.
+    // A ratio to zero has no meaning.
     if whole.is_nan() || whole <= 0.0 {
         return;
     }
-    // Products, as in the comparison of the regime itself.
+    // Products are compared instead of the ratio, as in the decision of the regime, so that
+    // rounding gives the same conclusion.
     let (side, conclusion) = if part >= threshold.value * whole {
         ("at least", threshold.reached)
     } else {
@@ -331,7 +333,7 @@ fn adhesion_force(outcome: &Outcome) -> String {
     }
 }
 
-/// Returns the loading in words. Stages after the first ones are counted.
+/// Returns the loading in words. Only the first stages are listed, the others are counted.
 fn loading(stages: &[Move]) -> String {
     let text = loading_text(stages, format_quantity);
     let Some((end, _)) = text.match_indices(", ").nth(MOST_STAGES - 1) else {
@@ -360,7 +362,7 @@ fn add_contact(sheet: &mut Sheet, outcome: &Outcome) {
     sheet.row("contact patches", grouped(end.fragments));
 }
 
-/// Adds the work of the solver, and the computing times of its stages.
+/// Adds the counts of work of the solver, and the computing times of its stages.
 fn add_cost(sheet: &mut Sheet, work: &Work, timings: &Timings) {
     sheet.heading("Work");
     for (label, count) in counts(work) {
@@ -433,7 +435,7 @@ mod tests {
         let mut outcome = Simulation::default()
             .run(scene, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
-        // Without times and the solver's own counts of work.
+        // Computing times and counts of work vary, so they are replaced by fixed ones.
         outcome.timings = Timings {
             line: 1.5e-3,
             ..Timings::default()
@@ -563,8 +565,8 @@ mod tests {
         }
     }
 
-    /// With a band of few long waves the regimes differ and are named with their protocols: little
-    /// adheres at first touch, and everything where the force is back at zero.
+    /// With a narrow band of long waves the two regimes differ, so each is named with its turning
+    /// point. Little adheres at first touch, and everything where the force is back at zero.
     #[test]
     fn regimes_that_differ_name_their_protocols() {
         let scene = [

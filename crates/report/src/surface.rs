@@ -21,10 +21,10 @@ use serde::{Serialize, Serializer};
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, TAU};
 use std::path::Path;
 
-/// Number of points per decade of wave numbers of the equivalent line in the table.
+/// Number of points of the equivalent line per decade of wave numbers, in the table of spectra.
 const LINE_PER_DECADE: f64 = 10.0;
 
-/// Name of the spectrum of the equivalent line in the table.
+/// Name of the spectrum of the equivalent line in the table of spectra.
 const LINE: &str = "equivalent line";
 
 /// Returns in words the median, quartiles and range of the adhesion force over random profiles that
@@ -55,17 +55,18 @@ pub struct SurfaceReport {
     pub modulus: Option<f64>,
     /// Work of adhesion γ, J/m²; `None` if it is not given.
     pub work: Option<f64>,
-    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on them. The
-    /// whole is `None` if no adhesion was requested, and the second value is `None` if it was not
-    /// computed.
+    /// Scene with the random profiles of [`Self::line`], and the adhesion computed on these
+    /// profiles. It is `None` if no adhesion was requested. The second value is `None` if the
+    /// adhesion was not computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
-    /// Words for the steps that help.
+    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
 
 impl SurfaceReport {
-    /// Returns a warning if attraction has too long a range for the summits of the surface; `None`
-    /// without a modulus and a work of adhesion.
+    /// Returns a warning if the range of the attraction is too long for the radius of the summits
+    /// of the surface; `None` without a modulus and a work of adhesion.
     fn tabor_warning(&self) -> Option<Warning> {
         let (scene, _) = self.adhesion.as_ref()?;
         let modes = self
@@ -92,7 +93,8 @@ impl Report for SurfaceReport {
             add_face(&mut sheet, heading, face);
         }
         sheet.heading("Equivalent line");
-        // Both may have been typed without a unit.
+        // Modulus and work of adhesion may have been typed without a unit, so the report states
+        // both with their units.
         sheet.quantity("effective modulus E*", self.modulus, "Pa");
         sheet.quantity("work of adhesion γ", self.work, "J/m²");
         self.add_moments(&mut sheet);
@@ -164,7 +166,7 @@ impl SurfaceReport {
         let moments = self.line.moments();
         let energy = self.times_modulus(moments.energy_per_modulus);
         let stiff_height_gradient = self.times_modulus(moments.height_gradient);
-        // κ has half the relative error of h⟨∇z⟩.
+        // κ is in proportion to the square root of h⟨∇z⟩, so its relative error is half as large.
         let kappa = self.over_work(stiff_height_gradient).map(Moment::root);
         [
             MomentRow {
@@ -216,8 +218,8 @@ impl SurfaceReport {
         Some(moment?.scaled(1.0 / self.work?))
     }
 
-    /// Adds a table of the moments with a column for each kind of error. It omits e_el/E* if e_el
-    /// is known.
+    /// Adds a table of the moments with a column for each kind of error. If e_el is known, e_el/E*
+    /// is left out.
     fn add_moments(&self, sheet: &mut Sheet) {
         let header = ["", "value", "statistical", "method", "missing short waves"];
         let mut rows = vec![header.map(String::from)];
@@ -235,7 +237,7 @@ impl SurfaceReport {
                 format!("up to {share}")
             };
             rows.push([
-                // As wide as the labels of the other rows.
+                // The first column is as wide as the labels of the other rows of the report.
                 format!("  {:22}", row.label),
                 format_quantity(moment.value, row.unit),
                 format!("± {}", per_cent(moment.statistical / moment.value)),
@@ -246,8 +248,8 @@ impl SurfaceReport {
         sheet.table(&rows);
     }
 
-    /// Adds the waves of the equivalent line, with what follows at their short end, and the
-    /// gradient of the profile itself.
+    /// Adds the range of the waves of the equivalent line, what ends the spectrum at its short end,
+    /// and the gradient of the profile.
     fn add_wavelengths(&self, sheet: &mut Sheet) {
         let [longest, shortest] = self.line.range().map(|q| format_quantity(TAU / q, "m"));
         let end = self.end_in_words();
@@ -261,7 +263,8 @@ impl SurfaceReport {
         );
     }
 
-    /// Returns what follows at the short end of the spectrum, by the face with the shortest waves.
+    /// Returns in words how the spectrum ends or continues beyond its shortest waves. The face with
+    /// the shortest waves decides.
     fn end_in_words(&self) -> &'static str {
         let analyses = self.faces.iter().map(|face| &face.analysis);
         let finest = analyses.max_by(|first, second| {
@@ -278,7 +281,7 @@ impl SurfaceReport {
         }
     }
 
-    /// Returns the warnings about both faces and about the attraction.
+    /// Returns the warnings about both faces and about the range of the attraction.
     fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {
@@ -291,7 +294,8 @@ impl SurfaceReport {
         warnings
     }
 
-    /// Returns the points of the measured spectra, and of the spectrum of the equivalent line.
+    /// Returns the rows of the table of spectra: first the measured spectra, then the equivalent
+    /// line.
     fn spectrum_rows(&self) -> Vec<SpectrumRow> {
         let mut rows = Vec::new();
         for (number, face) in self.faces.iter().enumerate() {
@@ -331,7 +335,7 @@ struct SpectrumRow {
     waves: Option<u64>,
 }
 
-/// Moment of the equivalent line, or a quantity that follows from moments. The value is `None` if
+/// Moment of the equivalent line, or a quantity that follows from moments; the value is `None` if
 /// it is unknown.
 #[derive(Clone, Copy)]
 struct MomentRow {
@@ -341,8 +345,8 @@ struct MomentRow {
     value: Option<Moment>,
 }
 
-/// Returns the preload of the scene of an equivalent line in N; `None` if the loading turns at zero
-/// force.
+/// Returns the preload in N of the scene with the equivalent line; `None` if the loading turns at
+/// zero force.
 fn preload(scene: &Scene) -> Option<f64> {
     let Some(Move::ToForce(force)) = scene.loading.first() else {
         return None;
@@ -350,7 +354,7 @@ fn preload(scene: &Scene) -> Option<f64> {
     Some(*force)
 }
 
-/// Adds the files of a face and the results of their analysis.
+/// Adds the files of one face and the results of their analysis.
 fn add_face(sheet: &mut Sheet, heading: &str, face: &MeasuredFace) {
     sheet.heading(heading);
     for file in &face.files {
@@ -386,7 +390,7 @@ fn add_self_affine_fit(sheet: &mut Sheet, analysis: &Analysis) {
     sheet.row("roll-off wavelength", wavelength);
 }
 
-/// Number of profiles that is proposed for a computation of the adhesion.
+/// Number of random profiles in the command that the report proposes for the adhesion.
 const PROFILES: u64 = 16;
 
 /// Adds the adhesion of random profiles with the spectrum of the equivalent line.
@@ -436,7 +440,7 @@ fn add_adhesion(
     sheet.row("regimes, zero force", regimes);
 }
 
-/// Returns the numbers of profiles in each regime: `non-adhesive on 3 of 4 profiles`.
+/// Returns in words the number of profiles in each regime: `non-adhesive on 3 of 4 profiles`.
 fn regimes_in_words(regimes: RegimeCounts, profiles: usize) -> String {
     let each: Vec<String> = regimes
         .present()
@@ -445,15 +449,15 @@ fn regimes_in_words(regimes: RegimeCounts, profiles: usize) -> String {
     each.join(", ") + " profiles"
 }
 
-/// Writes a value with its relative error: `0.8 ± 5 %`.
+/// Returns a value with its relative error as text: `0.8 ± 5 %`.
 fn with_error(estimate: ValueWithError, unit: &str) -> String {
     let value = format_quantity(estimate.value, unit);
     let error = per_cent(estimate.error / estimate.value.abs());
     format!("{value} ± {error}")
 }
 
-/// JSON object of the surfaces of one face, in SI units. The object of the first face also contains
-/// the results of both faces together, and the object of the opposite face.
+/// JSON object of the surfaces of one face, in SI units. The object of the first face also has the
+/// results of both faces together, and contains the object of the opposite face.
 #[derive(Serialize)]
 struct FaceJson<'a> {
     version: &'static str,
@@ -493,7 +497,7 @@ struct AdhesionJson<'a> {
     lines: &'a [ProfileAdhesion],
 }
 
-/// Writes each moment under its key.
+/// Writes each moment as an entry with its key.
 fn by_key<S: Serializer>(rows: &Option<[MomentRow; 6]>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(rows.iter().flatten().map(|row| (row.key, row.value)))
 }
@@ -522,7 +526,8 @@ impl<'a> FaceJson<'a> {
         let MeasuredFace { files, analysis } = face;
         let mut profile_spectra = Vec::with_capacity(analysis.spectra.len());
         for (direction, bins) in &analysis.spectra {
-            // Each face has an object of its own, so that its spectra do not name the face.
+            // The spectra of each face are in a separate object, so their names need not state the
+            // face.
             let name = spectrum_name(0, *direction);
             profile_spectra.push(SpectrumJson { name, bins });
         }

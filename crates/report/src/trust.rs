@@ -1,5 +1,4 @@
-//! How far an adhesion force can be trusted: criteria of other theories, and errors by their
-//! sources.
+//! Reliability of an adhesion force: criteria of other theories, and the errors of each source.
 
 use crate::reference::{difference_words, model_words};
 use crate::sheet::Sheet;
@@ -9,8 +8,8 @@ use asperity_study::Ensemble;
 use asperity_study::half_space::Reference;
 use asperity_study::trust::{Budget, criteria};
 
-/// Adds the criteria of adhesion without a preload, and the errors of the adhesion force by their
-/// sources.
+/// Adds the criteria of adhesion without a preload, and the errors of the adhesion force, one for
+/// each source.
 pub(crate) fn add_trust(
     sheet: &mut Sheet,
     scene: &Scene,
@@ -29,7 +28,7 @@ pub(crate) fn add_trust(
     }
 }
 
-/// Adds rows below a heading; nothing without rows.
+/// Adds a heading and rows. If there are no rows, nothing is added.
 fn add_rows(sheet: &mut Sheet, heading: &str, rows: Vec<(&str, String)>) {
     if rows.is_empty() {
         return;
@@ -54,7 +53,7 @@ pub fn theory_rows(
         let words = "do not apply: the body is smooth".to_owned();
         rows.push(("criteria of roughness", words));
     }
-    // Only the first row of a theory has its name.
+    // Only the first row of each theory has the name of the theory.
     let mut last_name = "";
     for criterion in criteria {
         let name = if criterion.name == last_name {
@@ -68,10 +67,10 @@ pub fn theory_rows(
     rows
 }
 
-/// Returns the errors of the adhesion force by their sources: number of springs, sample of
-/// profiles, measured surface, and model. A row has a source and its relative error in words. With
-/// the comparison `reference` with three dimensions there is also a row for the difference from it.
-/// The last row names the largest source.
+/// Returns the errors of the adhesion force, one for each source: number of springs, sample of
+/// profiles, measured surface, and model. A row has a source and its relative error in words. If
+/// `reference`, the comparison with three dimensions, is given, a further row has the difference
+/// from three dimensions. The last row names the largest error.
 pub fn error_rows(
     scene: &Scene,
     outcome: &Outcome,
@@ -99,7 +98,7 @@ pub fn error_rows(
     rows
 }
 
-/// Writes a relative error: `± 2 %`.
+/// Returns a relative error as text: `± 2 %`.
 fn error_in_words(error: f64) -> String {
     if error > 1.0 {
         "more than ± 100 %".to_owned()
@@ -108,7 +107,7 @@ fn error_in_words(error: f64) -> String {
     }
 }
 
-/// Returns the error due to the finite number of springs in words.
+/// Returns in words the error due to the finite number of springs.
 fn grid_in_words(budget: &Budget, estimate: Option<&Estimate>) -> String {
     let Some(error) = budget.grid.map(error_in_words) else {
         return "not known".to_owned();
@@ -120,7 +119,7 @@ fn grid_in_words(budget: &Budget, estimate: Option<&Estimate>) -> String {
     }
 }
 
-/// Returns the error due to the finite number of random profiles in words.
+/// Returns in words the error due to the finite number of random profiles.
 fn sample_in_words(scene: &Scene, budget: &Budget, ensemble: Option<&Ensemble>) -> String {
     match budget.sample.map(error_in_words) {
         Some(error) => {
@@ -132,7 +131,7 @@ fn sample_in_words(scene: &Scene, budget: &Budget, ensemble: Option<&Ensemble>) 
     }
 }
 
-/// Returns the error due to the measured surface in words.
+/// Returns in words the error due to the measured surface.
 fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
     if let Some(error) = budget.surface.map(error_in_words) {
         return format!("{error}, by the uncertainty of the measured spectrum");
@@ -147,8 +146,8 @@ fn surface_in_words(scene: &Scene, budget: &Budget) -> String {
     words.to_owned()
 }
 
-/// Returns the error of the model in words. `is_exceeded` is true if a premise of the model does
-/// not hold, so that no error is known.
+/// Returns in words the error of the model. `is_exceeded` is true if a premise of the model does
+/// not hold, and the error is unknown.
 fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: bool) -> String {
     if let Some(reference) = reference {
         return model_words(reference);
@@ -163,7 +162,7 @@ fn model_in_words(scene: &Scene, reference: Option<&Reference>, is_exceeded: boo
     words.to_owned()
 }
 
-/// Returns the source of the largest known error, with what reduces this error.
+/// Returns the source of the largest known error, and what would reduce this error.
 fn largest_in_words(budget: &Budget, is_exceeded: bool, wording: Wording) -> String {
     let words = match budget.largest {
         Some("grid") => {
@@ -224,7 +223,7 @@ mod tests {
         );
     }
 
-    /// No error is stated for a contact that reaches the ends of its profile, and none is named as
+    /// If the contact reaches the ends of its profile, no error is stated, and no error is named as
     /// the largest one.
     #[test]
     fn no_error_is_stated_where_the_contact_reaches_the_ends() {
@@ -242,7 +241,7 @@ mod tests {
             &|| false,
         );
         assert_eq!(own, None);
-        // Also if somebody states one.
+        // The error remains unknown even if an estimate is given.
         let evidence = asperity_scene::discretisation::Evidence::ClosedForm;
         let target = asperity_scene::discretisation::Target::AdhesionForce;
         let stated = Estimate {

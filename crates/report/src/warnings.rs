@@ -1,4 +1,4 @@
-//! Warnings in reports: the same words in text and in JSON.
+//! Warnings in reports, with the same words in text and in JSON.
 
 use crate::sheet::Sheet;
 use asperity_data::{CountedWarning, Warning, grouped};
@@ -36,8 +36,9 @@ fn texts_with_shares(warnings: &[CountedWarning], all: u64, things: &str) -> Vec
     texts
 }
 
-/// Puts the share of the things on which a premise does not hold before its text:
-/// `On 12 of 16 profiles: `. The share is left out if the premise holds on none of them.
+/// Puts the number of profiles or records on which a premise does not hold before the text of the
+/// premise: `On 12 of 16 profiles: `. If the premise holds on no profile or record, nothing is put
+/// before its text.
 pub(crate) fn with_share(text: &str, count: u64, all: u64, things: &str) -> String {
     if count == all {
         return text.to_owned();

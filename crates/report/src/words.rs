@@ -13,12 +13,12 @@ pub(crate) fn whole_percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// Returns a number of things: `1 spring`, `1 024 springs`.
+/// Returns a number of things as text: `1 spring`, `1 024 springs`.
 pub fn counted(count: u64, noun: &str) -> String {
     format!("{} {}", grouped(count), plural(noun, count))
 }
 
-/// Returns a noun with the ending that a number of things needs: `spring`, `springs`.
+/// Returns a noun in the singular or plural that the number `count` needs: `spring`, `springs`.
 pub(crate) fn plural(noun: &str, count: u64) -> String {
     let ending = if count == 1 { "" } else { "s" };
     format!("{noun}{ending}")

@@ -1,4 +1,5 @@
-//! The work–precision diagram: error over computing time for each setting that affects accuracy.
+//! The work–precision diagram: error as a function of computing time for each setting that affects
+//! the accuracy.
 
 use crate::reference::omitted_waves;
 use asperity_data::AxisScale;
@@ -7,9 +8,9 @@ use asperity_scene::discretisation::{CostTable, ErrorFigure, Knob};
 use asperity_study::half_space::Reference;
 
 /// Returns the figure of relative errors over computing time, with a curve for each kind of
-/// setting, such as the number of springs. The error is the error of the adhesion force, or of the
-/// force curve if there is no adhesion force. If `reference`, the comparison with three dimensions,
-/// is given, the figure also has the error of the model as a level.
+/// setting, such as the number of springs. The error is that of the adhesion force or, if there is
+/// no adhesion force, that of the force curve. If `reference`, the comparison with three
+/// dimensions, is given, a horizontal line shows the error of the model.
 pub fn work_precision(title: &str, table: &CostTable, reference: Option<&Reference>) -> Figure {
     let mut points = Vec::new();
     let mut layers = Vec::new();
@@ -69,8 +70,8 @@ impl Measured {
     }
 }
 
-/// Returns a curve of one kind of setting, with signs at its points. Rings mark errors below the
-/// error of the reference. `number` counts the kinds of settings.
+/// Returns a curve for one kind of setting, with markers at its points. Open rings mark errors that
+/// are smaller than the error of the reference. `number` is the index of the kind of setting.
 fn series_layers(
     table: &CostTable,
     knob: Knob,

@@ -11,14 +11,15 @@ use serde::{Deserialize, Serialize};
 /// Largest number of values on one [`Axis`].
 pub const MOST_VALUES: u64 = 1_000_000;
 
-/// Number of significant digits of values between the ends of an axis, so that a value is 0.15
-/// rather than 0.15000000000000002.
+/// Number of significant digits of values between the ends of an axis. Without rounding the value
+/// 0.15 would become 0.15000000000000002.
 const DIGITS: usize = 12;
 
-/// Smallest relative difference of two values of an axis; a smaller difference counts as rounding.
+/// Smallest relative difference of two values of an axis. A smaller difference is a rounding error.
 const APART: f64 = 1e-6;
 
-/// Smallest ratio of the ends of a list of values that is shown on a logarithmic scale.
+/// Smallest ratio of the last to the first of single values for which they have a logarithmic
+/// scale.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -129,7 +130,7 @@ impl Axis {
     /// Reads and checks an axis of a plan.
     ///
     /// # Errors
-    /// The axis is wrong; the error says what is allowed.
+    /// Returns a message if the axis has an error. The message says what is allowed.
     pub(super) fn of(text: &AxisText, scene: &Scene) -> Result<Axis, String> {
         let (AxisText::Linear { path, .. }
         | AxisText::Logarithmic { path, .. }
@@ -141,6 +142,7 @@ impl Axis {
             .map_err(|what| format!("axis {path}: {what}"))
     }
 
+    /// Returns the axis with the values that the text lists or spaces between two ends.
     fn with_values(self, text: &AxisText) -> Result<Axis, String> {
         let mut axis = self;
         match *text {
@@ -205,9 +207,9 @@ impl Axis {
         Ok(())
     }
 
-    /// Returns `count` values from one end to the other. `value` is the value at a share of the way
-    /// from 0 to 1. Values between the ends are rounded to 12 significant digits, or to whole
-    /// numbers if the field needs whole numbers.
+    /// Returns `count` values from one end to the other. `value` returns the value at a share of
+    /// the way, from 0 to 1. Values between the ends are rounded to 12 significant digits, or to
+    /// whole numbers if the quantity has only whole numbers.
     fn between(&self, from: f64, to: f64, count: u64, value: impl Fn(f64) -> f64) -> Vec<f64> {
         let last = count - 1;
         let mut values = vec![from];
@@ -274,7 +276,8 @@ impl Axis {
         }
     }
 
-    /// Returns one of the values by its index, with the symbol or the name: `H = 0.3`.
+    /// Returns the symbol or name of the axis and one of its values, such as `H = 0.3`. `place` is
+    /// the index of the value.
     pub(super) fn at(&self, place: usize) -> String {
         let equals = if self.symbol.is_empty() { "" } else { "= " };
         format!(
@@ -316,35 +319,36 @@ impl Axis {
     }
 }
 
-/// Paths of numbers that cannot be varied. The version is no parameter, and seeds follow from the
-/// seed of the plan.
+/// Paths of numbers that cannot be varied. The version is not a parameter of the contact, and the
+/// seeds follow from the seed of the plan.
 const FIXED: &[&str] = &["version", "roughness.seed"];
 
-/// Endings of the paths of numbers: of a number itself, and of the first and last number of a pair.
+/// Endings of the paths of numbers: none for a single number, `.0` and `.1` for the numbers of a
+/// pair.
 const ENDS: [&str; 3] = ["", ".0", ".1"];
 
 /// Quantity that an axis varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Target {
-    /// A number of a scene, or an end of a pair.
+    /// A number of a scene, or one of the two numbers of a pair.
     Number(&'static Field),
     /// Force in N or indentation in m of a loading stage.
     Stage(usize),
     /// Preload F_n in N or in units of E* h L.
     Preload { in_newtons: bool },
-    /// Number of springs per shortest wave. The last mode is the number of springs divided by this
-    /// number.
+    /// Number of springs per shortest wave of the roughness. The last mode of the roughness is the
+    /// number of springs divided by this number.
     SpringsPerWave,
 }
 
-/// Part of the computation that a changed number repeats. Later variants repeat less.
+/// Part of the computation that has to be repeated if a number changes. Later variants repeat less.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shapes {
-    /// Heights of the roughness, by a Fourier transform, and all that follows.
+    /// The heights of the roughness are computed by a Fourier transform, and everything after it.
     Roughness,
-    /// Profile from known heights, and all that follows.
+    /// The profile is made from known heights, and everything after it is computed.
     Profile,
-    /// Passes over the contact tree.
+    /// Only the loading is computed again, on the same profile and contact tree.
     Passes,
 }
 
@@ -366,7 +370,8 @@ fn number(path: &str) -> Option<&'static Field> {
     None
 }
 
-/// Returns the question whether a path like this one is meant; empty if there is none.
+/// Returns a question such as `did you mean roughness.hurst?` for the path nearest to a wrong path;
+/// empty if no path is near.
 fn nearest_path(path: &str) -> String {
     if let Some(parameter) = RoughnessParameter::named(path) {
         return format!("; did you mean {}?", parameter.path());
@@ -388,7 +393,7 @@ impl Target {
     /// Returns the quantity at a path.
     ///
     /// # Errors
-    /// No number has this path; the nearest path is named.
+    /// Returns an error with the nearest path if no number has this path.
     pub fn of(path: &str) -> Result<Target, StudyError> {
         match path {
             "preload" => return Ok(Target::Preload { in_newtons: false }),
@@ -411,12 +416,12 @@ impl Target {
         Err(StudyError::refused(Some(path), found, allowed))
     }
 
-    /// Returns true for a quantity that is a whole number.
+    /// Returns true if the quantity can only be a whole number.
     pub fn is_whole(self) -> bool {
         matches!(self, Target::Number(field) if !matches!(field.range, Range::Real(..) | Range::Wavelengths(..)))
     }
 
-    /// Returns the parameter κ or e_el/γ if the quantity is one. It replaces a work of adhesion.
+    /// Returns the parameter if the quantity is κ or e_el/γ, which replaces a work of adhesion.
     pub fn parameter(self) -> Option<RoughnessParameter> {
         match self {
             Target::Number(field) => RoughnessParameter::named(field.path),
@@ -432,7 +437,7 @@ impl Target {
             Target::Number(field) => field,
         };
         match (field.parent(), field.path) {
-            // Heights are scaled to their amplitude.
+            // The heights of the roughness are computed for one amplitude and then scaled.
             ("form", _) | (_, "length" | "roughness.rms_height" | "roughness.rms_gradient") => {
                 Shapes::Profile
             }
@@ -598,7 +603,7 @@ mod tests {
             (to(6.0, 1), to(6.0, -1), to(6.0, 4)),
             (Some(6.73), Some(5.66), Some(11.3))
         );
-        // A value of the axis but for rounding.
+        // A value that differs from a value of the axis only by rounding counts as this value.
         assert_eq!(
             (to(1.0 + 1e-12, 1), to(1.0 - 1e-12, -1)),
             (Some(1.19), Some(0.841))

@@ -1,6 +1,6 @@
 //! The boundary where adhesion without a preload vanishes, eq. (15), with its statistical error.
 //!
-//! F_a(d=0) falls about exponentially with κ but never quite to zero, because a single spring still
+//! F_a(d=0) falls about exponentially with κ but hardly ever to zero, because a single spring still
 //! adheres. The boundary κ* is therefore where the mean of F_a(d=0) over the profiles falls below a
 //! share of the ideal adhesion force F_a,max. On profiles of one spectrum κ determines e_el/γ, so
 //! each boundary in κ is also a boundary in e_el/γ.
@@ -18,9 +18,9 @@ use rand::{RngExt, SeedableRng};
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Number of random selections of profiles for the confidence interval.
+/// Number of random selections of profiles from which the confidence interval follows (bootstrap).
 const RESAMPLES: usize = 1000;
-/// Seed of the random selections, so that every run gives the same table.
+/// Seed of the random selections. It is constant, so that every run gives the same table.
 const RESAMPLING_SEED: u64 = 2012;
 
 /// Value of κ or e_el/γ in a study at which adhesion without a preload vanishes. It depends on the
@@ -88,11 +88,13 @@ pub struct Boundaries {
     pub found: Vec<AdhesionBoundary>,
 }
 
-/// F_a(d=0)/F_a,max over ascending κ or e_el/γ. Each value has the shares on the same profiles.
+/// Ascending κ or e_el/γ, each with F_a(d=0)/F_a,max or F_a(F=0)/F_a,max on each profile. All
+/// values have the same profiles.
 type Curve = Vec<(f64, Vec<f64>)>;
 
-/// Returns the shares on the profiles that all cells along an axis have. The first cell is `first`,
-/// at the first value of the axis. Cells without any share are left out.
+/// Returns the shares of F_a,max in the cells along an axis, on the profiles that have a share in
+/// all of these cells. `first` is the cell at the first value of the axis. Cells without any share
+/// are left out.
 fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve {
     let plan = study.plan();
     let step: u64 = plan.axes[along + 1..].iter().map(Axis::count).product();
@@ -120,7 +122,7 @@ fn curve(study: &Results, first: u64, along: usize, protocol: Quantity) -> Curve
     curve
 }
 
-/// Returns the index of the first axis of κ or e_el/γ, and which of both it is.
+/// Returns the index of the first axis of κ or e_el/γ, and the parameter on this axis.
 fn parameter_axis(plan: &Plan) -> Option<(usize, RoughnessParameter)> {
     for (index, axis) in plan.axes.iter().enumerate() {
         if let Some(parameter) = axis.target.parameter() {
@@ -131,7 +133,7 @@ fn parameter_axis(plan: &Plan) -> Option<(usize, RoughnessParameter)> {
 }
 
 /// Returns the function that converts κ or e_el/γ in a cell to the other parameter; `None` if the
-/// other one does not follow from the scene.
+/// scene does not determine the other parameter.
 fn conversion(
     plan: &Plan,
     cell: u64,
@@ -141,7 +143,7 @@ fn conversion(
     if from == to {
         return Some(Box::new(|value| value));
     }
-    // The plan has been checked with these values.
+    // The scene of the cell is valid, because the plan has been checked with these values.
     let known = governing(&*plan.scene_of(cell).ok()?)?;
     let energies = known.energy(to)? / known.energy(from)?;
     Some(Box::new(move |value| {
@@ -254,8 +256,8 @@ fn crossing(curve: &Curve, level: f64) -> Crossing {
     }
 }
 
-/// Returns the interval of 95 % of the crossing by resampling of the profiles; `None` if it reaches
-/// beyond the study.
+/// Returns the 95 % confidence interval of the crossing, found by random selections of the
+/// profiles; `None` if the interval extends beyond the studied range.
 fn resampled_interval(curve: &Curve, count: usize, level: f64) -> Option<(f64, f64)> {
     let mut random = ChaCha8Rng::seed_from_u64(RESAMPLING_SEED);
     let mut values = Vec::new();
@@ -272,8 +274,9 @@ fn resampled_interval(curve: &Curve, count: usize, level: f64) -> Option<(f64, f
     quantile(&values, 0.025).zip(quantile(&values, 0.975))
 }
 
-/// Returns the κ above which the mean over the chosen profiles stays below a share, by linear
-/// interpolation of the logarithm of the mean. Beyond an end of the curve, returns this end.
+/// Returns the κ above which the mean over the chosen profiles stays below a share. The logarithm
+/// of the mean is interpolated linearly between two values of κ. If the crossing lies beyond an end
+/// of the curve, this end is returned.
 fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let mean =
         |shares: &[f64]| chosen.iter().map(|&line| shares[line]).sum::<f64>() / chosen.len() as f64;
@@ -291,7 +294,7 @@ fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
     let Some(&(next, below)) = means.get(last + 1) else {
         return (kappa, Ordering::Greater);
     };
-    // A mean of zero has no logarithm.
+    // A mean of zero has no logarithm, so the mean itself is interpolated.
     let share = if below > 0.0 {
         (above / level).ln() / (above / below).ln()
     } else {
@@ -304,7 +307,7 @@ fn crossing_of(curve: &Curve, chosen: &[usize], level: f64) -> (f64, Ordering) {
 mod tests {
     use super::*;
 
-    /// Shares of profiles that fall as exp(−κ/c).
+    /// Returns for each κ the shares exp(−rate κ) of profiles with different rates.
     fn falling(rates: &[f64]) -> Vec<(f64, Vec<f64>)> {
         let kappas = (0..40).map(|k| 0.25 * f64::from(k));
         kappas

@@ -1,34 +1,37 @@
-//! The number at which a quantity reaches a target, between two numbers on either side of it.
+//! Search for the number at which a quantity reaches a target, between two numbers at which it is
+//! on different sides of the target.
 
 use super::coordinates::Coordinates;
 use super::scan::Tried;
 use asperity_scene::RunError;
 use std::mem::replace;
 
-/// Relative distance between the ends of the interval with the sought number at which the search
-/// for this number ends.
+/// Relative distance between the ends of the interval that contains the sought number, at which the
+/// search ends.
 pub const WITHIN: f64 = 1e-9;
 
-/// Share of the searched range at which the search ends in any case: a number at zero has no digits
-/// of its own.
+/// Width of the interval, as a share of the searched range, at which the search ends in any case.
+/// It is needed for a sought number near zero, whose relative precision has no meaning.
 const LEAST: f64 = 1e-18;
 
-/// Target that a quantity passes, or on which it comes to rest from above.
+/// Way in which a quantity reaches a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passage {
     pub target: f64,
-    /// True if the quantity comes from above and then has exactly the target.
+    /// True if the quantity falls to exactly the target and stays there, false if it passes the
+    /// target.
     pub falls_onto: bool,
 }
 
 impl Passage {
-    /// Returns a number that is not negative on the side of the passage that belongs to the answer,
-    /// and negative on the other side. A number that the scene does not allow does not reach the
-    /// target.
+    /// Returns a number that is zero or positive on the side of the target that belongs to the
+    /// answer, and negative on the other side. If the scene does not allow the number, so that
+    /// `value` is NaN, the target is not reached.
     fn excess(self, value: f64) -> f64 {
         let excess = value - self.target;
         if self.falls_onto {
-            // Bisection, since the quantity is constant on the target.
+            // Only the sign is used, which leads to bisection, since the quantity is constant on
+            // the target.
             return if excess <= 0.0 { 1.0 } else { -1.0 };
         }
         if excess.is_nan() {
@@ -39,7 +42,7 @@ impl Passage {
     }
 }
 
-/// Point of a bracket: coordinate of a number, and the excess there.
+/// Point of a bracket: coordinate of a number, and value of [`Passage::excess`] there.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     place: f64,
@@ -47,9 +50,9 @@ struct Point {
 }
 
 /// Narrows a bracket by the method of Chandrupatla: inverse quadratic interpolation where the
-/// quantity is smooth enough, otherwise bisection. Returns the end that belongs to the answer,
-/// where the quantity is at least the target. Allowed numbers that are whole are bisected until no
-/// further one lies between the ends.
+/// quantity is smooth enough, otherwise bisection. Returns the end of the last interval on the side
+/// of the target that belongs to the answer. If only whole numbers are allowed, the interval is
+/// bisected until none lies between its ends.
 pub(super) fn passage(
     coordinates: &Coordinates,
     passage: Passage,
@@ -70,13 +73,15 @@ pub(super) fn passage(
         let least = coordinates
             .distance(WITHIN, [last.place, other.place])
             .max(floor);
-        // Not closer to an end than the precision.
+        // The next point keeps a distance from both ends, so that the interval becomes narrower on
+        // both sides.
         let margin = (0.5 * least / width).min(0.5);
         let place = last.place + share.clamp(margin, 1.0 - margin) * (other.place - last.place);
         if width <= least || place == last.place || place == other.place {
             let end = if last.excess >= 0.0 { last } else { other };
             let number = coordinates.number(end.place);
-            // The ends themselves have no rounding of the coordinates.
+            // The ends were given as numbers, which have no rounding error of the conversion from
+            // coordinates.
             let known = ends
                 .iter()
                 .find(|tried| coordinates.coordinate(tried.number) == end.place);
@@ -97,8 +102,8 @@ pub(super) fn passage(
     }
 }
 
-/// Returns the share of the way from `last` to `other` at which an inverse quadratic interpolation
-/// has no excess, or a half where the three points do not suit one.
+/// Returns the next point as a share of the way from `last` to `other`. It is where an inverse
+/// quadratic interpolation has no excess, or the middle if the three points are not suitable.
 fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     let place_share = (last.place - other.place) / (before.place - other.place);
     let excess_share = (last.excess - other.excess) / (before.excess - other.excess);
@@ -115,7 +120,7 @@ fn interpolated(last: Point, other: Point, before: Point) -> f64 {
     if share.is_nan() { 0.5 } else { share }
 }
 
-/// Bisects whole numbers.
+/// Bisects an interval in which only some numbers are allowed.
 fn between_whole(
     coordinates: &Coordinates,
     passage: Passage,
@@ -141,8 +146,8 @@ mod tests {
     use crate::coordinates::Allowed;
     use asperity_data::AxisScale;
 
-    /// Searches where a function that rises reaches a target, and returns the number with the count
-    /// of calls.
+    /// Searches the number at which an increasing function reaches a target. Returns the number and
+    /// the count of calls.
     fn searched(
         coordinates: &Coordinates,
         ends: [f64; 2],
@@ -171,7 +176,8 @@ mod tests {
         (number, calls)
     }
 
-    /// Curves and steps over many decades, from zero and from above zero.
+    /// The functions are smooth curves and steps over many decades. The ranges begin at zero and
+    /// above zero.
     #[test]
     fn numbers_have_the_stated_precision() {
         let functions: [(&dyn Fn(f64) -> f64, f64); 6] = [
@@ -183,7 +189,7 @@ mod tests {
             (&|number| number.powf(0.1), 0.5_f64.powi(10)),
             (&|number| if number < 3.3e-8 { 0.0 } else { 1.0 }, 3.3e-8),
             (&|number| number.powi(9), 0.5_f64.powf(1.0 / 9.0)),
-            // Nearly straight up to the target, which lies far below the other end.
+            // This function is nearly vertical up to the target and nearly constant above it.
             (&|number| (number / 2.7e-7).min(1.0) + number / 1e6, 1.35e-7),
         ];
         for (function, exact) in functions {

@@ -1,5 +1,5 @@
-//! Errors of an adhesion force by their sources: grid, sample of random profiles, measured surface,
-//! model.
+//! Errors of an adhesion force, one for each source: grid, sample of random profiles, measured
+//! surface, and model.
 
 use super::ensemble::Ensemble;
 use super::quantity::Quantity;
@@ -69,8 +69,8 @@ impl Budget {
         })
     }
 
-    /// Returns these errors with the error [`Budget::model`], which may be unknown. An error of 0
-    /// is never the largest.
+    /// Returns these errors with [`Budget::model`] set, which may be unknown. An error of 0 is
+    /// never the largest.
     pub fn with_model(self, model: Option<f64>) -> Budget {
         let others = [self.grid, self.sample, self.surface]
             .into_iter()
@@ -89,12 +89,12 @@ impl Budget {
     }
 }
 
-/// Returns an error that is a number; `None` for one that is unknown or too large for a number.
+/// Returns an error if it is a finite number, otherwise `None`.
 fn finite(error: Option<f64>) -> Option<f64> {
     error.filter(|error| error.is_finite())
 }
 
-/// Returns the name of the largest known error, of equal ones the last.
+/// Returns the name of the largest known error. If two errors are equal, the last one counts.
 fn largest_source(errors: [(&'static str, Option<f64>); 3]) -> Option<&'static str> {
     let mut largest = None;
     let mut most = f64::NEG_INFINITY;
@@ -151,7 +151,8 @@ mod tests {
         let all = ensemble.statistics(Quantity::AdhesionForce).unwrap();
         let median = all.quartiles[1];
         let sample = budget(0.01, Some(&ensemble), Some(1e-3 * median));
-        // About half of the distance of the quartiles.
+        // With this number of profiles the error of the median is about half the distance of the
+        // quartiles.
         let quartiles = 0.5 * (all.quartiles[2] - all.quartiles[0]) / median;
         assert!(
             (sample.sample.unwrap() / quartiles - 1.0).abs() < 0.2,

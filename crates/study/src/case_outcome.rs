@@ -1,4 +1,4 @@
-//! The outcome of one loading on one profile, from which all recorded quantities follow.
+//! The outcome of one loading on one profile, from which all recorded quantities are read.
 
 use asperity_contact::{
     Branch, ClosedForm, CurvePoint, Figures, History, LegRecord, Move, Profile, Reversal,
@@ -6,19 +6,20 @@ use asperity_contact::{
 use asperity_data::Warning;
 use asperity_scene::{Governing, Regime, Scene};
 
-/// Outcome of one loading on one profile. A figure that it does not have is `None`.
+/// Outcome of one loading on one profile. A result that the loading does not have is `None`.
 pub(super) struct CaseOutcome<'o> {
     /// Governing parameters.
     pub governing: Governing,
     /// Properties of the profile that are recorded on request.
     pub profile: ProfileRecord,
-    /// Scene of the case, whose own loading is ignored.
+    /// Scene of the case. Its field `loading` is ignored, because a preload may replace it.
     pub scene: &'o Scene,
-    /// F_a(d=0), N.
+    /// Adhesion force turned at first touch, F_a(d=0), N.
     pub first_touch: Option<f64>,
-    /// F_a(F=0), N.
+    /// Adhesion force turned at zero force, F_a(F=0), N.
     pub zero_force: Option<f64>,
-    /// F_smooth after the preload, N, if a regime is recorded.
+    /// Adhesion force F_smooth in N of the smooth body after the same preload. It is computed only
+    /// if a regime is recorded.
     pub smooth: Option<f64>,
     /// Outcome of the loading.
     pub loading: LoadingOutcome,
@@ -38,7 +39,7 @@ pub(super) struct LoadingOutcome {
 }
 
 impl LoadingOutcome {
-    /// Collects the outcome of a loading of a profile with these stages.
+    /// Collects the outcome of a loading on a profile from the records of its stages.
     pub fn of_legs(legs: Vec<LegRecord>, profile: &Profile) -> Self {
         let lengths = legs
             .iter()
@@ -59,8 +60,8 @@ impl LoadingOutcome {
         }
     }
 
-    /// Collects the outcome of a loading of a profile from separation to `leg`, the turning point
-    /// of `reversal`, and back to separation.
+    /// Collects the outcome of a loading on a profile from separation to the end of the move `leg`,
+    /// where `reversal` turns, and back to separation.
     pub fn of_reversal(leg: Move, reversal: &Reversal, profile: &Profile) -> Self {
         LoadingOutcome {
             figures: Figures::of_reversal(leg, reversal),
@@ -92,8 +93,8 @@ impl ProfileRecord {
     pub fn of_gaps(gaps: &[f64], deepest: f64) -> Self {
         let count = gaps.len() as f64;
         let mean = gaps.iter().sum::<f64>() / count;
-        // In units of the deepest gap, or of the rms height: powers of heights could leave the
-        // range of numbers.
+        // Heights are divided by the largest gap, and later by the rms height, because powers of
+        // heights in m could be too small for a number.
         let squares = gaps.iter().map(|gap| ((gap - mean) / deepest).powi(2));
         let square = squares.sum::<f64>() / count;
         let rms = if deepest > 0.0 {
@@ -147,7 +148,7 @@ impl CaseOutcome<'_> {
             .map(|longest| longest / self.scene.length)
     }
 
-    /// Tabor number.
+    /// Returns the Tabor number.
     pub fn tabor_number(&self) -> Option<f64> {
         self.governing.tabor_number(self.scene)
     }
@@ -167,7 +168,7 @@ mod tests {
 
     #[test]
     fn shapes_of_known_heights() {
-        // A sine: ⟨sin⁴⟩ = 3/8, ⟨sin²⟩ = 1/2.
+        // For a sine ⟨sin⁴⟩ = 3/8 and ⟨sin²⟩ = 1/2, so the excess kurtosis is −3/2.
         let sine =
             (0..1000).map(|k| 3e-9 * (std::f64::consts::TAU * f64::from(k) / 1000.0).sin() + 4e-9);
         let of =
@@ -177,7 +178,7 @@ mod tests {
             skewness.abs() < 1e-12 && (kurtosis + 1.5).abs() < 1e-12,
             "{skewness} {kurtosis}"
         );
-        // One height of four is far off: deviations −1, −1, −1, 3 from the mean.
+        // One of four heights is different. The deviations from the mean are −1, −1, −1 and 3.
         let one_high = of(&[4.0, 4.0, 4.0, 0.0]);
         let (skewness, kurtosis) = one_high.shape.unwrap();
         assert!((skewness - 6.0 / 3.0_f64.powf(1.5)).abs() < 1e-12);
@@ -186,8 +187,8 @@ mod tests {
         assert_eq!((of(&[2.0; 5]).shape, of(&[]).shape), (None, None));
     }
 
-    /// Rough, smooth and nonadhesive bodies, with one and two works of adhesion, with both edge
-    /// models.
+    /// The cases are rough, smooth and nonadhesive bodies, with one and two works of adhesion, and
+    /// with both rules for the edges of patches.
     #[test]
     fn the_outcome_of_a_reversal_is_that_of_a_run() {
         for name in [

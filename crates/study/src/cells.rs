@@ -1,37 +1,40 @@
 //! Order and division of the computation of a plan.
 //!
-//! A *cell* is one combination of values on the axes. A *streak* is one loading with all cells that
-//! differ only in the preload. A *unit* is computed by one thread. It has streaks on one random
-//! profile with the same roughness, so that the profile and its tree are made once.
+//! A *cell* is one combination of values on the axes. A *streak* consists of all cells that differ
+//! only in the preload, and is computed with a single loading. A *unit* consists of streaks on one
+//! random profile with the same roughness. It is computed by one thread, so that the roughness of
+//! the profile is made only once.
 
 use super::axis::{Axis, Shapes};
 use super::plan::Plan;
 use std::ops::Range;
 
-/// Largest number of units for which the streaks of one profile are divided into several units.
+/// If the plan has fewer units than this number, the streaks of one profile are divided into
+/// several units, to use all threads.
 const ENOUGH_UNITS: u64 = 256;
-/// Smallest number of streaks in a unit of a divided profile. With fewer, making the profile would
-/// cost more than the streaks.
+/// Smallest number of streaks in a unit of a divided profile. With fewer streaks, making the
+/// profile would take longer than computing the streaks.
 const LEAST_STREAKS: u64 = 16;
 
 /// Numbering of the streaks and units of a plan.
 pub(super) struct Cells<'p> {
     plan: &'p Plan,
-    /// Indices of the axes without preloads, sorted by [`Shapes`].
+    /// Indices of the axes except preloads, sorted by [`Shapes`], so that the first axes change the
+    /// profile.
     order: Vec<usize>,
     /// Number of streaks on one profile with the same roughness.
     steps: u64,
     preloads: u64,
-    /// Number of streaks of one unit, and number of units of one profile.
+    /// Number of streaks in one unit. The next field is the number of units of one profile.
     chunk: u64,
     chunks: u64,
 }
 
-/// One loading on one profile with all its preloads.
+/// All cells of a plan that differ only in the preload, on one profile, computed with one loading.
 pub(super) struct Streak {
     /// Cells of the streak, one for each preload.
     pub cells: Range<u64>,
-    /// Index of the profile, from 0.
+    /// Index of the profile, counted from 0.
     pub line: u64,
 }
 
@@ -66,8 +69,8 @@ impl<'p> Cells<'p> {
         self.plan.records_in_all() / self.preloads / self.steps * self.chunks
     }
 
-    /// Returns the streaks of a unit in the most efficient order. Units with the same spectrum are
-    /// consecutive.
+    /// Returns the streaks of a unit, ordered so that as little as possible of the profile is made
+    /// anew. Units with the same spectrum are consecutive.
     pub fn streaks(&self, unit: u64) -> impl Iterator<Item = Streak> + use<'_> {
         let start = unit % self.chunks * self.chunk;
         let group_and_line = unit / self.chunks;

@@ -6,7 +6,7 @@ use super::statistics::Statistics;
 use asperity_data::{mean, student_quantile};
 use serde::Serialize;
 
-/// Rounding of a number of degrees of freedom.
+/// Largest rounding error of a number of degrees of freedom.
 const ROUNDING: f64 = 1e-9;
 
 /// Comparison of one quantity between random profiles and random squares in three dimensions.
@@ -33,7 +33,7 @@ impl Compared {
     }
 }
 
-/// Values of one quantity.
+/// Values of one quantity on profiles and squares.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Values {
     /// Value of each random profile.
@@ -74,9 +74,9 @@ impl Values {
     }
 }
 
-/// Returns half the width of the 95 % confidence interval of the ratio of two means. The number of
-/// degrees of freedom of Student's t follows from the relative errors of both means by the rule of
-/// Welch and Satterthwaite.
+/// Returns the half-width of the 95 % confidence interval of the ratio of two means. The number of
+/// degrees of freedom of Student's t follows from the relative standard errors of both means by the
+/// rule of Welch and Satterthwaite.
 fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     let line_error = line.spread?.standard_error / line.mean;
     let square_error = square.spread?.standard_error / square.mean;
@@ -85,7 +85,7 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     if error == 0.0 {
         return Some(0.0);
     }
-    // The shares of the variance, so that no power of a small error underflows.
+    // Squares of the shares are used, because powers of a small error could underflow.
     let line_share = (line_error / error).powi(2);
     let square_share = (square_error / error).powi(2);
     let freedom = (line_share.powi(2) / (line.count - 1) as f64
@@ -96,10 +96,10 @@ fn error_of_ratio(line: &Statistics, square: &Statistics) -> Option<f64> {
     Some(quantile * ratio * widened_error)
 }
 
-/// Returns the relative standard error of the mean over the squares. Few values of a skewed
-/// quantity, such as F_a(d=0), often miss its largest values, and then scatter too little. The
-/// squares therefore count as scattering at least as much as the profiles, of which there are many,
-/// relative to their means.
+/// Returns the relative standard error of the mean over the squares. For a skewed quantity, such as
+/// F_a(d=0), few squares often miss the rare large values, and their scatter is then too small.
+/// There are many profiles. So the relative scatter of the squares counts as at least that of the
+/// profiles.
 fn widened_square_error(line: &Statistics, square: &Statistics) -> Option<f64> {
     let of_line = line.spread?.standard_deviation / line.mean;
     let of_square = square.spread?.standard_deviation / square.mean;
@@ -123,8 +123,8 @@ mod tests {
     fn a_ratio_has_its_errors() {
         let found = compared(&[2.0; 40], &[1.0, 2.0, 3.0], &[1.5, 2.0, 3.1]).unwrap();
         assert_eq!(found.ratio, 1.0);
-        // The lines are known exactly: two degrees of freedom, and the standard error 1/√3 of a
-        // mean of 2.
+        // The mean over the lines has no error. The squares have two degrees of freedom, and their
+        // mean of 2 has the standard error 1/√3.
         let expected = 4.302_652_730 / 3.0_f64.sqrt() / 2.0;
         assert!(
             (found.error.unwrap() / expected - 1.0).abs() < 1e-9,
@@ -132,7 +132,7 @@ mod tests {
         );
         assert!((found.grid.unwrap() - 0.1).abs() < 1e-12, "{found:?}");
         assert!(found.difference() == 0.0);
-        // Both means have the same relative error: twice the degrees of freedom of one.
+        // Both means have the same relative error, which doubles the number of degrees of freedom.
         let both = compared(&[10.0, 20.0, 30.0], &[1.0, 2.0, 3.0], &[]).unwrap();
         let expected = 10.0 * 2.776_445_105 * (2.0_f64 / 3.0).sqrt() / 2.0;
         assert!(
@@ -142,15 +142,16 @@ mod tests {
         assert_eq!(both.grid, None);
     }
 
-    /// Squares that scatter less than the lines by chance do not make the interval narrow.
+    /// If the squares scatter less than the lines by chance, the interval does not become narrow.
     #[test]
     fn the_scatter_of_the_lines_counts_for_few_squares() {
         let lines: Vec<f64> = (0..100).map(|line| 1.0 + f64::from(line % 2)).collect();
         let wide = compared(&lines, &[2.0, 2.01], &[]).unwrap().error.unwrap();
-        // The relative standard deviation of the lines is 1/3. That of their mean is small.
+        // The relative standard deviation of the lines is 1/3. The standard error of their mean is
+        // small.
         let of_squares = 1.0 / 3.0 / 2.0_f64.sqrt();
         assert!(wide > 1.9 * 0.75 * of_squares, "{wide}");
-        // Squares that scatter more than the lines keep their scatter.
+        // If the squares scatter more than the lines, their own scatter counts.
         let own = compared(&lines, &[1.0, 9.0], &[]).unwrap();
         let narrow = compared(&[1.5; 100], &[1.0, 9.0], &[]).unwrap();
         assert!(

@@ -1,4 +1,4 @@
-//! The computation of a comparison: profiles first, then squares, both pressed alike.
+//! Computation of a comparison: first the profiles, then the squares, with the same loading.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -24,14 +24,13 @@ const SHARES: [f64; 6] = [0.01, 0.03, 0.1, 0.3, 0.6, 1.0];
 const STEPS: f64 = 40.0;
 /// Number of events while the profiles are computed.
 const EVENTS_OF_PROFILES: u64 = 100;
-/// Share of the length that counts as rounding.
+/// Share of a length or of a number of cells below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 impl Reference {
     /// Compares the contact of a checked scene on random profiles with its contact on random
-    /// squares in three dimensions. `simulation` knows the folder of the measured files of the
-    /// scene. `control` reports each event. Only the computing times depend on the number of
-    /// threads.
+    /// squares in three dimensions. `simulation` has the folder of the measured files of the scene.
+    /// `control` receives each event. Only the computing times depend on the number of threads.
     ///
     /// # Errors
     /// Returns an error if zero threads are requested, if the scene has no body in three dimensions
@@ -73,7 +72,7 @@ impl Reference {
     }
 }
 
-/// Comparison of profiles with squares, before it is computed.
+/// Data of a comparison of profiles with squares that is still to be computed.
 struct Comparison<'a> {
     resolved: Resolved,
     options: ReferenceOptions,
@@ -84,18 +83,18 @@ struct Comparison<'a> {
     stop: &'a Stop<'a>,
 }
 
-/// Loading of the scene, on the profile with its own seed.
+/// Loading of the scene, computed on the profile with the seed of the scene.
 struct OwnLoading {
     turn: Turn,
     /// Preload, N.
     preload: f64,
     /// Distance between the indentations of preload and pull-off, m.
     depth: f64,
-    /// True if the contact reaches the ends of the profile.
+    /// True if the contact at the turning point extends over the whole profile.
     is_full: bool,
 }
 
-/// Figures of the loop of a random profile.
+/// Results of the loop of a random profile.
 struct LineLoop {
     preload: f64,
     /// Distance between the indentations of preload and pull-off, m.
@@ -105,7 +104,7 @@ struct LineLoop {
     dissipated_energy: Option<f64>,
 }
 
-/// State of a profile without adhesion at one force.
+/// State of a profile at one force, computed without adhesion.
 #[derive(Clone, Copy, Default)]
 struct PressedLine {
     indentation: f64,
@@ -116,17 +115,17 @@ struct PressedLine {
 /// Results of the profiles.
 struct Lines {
     loops: Vec<LineLoop>,
-    /// States of each profile at the forces of the comparison.
+    /// State of each profile at each force of the comparison without adhesion.
     pressed: Vec<Vec<PressedLine>>,
     loading: SquareLoading,
     preload: f64,
 }
 
-/// Result of a random square, and of the coarser square that is compared with it.
+/// Result of a random square, and of the same square on a coarser grid, if it is computed.
 struct SquareResult {
     fine: Loads,
     coarse: Option<Loads>,
-    /// Computing time of the finer square, s.
+    /// Computing time of the square on the finer grid, s.
     seconds: f64,
 }
 
@@ -191,8 +190,8 @@ impl Comparison<'_> {
         ))
     }
 
-    /// Loads the profile with the seed of the scene as the scene says, and finds the last loop of
-    /// this loading.
+    /// Computes the loading of the scene on the profile with the seed of the scene, and finds the
+    /// last loop of this loading.
     fn own_loading(&self) -> Result<OwnLoading, StudyError> {
         let line = &self.resolved.line;
         let outcome = run(line, &mut self.resolved.simulation(), self.stop)?;
@@ -210,12 +209,12 @@ impl Comparison<'_> {
                 displacement,
                 stiffness,
             },
-            // Without an instrument its drive moves as the body does.
+            // Without an instrument the displacement of the drive is the indentation of the body.
             (Some(&Move::ToDisplacement(displacement)), None) => Turn::Indentation(displacement),
             _ => Turn::Force(preload),
         };
         let is_full = largest.contact_length >= line.length * (1.0 - ROUNDING);
-        // A force is reached up to rounding.
+        // The computed preload may differ from the stated force by rounding errors.
         let preload = if let Turn::Force(force) = turn {
             force
         } else {
@@ -229,8 +228,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the loads of a square for a preload in N, and a distance in m between preload and
-    /// pull-off.
+    /// Returns the loads of a square. `preload` is in N, and `depth` is the distance in m between
+    /// the indentations of preload and pull-off.
     fn square_loading(&self, turn: Turn, preload: f64, depth: f64) -> SquareLoading {
         SquareLoading {
             forces: SHARES.map(|share| share * preload).to_vec(),
@@ -249,7 +248,8 @@ impl Comparison<'_> {
         Ok(time)
     }
 
-    /// Computes the profiles: their loops first, whose mean preload and depth the squares need.
+    /// Computes the profiles. Their loops come first, because the loads of the squares follow from
+    /// the mean preload and the mean depth of the loops.
     fn lines(
         &self,
         own: &OwnLoading,
@@ -284,7 +284,7 @@ impl Comparison<'_> {
 
         let bare_scene = self.resolved.line.with(|scene| {
             scene.adhesion = None;
-            // Stages end exactly at their forces.
+            // A stage `ToForce` ends exactly at its force, so no interpolation is needed.
             scene.loading = loading
                 .forces
                 .iter()
@@ -305,8 +305,9 @@ impl Comparison<'_> {
         })
     }
 
-    /// Runs a scene on all profiles, and returns what `figures` takes from each outcome. `passes`
-    /// is the number of times that this is done, for the progress.
+    /// Computes a scene on all profiles, and returns the result of `figures` for each outcome.
+    /// `passes` is the number of times that this function is called in the comparison, and is
+    /// needed to report the progress.
     fn each_line<F: Send>(
         &self,
         scene: &CheckedScene,
@@ -321,7 +322,7 @@ impl Comparison<'_> {
             move |line: u64| {
                 let scene = scene.with_seed(self.seed.wrapping_add(line));
                 let outcome = run(&scene, &mut simulation, self.stop)?;
-                // The receiver lives until all threads have ended.
+                // Sending cannot fail, because the receiver exists until all threads have ended.
                 let _ = sender.send(());
                 Ok(figures(outcome))
             }
@@ -339,7 +340,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Returns the adhesion force of each profile, or its indentation at the preload.
+    /// Returns the adhesion force of each profile in N, or its indentation in m at the preload if
+    /// the scene has no adhesion.
     fn headlines(&self, lines: &Lines) -> Vec<f64> {
         if self.is_adhesive() {
             lines
@@ -375,6 +377,8 @@ impl Comparison<'_> {
         })
     }
 
+    /// Computes square number `map`, and the same square with half as many cells along the side if
+    /// this grid is not too coarse. The difference of both shows the error of the grid.
     fn square(
         &self,
         loading: &SquareLoading,
@@ -415,6 +419,8 @@ impl Comparison<'_> {
         })
     }
 
+    /// Collects the comparison from the results of profiles and squares. It is an error if no
+    /// quantity can be compared because too few grid cells are in contact.
     fn gather(
         &self,
         own: &OwnLoading,
@@ -486,8 +492,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// Compares profiles and squares at the forces at which enough grid cells are in contact.
-    /// Returns the other forces, too.
+    /// Compares profiles and squares at the forces at which enough grid cells are in contact, and
+    /// returns the forces at which too few are in contact as well.
     fn compared_loading(
         &self,
         lines: &Lines,
@@ -503,7 +509,7 @@ impl Comparison<'_> {
                 .collect();
             let area = mean(&areas);
             let cells = area / cell;
-            // The area is a sum over cells.
+            // The area is a sum over cells, so the number of cells has rounding errors.
             if cells < Loaded::LEAST_CELLS * (1.0 - ROUNDING) {
                 left_out.push(LeftOut {
                     force,
@@ -535,8 +541,8 @@ impl Comparison<'_> {
         (loading, left_out)
     }
 
-    /// Returns the number of cells along the side with which enough cells would be in contact, if
-    /// now `cells` are.
+    /// Returns the number of grid cells along the side of a square with which enough cells would be
+    /// in contact, if `cells` are in contact now; `None` if the solver does not allow such a grid.
     fn finer_grid(&self, cells: f64) -> Option<usize> {
         let times = (Loaded::LEAST_CELLS / cells.max(1.0)).sqrt();
         let finer = ((self.options.cells as f64 * times).ceil() as usize).next_power_of_two();
@@ -599,19 +605,21 @@ fn run(
         .map_err(of_scene)
 }
 
-/// Returns the distance between the indentations of preload and pull-off in m.
+/// Returns the distance in m between the indentations of preload and pull-off.
 fn depth(outcome: &Outcome) -> f64 {
     let deepest = outcome.figures.preload_indentation.unwrap_or(0.0);
     let pull_off = outcome.figures.pull_off_indentation.unwrap_or(0.0);
     (deepest - pull_off).abs()
 }
 
-/// Returns the states at the ends of the stages of a loading without adhesion.
+/// Returns the states at the ends of the stages of a loading without adhesion. `modulus` is E* in
+/// Pa.
 fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
     let mut states = Vec::with_capacity(outcome.history.legs.len());
     for leg in &outcome.history.legs {
         let end = leg.curve.last().copied().unwrap_or_default();
-        // Without adhesion the stiffness of the springs is E* times their length in contact.
+        // Each spring in contact has the stiffness E* Δx, so the stiffness of all is E* times the
+        // length in contact.
         let stiffness = modulus * end.contact_length;
         states.push(PressedLine {
             indentation: end.indentation,
@@ -621,7 +629,7 @@ fn pressed_line(outcome: &Outcome, modulus: f64) -> Vec<PressedLine> {
     states
 }
 
-/// Compares a figure of the loops with adhesion.
+/// Compares a result of the loops with adhesion.
 fn compared_loops(
     lines: impl Iterator<Item = Option<f64>>,
     squares: &[SquareResult],
@@ -643,7 +651,7 @@ fn compared_loops(
     values.compared()
 }
 
-/// Compares a figure of the contacts without adhesion.
+/// Compares a result of the contacts without adhesion.
 fn compared_pressings(
     lines: impl Iterator<Item = f64>,
     squares: &[SquareResult],
@@ -672,7 +680,8 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Returns the lines and squares of a rough square with other fields.
+    /// Returns the results of `lines` profiles and `maps` squares of a rough scene with changed
+    /// fields.
     fn population(fields: &[(&str, &str)], maps: u64, lines: u64) -> (Lines, Vec<SquareResult>) {
         let scene = concat!(
             env!("CARGO_MANIFEST_DIR"),
@@ -719,8 +728,8 @@ mod tests {
         squares: Vec<f64>,
     }
 
-    /// Returns the values of the quantities that a comparison states: those of the loops, if the
-    /// body adheres, and the indentation without adhesion at the preload.
+    /// Returns the values of the quantities that a comparison states: the results of the loop if
+    /// the body adheres, and the indentation at the preload without adhesion.
     fn populations(fields: &[(&str, &str)], maps: u64, count: u64) -> Vec<Population> {
         let (lines, squares) = population(fields, maps, count);
         let of_lines = |figure: fn(&LineLoop) -> Option<f64>| -> Vec<f64> {
@@ -762,8 +771,9 @@ mod tests {
     }
 
     impl Population {
-        /// Returns the share of intervals that hold the ratio of this population, in samples of
-        /// `count` squares and of 16 lines for each.
+        /// Returns the share of random samples whose confidence interval contains the ratio of the
+        /// means over the whole population. Each sample has `count` squares and 16 times as many
+        /// lines.
         fn held(&self, count: usize, random: &mut ChaCha8Rng) -> f64 {
             let truth = mean(&self.lines) / mean(&self.squares);
             let repeats = 2000;
@@ -782,8 +792,8 @@ mod tests {
         }
     }
 
-    /// Returns the least share of intervals that hold the ratio, over the quantities of some
-    /// spectra and 3, 6 and 12 squares.
+    /// Returns the smallest share of samples whose confidence interval contains the ratio, over all
+    /// quantities of some spectra and over samples of 3, 6 and 12 squares.
     fn least_held(spectra: &[&[(&str, &str)]], seed: u64) -> f64 {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut least = 1.0_f64;
@@ -801,8 +811,9 @@ mod tests {
         least
     }
 
-    /// The interval of a ratio holds the ratio of all squares and lines in at least 93 of 100
-    /// samples of a few of them. The rule that widens it was found with these two spectra.
+    /// In at least 93 of 100 samples with few squares, the confidence interval contains the ratio
+    /// over all lines and squares. The rule by which the interval is widened was found with these
+    /// two spectra.
     #[test]
     #[ignore = "computes 128 squares, minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio() {
@@ -824,8 +835,8 @@ mod tests {
         assert!(least >= 0.93, "{least}");
     }
 
-    /// The interval also holds the ratio for spectra with which the rule that widens it was not
-    /// found: with and without a roll-off, with and without adhesion.
+    /// The confidence interval is also right for spectra that were not used to find the rule by
+    /// which it is widened: with and without a roll-off, with and without adhesion.
     #[test]
     #[ignore = "computes 256 squares, minutes"]
     fn the_interval_of_a_ratio_holds_the_ratio_of_other_spectra() {

@@ -1,4 +1,4 @@
-//! Computation of a plan on all processor cores, and of a whole plan in memory. The results do not
+//! Computation of a plan on several threads, and of a whole plan in memory. The results do not
 //! depend on the number of threads.
 
 use super::cells::{Cells, Streak};
@@ -18,15 +18,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::Builder;
 
-/// Records of a streak that is computed.
+/// Records of a computed streak, a loading with all its preloads; see [`Streak`].
 pub(super) struct SolvedStreak {
     pub streak: Streak,
     pub records: Vec<Recorded>,
-    /// Premises that the records do not meet, with the numbers of their cells.
+    /// Premises that the records do not meet, each list with the number of its cell.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
-/// Streaks of a plan that are to be computed.
+/// Streaks of a plan that are still to be computed.
 pub(super) struct Streaks<'a> {
     pub cells: &'a Cells<'a>,
     /// Numbers of the units of the plan that are to be computed.
@@ -39,12 +39,12 @@ pub(super) struct Streaks<'a> {
 }
 
 impl Streaks<'_> {
-    /// Computes the missing streaks on this number of threads, until `stop` returns true after a
-    /// streak. `receive` takes each computed streak on the thread that computed it, and returns
-    /// false to end the computation.
+    /// Computes the missing streaks on `threads` threads. The computation ends when `stop` returns
+    /// true after a streak, or when `receive` returns false. `receive` is called with each computed
+    /// streak on the thread that computed it.
     ///
     /// # Errors
-    /// Too little memory for a record.
+    /// Returns an error if the memory does not suffice for a record.
     pub fn compute(
         &self,
         plan: &Plan,
@@ -127,12 +127,12 @@ pub fn compute(plan: &Plan, control: Control<'_>) -> Result<Results, StudyError>
     compute_on(plan, measured, control)
 }
 
-/// Computes a plan in memory as [`compute`] does, on a measured roughness that replaces the files
+/// Computes a plan in memory as [`compute`] does. The given measured roughness replaces the files
 /// that the scene names.
 ///
 /// # Errors
-/// Returns the same errors as [`compute`], and an error for an axis of an option of the files, such
-/// as `roughness.row`, which a measured roughness in memory does not have any more.
+/// Returns the same errors as [`compute`]. An axis of an option of the files, such as
+/// `roughness.row`, is an error too, because a measured roughness in memory has no such option.
 pub fn compute_with_measured(
     plan: &Plan,
     measured: Arc<MeasuredRoughness>,
@@ -157,7 +157,7 @@ fn check(plan: &Plan, control: &Control<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Computes a plan whose measured roughness is known, if it has one.
+/// Computes a plan. `measured` is the measured roughness of the plan, if it has one.
 fn compute_on(
     plan: &Plan,
     measured: Option<Arc<MeasuredRoughness>>,
@@ -176,7 +176,7 @@ fn compute_on(
     let mut results = Results::empty(plan.clone())?;
     let (sender, receiver) = channel();
     let work = move || {
-        // The receiver lives until all threads have ended.
+        // Sending fails only after the receiver has been dropped, which ends the computation.
         let send = move |solved| sender.send(solved).is_ok();
         streaks.compute(plan, threads, stop, &send)
     };
@@ -232,7 +232,8 @@ mod tests {
         .unwrap()
     }
 
-    /// Each record is made by a recorder of its own; one that cannot be computed has its reason.
+    /// Each record is that of a separate computation. A record that cannot be computed has its
+    /// reason.
     #[test]
     fn a_plan_in_memory_has_the_records_of_single_cells() {
         let plan = plan();

@@ -1,14 +1,14 @@
-//! Coordinates along a searched range, and the values that a number can have in it.
+//! Coordinates on which a range of numbers is searched, and the allowed numbers in the range.
 
 use super::axis::{Axis, Target};
 use asperity_data::AxisScale;
 use asperity_scene::Scene;
 use asperity_scene::fields::{Field, Range};
 
-/// Largest relative deviation of a quotient from a whole number that counts as rounding.
+/// Relative deviation from a whole number below which a quotient counts as this whole number.
 const ROUNDING: f64 = 1e-9;
 
-/// Values that a number of a scene can have so that each value is another contact.
+/// Values of a number of a scene that differ in their contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Allowed {
     /// Any value.
@@ -41,8 +41,8 @@ impl Allowed {
         }
     }
 
-    /// Returns the whole number that belongs to a value: the number of waves. `None` if any value
-    /// is allowed.
+    /// Returns the number of waves (or the whole number itself) that belongs to a value; `None` if
+    /// any value is allowed.
     pub fn count(self, number: f64) -> Option<f64> {
         match self {
             Allowed::Any => None,
@@ -52,7 +52,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the value to which a whole number belongs.
+    /// Returns the value that belongs to a whole number.
     fn of_count(self, count: f64) -> f64 {
         match self {
             Allowed::Any | Allowed::Whole => count,
@@ -61,7 +61,7 @@ impl Allowed {
         }
     }
 
-    /// Returns the nearest allowed value. A wave fits at least once.
+    /// Returns the nearest allowed value. At least one wave must fit on the length.
     pub fn nearest(self, number: f64) -> f64 {
         match (self, self.count(number)) {
             (_, None) => number,
@@ -70,9 +70,9 @@ impl Allowed {
         }
     }
 
-    /// Returns the allowed value nearest to `number` that is not the value nearest to `present`, on
-    /// the same side of it as `number`. Returns `None` if there is no such value, since a wave fits
-    /// at least once.
+    /// Returns the allowed value nearest to `number`, but not the allowed value nearest to
+    /// `present`. It lies on the same side of that value as `number`. `None` if there is no such
+    /// value, because at least one wave must fit on the length.
     pub fn nearest_other(self, present: f64, number: f64) -> Option<f64> {
         let (Some(from), Some(to)) = (self.count(present), self.count(number)) else {
             return Some(number);
@@ -111,28 +111,30 @@ impl Allowed {
     }
 }
 
-/// Rounds a count up, unless it exceeds a whole number by rounding alone.
+/// Rounds a count up. A count that is above a whole number only by a rounding error becomes this
+/// number.
 fn rounded_up(count: f64) -> f64 {
     (count * (1.0 - ROUNDING * count.signum())).ceil()
 }
 
-/// Rounds a count down, unless it is below a whole number by rounding alone.
+/// Rounds a count down. A count that is below a whole number only by a rounding error becomes this
+/// number.
 fn rounded_down(count: f64) -> f64 {
     (count * (1.0 + ROUNDING * count.signum())).floor()
 }
 
-/// How coordinates follow from numbers.
+/// Function that converts a number to a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Map {
-    /// The scale of an axis.
+    /// The linear or logarithmic scale of an axis.
     Scale(AxisScale),
-    /// Inverse hyperbolic sine of the number in this unit: linear near zero and logarithmic far
-    /// from it.
+    /// Inverse hyperbolic sine of the number divided by this unit. It is linear near zero, and
+    /// logarithmic far from zero on both sides.
     BothSides(f64),
 }
 
-/// Coordinates along a searched range. Numbers are spread evenly on them, and only allowed values
-/// are used.
+/// Coordinates on a searched range. The first numbers to be tried have equal distances in these
+/// coordinates. Only allowed numbers are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinates {
     map: Map,
@@ -142,8 +144,8 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// Creates coordinates on a scale. A range that begins at or below zero is linear. Returns
-    /// `None` if the range has no allowed value.
+    /// Creates coordinates on a scale. A range that begins at or below zero gets a linear scale.
+    /// Returns `None` if the range contains no allowed number.
     pub fn on(scale: AxisScale, range: [f64; 2], allowed: Allowed) -> Option<Coordinates> {
         let ends = Allowed::ends(range, allowed)?;
         let scale = if ends[0] > 0.0 {
@@ -158,8 +160,8 @@ impl Coordinates {
         })
     }
 
-    /// Creates coordinates of numbers of either sign which are linear up to `unit` and logarithmic
-    /// beyond.
+    /// Creates coordinates for numbers of either sign. They are linear for numbers smaller than
+    /// `unit` and logarithmic for larger numbers.
     pub fn on_both_sides(unit: f64, range: [f64; 2]) -> Coordinates {
         Coordinates {
             map: Map::BothSides(unit),
@@ -187,28 +189,29 @@ impl Coordinates {
             .clamp(self.ends[0], self.ends[1])
     }
 
-    /// Returns the allowed number in the middle between two numbers; `None` if there is no further
-    /// number between them.
+    /// Returns the allowed number in the middle between two numbers; `None` if no allowed number
+    /// lies between them.
     pub fn middle(&self, ends: [f64; 2]) -> Option<f64> {
         let [from, to] = ends;
         let middle = self.number(f64::midpoint(self.coordinate(from), self.coordinate(to)));
         if from < middle && middle < to {
             return Some(middle);
         }
-        // Rounding may return an end although a whole number lies between them.
+        // Rounding to an allowed number may return one of the ends although a whole number lies
+        // between them.
         let first = self.allowed.count(from)?.round();
         let last = self.allowed.count(to)?.round();
         let steps = last - first;
         (steps.abs() >= 2.0).then(|| self.allowed.of_count(first + steps.signum()))
     }
 
-    /// Returns the length of the range in coordinates.
+    /// Returns the difference of the coordinates of the ends of the range.
     pub fn length(&self) -> f64 {
         self.coordinate(self.ends[1]) - self.coordinate(self.ends[0])
     }
 
-    /// Returns the distance in coordinates of two numbers with the relative difference `share`. The
-    /// numbers have about the coordinate in `places` that is farther from zero.
+    /// Returns the difference in coordinates of two numbers with the relative difference `share`.
+    /// The numbers are near one of the coordinates `places`, the one farther from zero.
     pub fn distance(&self, share: f64, places: [f64; 2]) -> f64 {
         let place = places[0].abs().max(places[1].abs());
         match self.map {
@@ -218,12 +221,12 @@ impl Coordinates {
         }
     }
 
-    /// Returns true if only some numbers are allowed, such as whole ones.
+    /// Returns true if only some numbers are allowed, such as whole numbers.
     pub fn is_discrete(&self) -> bool {
         self.allowed != Allowed::Any
     }
 
-    /// Returns all allowed numbers between two others, in ascending order; `None` if any number is
+    /// Returns all allowed numbers between two numbers in ascending order; `None` if any number is
     /// allowed or if there are more than `most`.
     pub fn all_between(&self, ends: [f64; 2], most: usize) -> Option<Vec<f64>> {
         let [from, to] = ends;
@@ -242,8 +245,8 @@ impl Coordinates {
         Some(all)
     }
 
-    /// Returns the allowed numbers spread over the range in `intervals` intervals, or all of them
-    /// if these are at most `most`. The second value is true if these are all allowed numbers.
+    /// Returns the numbers between `intervals` nearly equal intervals of the range. If the range
+    /// has at most `most` allowed numbers, returns all of them, and the second value is true.
     pub fn spread(&self, intervals: usize, most: usize) -> (Vec<f64>, bool) {
         if let Some(all) = self.all_between(self.ends, most) {
             return (all, true);

@@ -1,4 +1,4 @@
-//! One criterion of adhesion: its number, its threshold, and whether it holds.
+//! One criterion of adhesion: its number, its threshold, and its verdict.
 
 use asperity_data::{Warning, format_quantity, format_rounded};
 use serde::Serialize;
@@ -32,7 +32,7 @@ impl Criterion {
     /// rule of Hess for the largest stretch of a spring applies.
     pub const LEAST_TABOR_NUMBER: f64 = Warning::LEAST_TABOR_NUMBER;
 
-    /// Makes a criterion without a number.
+    /// Makes a criterion whose number is not known yet.
     pub(super) const fn new(
         name: &'static str,
         symbol: &'static str,
@@ -50,7 +50,7 @@ impl Criterion {
         }
     }
 
-    /// Returns the reason after a sign of punctuation; empty without a reason.
+    /// Returns the reason with `sign` in front, a mark of punctuation; empty without a reason.
     fn reason_after(&self, sign: &str) -> String {
         match &self.reason {
             Some(reason) => format!("{sign} {reason}"),
@@ -82,8 +82,9 @@ impl Criterion {
         format!("{number}, {side} {threshold}: {verdict}{reason}")
     }
 
-    /// Returns a criterion by which bodies adhere below the threshold, unless its conditions are
-    /// violated.
+    /// Returns the criterion with its number and its verdict: the bodies adhere if the number is
+    /// below the threshold. If there is a refusal, because a condition of the theory is not met,
+    /// there is no verdict.
     pub(super) fn judge(self, value: f64, refusals: &[Option<String>]) -> Criterion {
         let refusals: Vec<&str> = refusals.iter().flatten().map(String::as_str).collect();
         let value = Some(value).filter(|value| value.is_finite());
@@ -101,12 +102,12 @@ impl Criterion {
     }
 }
 
-/// Writes a number of a reason with two digits.
+/// Returns a number as text with two digits.
 pub(super) fn number(value: f64) -> String {
     format_rounded(value, 2, "1")
 }
 
-/// Returns the reason why a theory of short-ranged attraction does not hold.
+/// Returns the reason why a theory of short-ranged attraction does not apply; `None` if it applies.
 pub(super) fn long_ranged(tabor_number: Option<f64>) -> Option<String> {
     let below = tabor_number.filter(|number| *number < Criterion::LEAST_TABOR_NUMBER)?;
     Some(format!(

@@ -1,5 +1,5 @@
-//! Answers of [`find`](crate::find::find) against dense scans: about 400 runs over the searched
-//! range of a random question.
+//! Comparison of the answers of [`find`](crate::find::find) with dense scans: about 400 runs over
+//! the searched range of each random question.
 
 use crate::find::Found;
 use crate::quantity::Quantity;
@@ -13,8 +13,8 @@ use rand::{RngExt, SeedableRng};
 
 /// Number of runs of a dense scan.
 const RUNS: usize = 400;
-/// Relative distance from a crossing on either side at which the quantity must be on either side of
-/// the target.
+/// Relative distance from a crossing, below and above, at which the quantity must be on different
+/// sides of the target.
 const BESIDE: f64 = 4e-9;
 
 const SCENES: [&str; 9] = [
@@ -64,7 +64,7 @@ struct Case {
 }
 
 impl Case {
-    /// Draws a question; `None` if the scene does not allow it.
+    /// Draws a random question; `None` if the scene does not allow it.
     fn random(random: &mut ChaCha8Rng) -> Option<Case> {
         let path = PATHS[random.random_range(0..PATHS.len())];
         let quantity = QUANTITIES[random.random_range(0..QUANTITIES.len())];
@@ -104,7 +104,8 @@ impl Case {
         })
     }
 
-    /// Returns the scene with another number; `None` if the scene does not allow the number.
+    /// Returns the scene with another value of the number; `None` if the scene does not allow the
+    /// value.
     fn scene(&self, number: f64) -> Option<CheckedScene> {
         if self.path == "preload" {
             let loading = vec![Move::ToForce(number), Move::ToSeparation];
@@ -122,7 +123,7 @@ impl Case {
             .map(|document| document.scene().clone())
     }
 
-    /// Returns the quantity by a run of its own; NaN if it has no value.
+    /// Returns the quantity, computed by a separate run; NaN if the quantity has no value.
     fn value(&self, number: f64) -> f64 {
         let Some(scene) = self.scene(number) else {
             return f64::NAN;
@@ -164,20 +165,21 @@ impl Case {
     }
 }
 
-/// How an answer compares with a dense scan.
+/// Numbers of answers that agree and disagree with dense scans.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     questions: usize,
-    /// Answers that follow from a proof, and those that state that crossings may be missed.
+    /// Number of answers that follow from a proof. The next field counts the answers that state
+    /// that crossings may be missed.
     proven: usize,
     may_miss: usize,
-    /// Questions whose dense scan crosses the target.
+    /// Number of questions for which the dense scan crosses the target.
     crossed: usize,
-    /// First crossings that the answer misses and states that it may.
+    /// Number of missed first crossings of answers that state that crossings may be missed.
     missed_as_stated: usize,
-    /// First crossings that the answer misses silently.
+    /// Number of missed first crossings of answers that do not state this.
     missed: usize,
-    /// Given crossings that are none.
+    /// Number of given crossings at which the quantity does not cross the target.
     wrong: usize,
 }
 
@@ -192,7 +194,7 @@ impl Counts {
         self.questions += 1;
         self.proven += usize::from(answer.is_proven);
         self.may_miss += usize::from(answer.may_miss);
-        // A crossing lies at or before this number.
+        // The quantity is equal to the target at this number, so a crossing lies at or before it.
         let on_target = numbers
             .iter()
             .zip(&values)
@@ -209,7 +211,8 @@ impl Counts {
         }
         self.crossed += usize::from(first.is_some());
         let given = found.values()[0];
-        // A target that is reached at the lower end has this end as its answer.
+        // If the quantity reaches the target already at the lower end of the range, this end is the
+        // answer.
         let is_missed =
             first.is_some_and(|first| given.is_none_or(|given| given > first * (1.0 + 1e-9)));
         if is_missed && answer.may_miss {
@@ -232,8 +235,8 @@ impl Counts {
         }
     }
 
-    /// Returns true if runs beside each given crossing are on either side of the target, or one of
-    /// them on it.
+    /// Returns true if separate runs just below and above each given crossing are on different
+    /// sides of the target, or one of them equals the target.
     fn are_crossings(&self, case: &Case, question: &Question, answer: &Answer) -> bool {
         let length = case.document.scene().length;
         answer.crossings.iter().all(|&crossing| {
@@ -255,7 +258,8 @@ impl Counts {
             };
             let values = beside.map(|number| case.value(number));
             let is_reached = values[1] >= question.target * (1.0 - 1e-9 * question.target.signum());
-            // Where the quantity hardly changes, its rounding decides.
+            // Where the quantity hardly changes, rounding errors decide on which side of the target
+            // it is.
             let is_on_target =
                 (values[1] / question.target - 1.0).abs() < 1e-11 || values[1] == question.target;
             let has_other = [values[0], values[2]]
@@ -271,7 +275,7 @@ impl Counts {
     }
 }
 
-/// Asks a number of random questions, and compares the answers with dense scans.
+/// Asks a number of random questions, and compares each answer with a dense scan.
 fn compared(seed: u64, questions: usize) -> Counts {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut counts = Counts::default();
@@ -293,7 +297,7 @@ fn compared(seed: u64, questions: usize) -> Counts {
         let Ok(question) = ask(0.0) else { continue };
         let (mut from, mut to) = question.searched;
         if random.random_range(0..3) == 0 && from > 0.0 && !question.is_of_whole_waves() {
-            // A narrow range.
+            // The question has a narrow range.
             let decades = (to / from).ln();
             (from, to) = (from * (0.3 * decades).exp(), from * (0.6 * decades).exp());
         }
@@ -330,7 +334,7 @@ fn check(counts: &Counts) {
         counts.crossed > counts.questions / 2 && counts.proven > counts.questions / 8,
         "{counts:?}"
     );
-    // Most answers state the first crossing.
+    // Most answers do not state that crossings may be missed.
     assert!(counts.may_miss < counts.questions / 2, "{counts:?}");
 }
 

@@ -1,4 +1,4 @@
-//! The ensemble of a scene: its results on random profiles of one roughness.
+//! The ensemble of a scene: its results on several random profiles with the same roughness.
 
 use super::error::StudyError;
 use super::missing_profiles::Failures;
@@ -161,8 +161,8 @@ mod tests {
         Ensemble::of(scene, &[], profiles, &mut Simulation::default(), control)
     }
 
-    /// Each profile is the scene with the seed of that profile, and no bit depends on the number of
-    /// threads.
+    /// Each profile is that of the scene with the seed of the profile. The results do not depend on
+    /// the number of threads.
     #[test]
     fn an_ensemble_is_the_scene_with_the_seeds_that_follow() {
         let scene = scene("pressure-sensitive");

@@ -1,4 +1,4 @@
-//! The errors of studies.
+//! Errors of studies.
 
 use asperity_data::{Remedied, Remedy, WriteError, memory_size, path_name};
 use asperity_half_space::HalfSpaceError;
@@ -8,8 +8,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Message for a request of several profiles of a scene that has one: what was found, and what is
-/// allowed.
+/// Message for a request of several profiles if the profile of the scene is fixed: what was found,
+/// and what is allowed.
 pub(super) const ONE_PROFILE: (&str, &str) = (
     "more than one profile, and the profile of this scene is fixed",
     "random roughness (SelfAffine, or an equivalent line)",
@@ -62,7 +62,7 @@ pub enum StudyError {
         found: String,
         /// Values or requests that are allowed, in words.
         allowed: String,
-        /// Steps that help; none if no single step does.
+        /// Changes of the request that may help; empty if no single change does.
         remedies: Vec<Remedy>,
     },
     /// Two files have different results for the same values on the axes and the same profile.
@@ -127,13 +127,14 @@ impl From<RunError> for StudyError {
 }
 
 impl StudyError {
-    /// Makes the error of a computation for the values and the seed that `place` states.
+    /// Makes the error of a computation. `place` states the values on the axes and the seed.
     pub(super) fn at(place: String, error: RunError) -> StudyError {
         let error = Box::new(error);
         StudyError::Run { place, error }
     }
 
-    /// Makes the error of a value at a place, or of a request as a whole.
+    /// Makes the error of a value or a request that is not allowed. `place` is the path or the
+    /// argument.
     pub(super) fn refused(
         place: Option<&str>,
         found: impl Into<String>,
@@ -147,7 +148,7 @@ impl StudyError {
         }
     }
 
-    /// Returns the same error with a further step that helps.
+    /// Returns the same error with one more change that may help.
     pub(super) fn with(mut self, remedy: Remedy) -> StudyError {
         if let StudyError::Refused { remedies, .. } = &mut self {
             remedies.push(remedy);
@@ -155,7 +156,7 @@ impl StudyError {
         self
     }
 
-    /// Makes the error of a request for several profiles of a scene that has one.
+    /// Makes the error of a request for several profiles if the profile of the scene is fixed.
     pub(super) fn fixed_profile() -> StudyError {
         StudyError::refused(None, ONE_PROFILE.0, ONE_PROFILE.1)
     }
@@ -163,7 +164,7 @@ impl StudyError {
     /// Checks the number of profiles of a scene.
     ///
     /// # Errors
-    /// The number is zero, or above one for a scene that has one profile.
+    /// Returns an error if the number is zero, or above one for a scene with a fixed profile.
     pub(super) fn check_profiles(scene: &Scene, profiles: u64) -> Result<(), StudyError> {
         match profiles {
             0 => Err(StudyError::refused(None, "no profiles", "at least one")),

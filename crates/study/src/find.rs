@@ -1,9 +1,9 @@
 //! The inverse question: at which value of a number of a scene, or at which preload, does a
 //! quantity reach a target?
 //!
-//! Each profile is searched separately. The adhesion force never falls with the preload, so two
-//! preloads bracket its only crossing. Any other quantity is first computed at several numbers over
-//! the searched range.
+//! Each profile is searched separately. The adhesion force never falls with the preload. It
+//! therefore crosses the target only once, between two preloads, and bisection finds this crossing.
+//! Any other quantity is first computed at several numbers over the searched range.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -15,8 +15,9 @@ use asperity_contact::Move;
 use asperity_data::{Control, CountedWarning, Remedy, format_quantity, format_range, quantile};
 use asperity_scene::{CheckedScene, Simulation};
 
-/// Largest relative change of a quantity over the searched range with which the number counts as
-/// without influence. The error by the number of springs changes with the scene.
+/// Largest relative change of a quantity over the searched range for which the number counts as
+/// having no influence. The quantity may change a little without an influence, because the error by
+/// the finite number of springs changes with the scene.
 const STILL: f64 = 1e-3;
 
 /// Answers to a [`Question`]: for each random profile, the values of a number of the scene at which
@@ -27,12 +28,11 @@ pub struct Found {
     pub question: Question,
     /// Answers, one for each profile, sorted by the seeds of the profiles.
     pub answers: Vec<Answer>,
-    /// Reason why the scene could not be computed with one of the searched values of the number;
-    /// `None` if it could be computed with all of them.
+    /// Reason why the scene could not be computed with a searched value of the number; `None` if it
+    /// could be computed with all searched values.
     pub refused: Option<String>,
-    /// Premises of the model that the scene does not meet at the median answer, each with the
-    /// number of these profiles. Without a median answer these are the premises of the scene of the
-    /// question.
+    /// Premises of the model that the profiles do not meet at the median answer, each with the
+    /// number of these profiles. Without a median answer the list is for the scene of the question.
     pub warnings: Vec<CountedWarning>,
 }
 
@@ -103,9 +103,9 @@ impl Found {
         Ok(found)
     }
 
-    /// Returns the scene of the question with its median answer. Without a median answer, and if
-    /// the scene does not allow this answer, it is the scene of the question itself; `None` if this
-    /// scene is not allowed either.
+    /// Returns the scene of the question in which the number has its median answer. Without a
+    /// median answer, or if the scene does not allow it, returns the scene of the question itself;
+    /// `None` if this scene is not allowed either.
     fn answered_scene(&self) -> Option<CheckedScene> {
         let plan = &self.question.plan;
         let asked = plan.scene.clone().checked().ok()?;
@@ -129,8 +129,8 @@ impl Found {
         Some(answered.unwrap_or(asked))
     }
 
-    /// Returns an error if no profile has the quantity, if a preload cannot be reached, or if the
-    /// number has no influence on the quantity.
+    /// Returns an error if the quantity has no value on any profile, if a preload cannot be
+    /// reached, or if the number has no influence on the quantity.
     fn check(&self) -> Result<(), StudyError> {
         let question = &self.question;
         let is_of_preload = question.is_of_preload();
@@ -193,9 +193,9 @@ impl Found {
         reachable
     }
 
-    /// Returns the numbers of the profiles in ascending order. A profile without a crossing lies
-    /// beyond the end of the searched range where its crossing must be. If the quantity rises and
-    /// is below the target, this is the upper end.
+    /// Returns the value of the number for each profile, in ascending order. A profile without a
+    /// crossing counts as infinite, at the end of the searched range beyond which its crossing must
+    /// lie: ∞ if the quantity rises with the number and is below the target.
     fn ascending(&self) -> Vec<f64> {
         let slopes = self
             .answers
@@ -216,14 +216,13 @@ impl Found {
     }
 
     /// Returns a quantile of [`Found::values`] over all profiles, such as the median for a `share`
-    /// of 0.5. A profile without a value counts as beyond the searched range. Of a whole number, or
-    /// of a number of whole waves, the nearest such value is returned. `None` if the quantile lies
-    /// beyond the searched range.
+    /// of 0.5. A profile without a value counts as beyond the searched range. If only some values
+    /// are allowed, such as whole numbers or lengths with a whole number of waves, the nearest
+    /// allowed value is returned. `None` if the quantile lies beyond the searched range.
     pub fn quantile(&self, share: f64) -> Option<f64> {
-        // Interpolation towards a number beyond the range, which is infinite, gives no finite
-        // value.
+        // A quantile interpolated between a finite and an infinite value is not finite.
         let value = quantile(&self.ascending(), share).filter(|value| value.is_finite())?;
-        // Between two whole numbers there is none.
+        // A quantile between two values need not be allowed, such as 2.5 for a whole number.
         Some(self.question.allowed().nearest(value))
     }
 
@@ -237,7 +236,7 @@ impl Found {
     }
 }
 
-/// Returns true if the quantity has about the same value at all searched numbers, or none.
+/// Returns true if the quantity has about the same value at all searched numbers, or has no value.
 fn is_still(answer: &Answer) -> bool {
     match answer.reachable {
         Some((least, most)) => most - least <= STILL * most.abs().max(least.abs()),
@@ -280,7 +279,7 @@ mod tests {
         found.map_err(|error| error.to_string())
     }
 
-    /// Value of a quantity of a scene with one number set, by a run of its own.
+    /// Returns the value of a quantity of a scene on one profile, computed without a search.
     fn alone(scene: &CheckedScene, seed: u64, loading: Move, quantity: Quantity) -> f64 {
         let loading = vec![loading, Move::ToSeparation];
         let scene = scene
@@ -343,7 +342,7 @@ mod tests {
             .run(&sphere, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
         let exact = 1.5 * PI * 0.05 * 1e-4;
-        // The error of the discrete sphere.
+        // The relative error of the force by the finite number of springs.
         let error = own.figures.adhesion_force.unwrap() / exact - 1.0;
         assert!(error.abs() < 1e-4, "{error}");
         for (path, slope) in [
@@ -413,8 +412,8 @@ mod tests {
         );
     }
 
-    /// Each preload is where a run of its own shows the step, to the stated precision; no dense
-    /// grid shows a smaller one.
+    /// The adhesion force jumps at each found preload, to the stated precision. A fine grid of
+    /// preloads shows no smaller preload that reaches the target.
     #[test]
     fn preloads_are_at_the_steps_that_runs_show() {
         let rough = scene("pressure-sensitive", 2048);
@@ -455,8 +454,8 @@ mod tests {
         );
     }
 
-    /// The number of patches rises with the preload, and falls as they grow together: two crossings
-    /// at least.
+    /// The number of patches rises with the preload, then falls as patches merge. So it crosses the
+    /// target at least twice.
     #[test]
     fn a_quantity_that_rises_and_falls_has_all_its_crossings() {
         let rough = scene("pressure-sensitive", 2048)
@@ -477,8 +476,8 @@ mod tests {
         assert_eq!(found.quantile(0.5), Some(answer.crossings[0]));
     }
 
-    /// A profile without a crossing lies beyond the searched range, and the median is unknown where
-    /// half of them do.
+    /// A profile without a crossing lies beyond the searched range. If half of the profiles do, the
+    /// median is unknown.
     #[test]
     fn medians_count_the_profiles_beyond_the_range() {
         let rough = scene("pressure-sensitive", 2048);
@@ -503,8 +502,8 @@ mod tests {
             };
             assert_eq!([1.0 - 1e-7, 1.0].map(reached), [false, true], "{answer:?}");
         }
-        // F_a rises with the work of adhesion: two profiles cross within this range, and three
-        // above.
+        // F_a rises with the work of adhesion. Two of the five profiles cross the target within
+        // this range, and three above it.
         let range = (values[0] / 2.0, f64::midpoint(values[1], values[2]));
         let part = asked(&rough, scale, "F_a = 10 uN", 5, Some(range), 1).unwrap();
         assert_eq!(
@@ -519,8 +518,8 @@ mod tests {
         );
     }
 
-    /// F_a of a sphere does not depend on the preload: F_a/F_n has its only crossing at F_a divided
-    /// by the ratio.
+    /// F_a of a sphere does not depend on the preload F_n. So F_a/F_n equals the target at one
+    /// preload, F_a divided by the target.
     #[test]
     fn ratios_are_found_from_no_preload_upwards() {
         let sphere = scene("jkr-sphere", 1 << 10);
@@ -553,7 +552,7 @@ mod tests {
             );
             assert!((there / ratio - 1.0).abs() < WITHIN, "{there}");
         }
-        // Beyond the range on either side.
+        // In a range entirely below or above the answer there is no crossing.
         let range = |ends| asked(&sphere, "preload", "F_a/F_n = 100", 1, Some(ends), 1).unwrap();
         for (ends, reached) in [
             ((1e-6, 1e-3), [false; 2]),
@@ -569,7 +568,7 @@ mod tests {
             assert_eq!(found.answers[0].reached[1], reached[1], "{ends:?}");
             assert!(found.answers[0].is_proven);
         }
-        // A pull has no ratio.
+        // A negative preload has no ratio, so the answer lies among the positive preloads.
         assert!((range((-1e-6, 1e-3)).values()[0].unwrap() * 100.0 / force - 1.0).abs() < 1e-12);
         let pulled = asked(
             &sphere,
@@ -583,7 +582,8 @@ mod tests {
         assert!(pulled.contains("the scene has no F_a/F_n"), "{pulled}");
     }
 
-    /// The value at an end of the range, and the value on a stair of F_a, are reached there.
+    /// A target that is equal to the value at an end of the range, or to a constant value between
+    /// two steps of F_a, counts as reached where the quantity first has this value.
     #[test]
     fn targets_at_the_ends_and_on_stairs_are_reached_where_they_begin() {
         let sphere = scene("jkr-sphere", 1 << 10);
@@ -622,7 +622,8 @@ mod tests {
                 && force(preload) == stair
                 && force(preload * (1.0 - 4.0 * WITHIN)) < stair
         );
-        // A range below the step, one on the stair, and one above the stair.
+        // The searched range lies below the step, above the step with the same F_a, or above the
+        // next step.
         assert_eq!(ask(Some((0.0, 0.9 * preload))).values(), [None]);
         assert_eq!(ask(Some((preload, 1e-5))).values(), [Some(preload)]);
         let above = ask(Some((1e-3, 2e-3)));
@@ -630,7 +631,7 @@ mod tests {
             (above.values(), above.answers[0].crossings.len()),
             (vec![Some(1e-3)], 0)
         );
-        // One number is no range.
+        // A range with equal ends is refused.
         let one = asked(&rough, "preload", "F_a = 1 uN", 1, Some((1e-5, 1e-5)), 1).unwrap_err();
         assert!(
             one.contains("allowed: two finite numbers, the first below the second"),
@@ -669,7 +670,7 @@ mod tests {
             Quantity::PullOffIndentation,
         );
         assert!((at / -200e-9 - 1.0).abs() < 1e-6, "{at}");
-        // It does not depend on the preload.
+        // The indentation at pull-off of a sphere does not depend on the preload.
         let never = asked(
             &sphere,
             "preload",
@@ -685,7 +686,8 @@ mod tests {
         );
     }
 
-    /// Only whole waves are answers: another wavelength between two of them is the same contact.
+    /// Only lengths with a whole number of waves are answers. A wavelength between two of them
+    /// would give the same contact as one of them.
     #[test]
     fn wavelengths_and_lengths_are_found_in_whole_waves() {
         let document = open("pressure-sensitive").unwrap();

@@ -6,7 +6,7 @@ use super::statistics::{RegimeCounts, Statistics};
 use asperity_data::AxisScale;
 use asperity_scene::{Regime, RoughnessParameter};
 
-/// Ratio of the largest mean to a small one.
+/// A mean is small if it is less than the largest mean divided by this number.
 const LOGARITHMIC_RATIO: f64 = 50.0;
 
 /// Results of a study in one cell of a [`Grid`]: for one value on the horizontal axis and one value
@@ -43,8 +43,8 @@ pub struct GridLayer {
 }
 
 impl GridLayer {
-    /// Makes a layer of a quantity with the range of its means, on the given scale or on a scale
-    /// that suits the means.
+    /// Makes a layer of a quantity with the range of its means. Without a given scale the layer has
+    /// the scale that suits the means.
     pub(super) fn new(quantity: Quantity, scale: Option<AxisScale>, means: &[f64]) -> GridLayer {
         let scale = scale.unwrap_or_else(|| scale_of(means));
         let mut range: Option<(f64, f64)> = None;
@@ -78,8 +78,8 @@ pub(super) fn scale_of(means: &[f64]) -> AxisScale {
     }
 }
 
-/// Place on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None` if
-/// there is no such axis.
+/// Position on a [`Grid`]: value on the horizontal axis, and value on the vertical axis or `None`
+/// for a grid along one axis.
 pub type GridPlace = (f64, Option<f64>);
 
 /// Results of a study over one or two of its axes. The grid has a [cell](GridCell) for each
@@ -99,8 +99,8 @@ pub struct Grid {
     /// Cells row by row, beginning with the lowest row. A [cell](GridCell) is `None` until it is
     /// computed. An error states why a cell cannot be computed.
     pub cells: Vec<Option<Result<GridCell, String>>>,
-    /// Index of the cell shown in place of each cell: the cell itself, or a computed cell of a
-    /// coarser grid.
+    /// For each cell the index of the cell whose results are shown: of the cell itself, or of a
+    /// computed cell of a coarser grid.
     pub(super) stand_ins: Vec<usize>,
 }
 
@@ -178,7 +178,8 @@ impl Grid {
         Some((cell, index % columns, index / columns))
     }
 
-    /// Returns the cells, or with `whole` the cells that are shown in place of them.
+    /// Returns the cells in order. If `whole` is true, a cell that is not computed yet is replaced
+    /// by the cell that is shown instead.
     fn each(&self, whole: bool) -> impl Iterator<Item = Option<&GridCell>> {
         (0..self.cells.len()).map(move |index| {
             let shown = if whole { self.stand_ins[index] } else { index };
@@ -231,7 +232,7 @@ impl Grid {
         is_on_axis(column, columns) && is_on_axis(row, rows)
     }
 
-    /// Returns the fractional column and row of values on the axes.
+    /// Returns the column and the row of a place, which are whole numbers at the middle of a cell.
     fn coordinates(&self, place: GridPlace) -> (f64, f64) {
         let (across, up) = place;
         let column = index_of(across, &self.across);
@@ -251,8 +252,8 @@ impl Grid {
     }
 }
 
-/// Returns the most frequent regime as a number from 0 to 1, halfway between two regimes if
-/// profiles differ.
+/// Returns the most frequent regime as a number from 0 to 1, or the mean of the numbers of the two
+/// most frequent regimes if the profiles do not agree.
 fn regime_as_number(regimes: RegimeCounts) -> Option<Statistics> {
     let most = regimes.most()?.0;
     let second = regimes.split().unwrap_or(most);
@@ -264,23 +265,25 @@ fn regime_rank(regime: Regime) -> f64 {
     1.0 - regime as u8 as f64 / 2.0
 }
 
-/// Returns the fractional index of a value on an axis.
+/// Returns the index of a value on an axis, with a fraction between two values of the axis.
 fn index_of(value: f64, axis: &Axis) -> f64 {
     axis.scale().place(&axis.values, value)
 }
 
-/// Returns true for a fractional index within half a cell of an axis with `count` values.
+/// Returns true if an index with a fraction is at most half a cell outside an axis with `count`
+/// values.
 fn is_on_axis(index: f64, count: usize) -> bool {
     (-0.5..count as f64 - 0.5).contains(&index)
 }
 
-/// Returns the index of one of `count` values that is nearest to a fractional index.
+/// Returns the index among `count` values that is nearest to an index with a fraction.
 fn nearest_index(index: f64, count: usize) -> usize {
     index.round().clamp(0.0, count.saturating_sub(1) as f64) as usize
 }
 
-/// Returns the indices of the horizontal and the vertical axis. H is horizontal, and κ or e_el/γ
-/// vertical. Among other free axes the first is horizontal. Returns `None` if no axis is free.
+/// Returns the indices of the horizontal and the vertical axis. `free` are the indices of the axes
+/// that are not fixed. If H is free, it is horizontal; if κ or e_el/γ is free, it is vertical.
+/// Otherwise the first free axis is horizontal. `None` if no axis is free.
 pub(super) fn across_and_up(axes: &[Axis], free: &[usize]) -> Option<(usize, Option<usize>)> {
     let mut up = None;
     let mut across = None;

@@ -15,10 +15,10 @@
 //!   [`Answer`] for each profile. [`PreloadCurve`] and [`Staircase`] have the adhesion force as a
 //!   function of the preload. [`Sensitivity`] has an [`Influence`] for each number of the scene:
 //!   the [`Changed`] results for a smaller and a larger value of this number.
-//! * All that takes long has one shape: what is asked, the
+//! * Functions that may take long have three parts in common: what is asked, the
 //!   [`Simulation`](asperity_scene::Simulation) whose profile and contact may be reused, and a
-//!   [`Control`](asperity_data::Control) with the number of threads, the stop, and the receiver of
-//!   the progress or of the results so far.
+//!   [`Control`](asperity_data::Control) with the number of threads, the test whether to stop, and
+//!   the receiver of the progress or of the results so far.
 //! * Errors of all these functions: [`StudyError`].
 //!
 //! Programs with figures and tables use further names in the modules [`folders`], [`maps`],
@@ -107,8 +107,8 @@ pub mod folders {
     pub use crate::store::{ShardFile, ShardHeader};
 }
 
-/// Maps of results over two axes of a study, and the values of κ or e_el/γ at which adhesion
-/// without a preload vanishes.
+/// Maps of results over two axes of a study, and the values of κ or e_el/γ (elastic energy ratio)
+/// at which adhesion without a preload vanishes.
 pub mod maps {
     pub use crate::boundary::{AdhesionBoundary, Boundaries, Crossing};
     pub use crate::grid::{Grid, GridCell, GridLayer, GridPlace};
@@ -117,8 +117,8 @@ pub mod maps {
     pub use crate::study_map::StudyMap;
 }
 
-/// Cases with known results. `asperity check` computes each case and compares its result with the
-/// known one.
+/// Cases with known results. `asperity check` computes each case and compares the computed with the
+/// known result.
 pub mod checks {
     pub use crate::check::case::Case;
     pub use crate::check::{Check, Verdict};

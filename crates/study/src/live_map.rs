@@ -1,5 +1,5 @@
-//! The map of a scene over κ or e_el/γ and H: a study in memory that is computed from coarse to
-//! fine.
+//! The map of a scene over κ or e_el/γ and H. It is a study in memory that is computed from a
+//! coarse to a fine resolution.
 
 use super::axis::Axis;
 use super::cells::Streak;
@@ -15,7 +15,8 @@ use std::collections::BTreeMap;
 use std::mem::take;
 use std::ops::ControlFlow;
 
-/// Number of springs above which a map gets fewer cells, and number above which it gets even fewer.
+/// Numbers of springs above which the finest resolution of a map is reduced by one and by two
+/// levels, because each cell takes longer.
 const MANY: u64 = 1 << 14;
 const VERY_MANY: u64 = 1 << 17;
 
@@ -36,13 +37,14 @@ impl Level {
     /// All resolutions of a map, the coarsest first.
     pub const ALL: [Level; 4] = [Level::Coarse, Level::Medium, Level::Fine, Level::Whole];
 
-    /// Returns the finest level of a map with this number of springs.
+    /// Returns the finest level that a map with this number of springs has.
     fn finest(springs: u64) -> Level {
         let too_fine = usize::from(springs > MANY) + usize::from(springs > VERY_MANY);
         Level::ALL[3 - too_fine]
     }
 
-    /// Returns the indices of the values of axis `axis` of a plan; 0 alone if there is no such axis.
+    /// Returns the indices of the values on axis number `axis` of a plan; only 0 if there is no
+    /// such axis.
     fn places_on(self, plan: &Plan, axis: usize) -> Vec<usize> {
         match plan.axes.get(axis) {
             Some(axis) => self.places(axis),
@@ -50,8 +52,8 @@ impl Level {
         }
     }
 
-    /// Returns the indices of the values of an axis on this level at about equal distances. An axis
-    /// with few values has all of them.
+    /// Returns the indices of the values of an axis that belong to this level, at about equal
+    /// distances. If the axis has few values, all of them belong to the level.
     fn places(self, axis: &Axis) -> Vec<usize> {
         let wanted = [5, 9, 17, 33][self as usize];
         let all = axis.values.len();
@@ -106,7 +108,7 @@ impl LiveMap {
         rows
     }
 
-    /// Returns true for a cell that is computed or cannot be computed.
+    /// Returns true for a cell that is computed or is known to have no result.
     fn is_known(&self, cell: u64) -> bool {
         self.failed.contains_key(&cell) || self.results.is_whole(cell)
     }
@@ -162,7 +164,7 @@ impl LiveMap {
         *simulation = recorder.simulation;
     }
 
-    /// Computes the missing cells of one value of H.
+    /// Computes the missing cells of a row, which all have the same value of H.
     fn compute_row(
         &mut self,
         row: &[u64],
@@ -217,8 +219,8 @@ impl LiveMap {
         grid
     }
 
-    /// Returns the index of the cell shown in place of a cell: the cell itself or, until it is
-    /// computed, a cell of a coarser level.
+    /// Returns the index of the cell whose result is shown for a cell. It is the cell itself or,
+    /// until that cell is computed, a cell of a coarser level.
     fn stand_in(&self, cell: u64) -> u64 {
         for level in Level::ALL.into_iter().rev() {
             let nearest = self.nearest_on(level, cell);
@@ -266,7 +268,7 @@ mod tests {
         LiveMap::new(Plan::of_map(document.scene()).unwrap()).unwrap()
     }
 
-    /// Computes the map until `most` rows are reported, and returns the number of these rows.
+    /// Computes the map until `most` rows are reported, and returns the number of reported rows.
     fn compute_rows(map: &mut LiveMap, most: usize) -> usize {
         let rows = AtomicUsize::new(0);
         let stop = || rows.load(Relaxed) == most;

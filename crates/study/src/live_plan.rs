@@ -18,18 +18,18 @@ pub const MAP_RECORD: [Quantity; 6] = [
     Quantity::RegimeAfterZeroForce,
     Quantity::AdhesionShare,
 ];
-/// Smallest and largest usual number of springs of a map. Short waves need more.
+/// Smallest and largest number of springs of a map, unless short waves need more.
 const SPRINGS: (u64, u64) = (1 << 10, 1 << 12);
-/// Values of κ and H that represent all others.
+/// Values of κ and H that the scene of the plan has. The axes replace them in each cell.
 const ANY: (f64, f64) = (1.0, 0.5);
 
-/// Values of κ: quarters of octaves from 1/8 to 32.
+/// Number of values of κ: four for each factor of two, from 1/8 to 32.
 const KAPPAS: u32 = 33;
-/// Values of H, from 0.05 to 0.95.
+/// Number of values of H, from 0.05 to 0.95.
 const HURSTS: u32 = 19;
 
-/// Returns the values of κ with three digits, so that a scene with a shown value is exactly the
-/// scene of the cell.
+/// Returns the values of κ, rounded to three digits. A scene with a value as it is shown is then
+/// exactly the scene of a cell.
 fn kappas() -> Vec<f64> {
     let mut kappas = Vec::new();
     for index in 0..KAPPAS {
@@ -89,7 +89,7 @@ impl Plan {
             let found = "two works of adhesion, of which none defines κ";
             return Err(refused(found, "no adhesion.closing_work"));
         }
-        // The range of the attraction changes no map.
+        // No quantity of a map depends on the range of the attraction.
         let adhesion = Adhesion {
             range: None,
             ..adhesion.with_parameter(Kappa, ANY.0)
@@ -113,14 +113,15 @@ impl Plan {
         scene.adhesion = Some(adhesion);
         scene.strip();
         let points = points.min(scene.numerics.points);
-        // Edges between springs: a map of few springs is then as accurate as one of very many.
+        // With edges between springs a map of few springs is as accurate as one of very many
+        // springs.
         scene.numerics = Numerics {
             points,
             solver: Solver::Exact,
             edges: Edges::SubCell,
             ..scene.numerics
         };
-        // Both are quantities of a scene.
+        // Every scene has κ and H as quantities, so both axes exist.
         let mut axes = Vec::new();
         let logarithmic = Spacing::Logarithmic;
         axes.extend(Axis::new(Kappa.path(), logarithmic, kappas(), &scene));
@@ -186,7 +187,7 @@ mod tests {
                 "{path}"
             );
         }
-        // Short waves get enough springs.
+        // A roughness with short waves gets more springs.
         let short = [
             ("numerics.points", "1048576"),
             ("roughness.modes", "(1, 131072)"),

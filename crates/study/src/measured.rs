@@ -1,7 +1,7 @@
-//! The measured files of a study: surfaces, and the table of a form. The plan holds the hash of the
-//! files, because their content determines the results as much as the plan does.
+//! The measured files of a study: surfaces, and the table of a form. The plan states a hash of the
+//! files, because the results depend on their content.
 //!
-//! The hash is SHA-256, because one in 4e9 accidental changes would pass a checksum of 32 bits.
+//! The hash is SHA-256, because a checksum of 32 bits would miss one in 4e9 accidental changes.
 
 use super::error::StudyError;
 use super::plan::{PLAN_FILE, Plan};
@@ -17,10 +17,10 @@ pub(super) fn file_of(plan: &Plan) -> Option<PathBuf> {
     plan.scene.measured_files().first().map(PathBuf::from)
 }
 
-/// Returns the plan with the present hash of its measured file.
+/// Returns the plan with the hash of its measured files as they are now.
 ///
 /// # Errors
-/// The file cannot be read, or its hash differs from the hash in the plan.
+/// Returns an error if a file cannot be read, or if the hash differs from the hash in the plan.
 pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
     let (_, measured_sha256) = read(plan, || "the plan".into())?;
     Ok(Plan {
@@ -32,7 +32,8 @@ pub(super) fn with_hash(plan: &Plan) -> Result<Plan, StudyError> {
 /// Returns the measured roughness of the study in a folder; `None` if the study has none.
 ///
 /// # Errors
-/// The file cannot be read, is no surface, or its hash differs from the hash in the plan.
+/// Returns an error if a file cannot be read or is no surface, or if the hash differs from the hash
+/// in the plan.
 pub(super) fn profile(
     plan: &Plan,
     folder: &Path,
@@ -51,9 +52,9 @@ pub(super) fn changed(file: &Path, found: &str, plan: &str, expected: &str) -> S
     )
 }
 
-/// Returns the surface of a plan, if it has one, and the hash of its bytes, which must equal the
-/// hash in the plan. Several files are hashed one after the other. A table besides a surface adds
-/// its own hash.
+/// Returns the surface of a plan, if it has one, and the hash of all its measured files, which must
+/// equal the hash in the plan. The contents of several surface files are hashed one after the
+/// other, followed by the hash of the table of a form.
 fn read(
     plan: &Plan,
     origin: impl Fn() -> String,

@@ -1,8 +1,9 @@
-//! Adhesion of a measured surface with two spreads: over random profiles of one spectrum, and over
-//! the spectra that the measurement allows.
+//! Adhesion of a measured surface, and its spread from two causes: random profiles of one spectrum
+//! differ, and the measurement allows several spectra.
 //!
 //! Each random profile is solved twice with the same phases: with the fitted spectrum, and with a
-//! spectrum that differs a little in a direction drawn from the uncertainty of the fit.
+//! spectrum that differs a little. The difference is drawn at random from the uncertainty of the
+//! fit.
 
 use super::error::StudyError;
 use super::profiles::on_threads_received;
@@ -16,9 +17,9 @@ use serde::Serialize;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
-/// Share of a drawn step by which the spectrum is changed. The errors of the fit are valid to first
-/// order. Its longest waves are nearly unknown, and a whole step of their logarithms could be
-/// several powers of ten.
+/// Share of a randomly drawn change by which the spectrum is changed. The errors of the fit are
+/// valid to first order, so the change must be small. The longest waves are nearly unknown, and a
+/// whole drawn change could alter them by several powers of ten.
 const SHARE: f64 = 1.0 / 32.0;
 
 /// Adhesion of one random profile with the spectrum of a measured surface.
@@ -31,9 +32,9 @@ pub struct ProfileAdhesion {
     /// force of the unloading is never negative.
     pub adhesion_force: Option<f64>,
     /// Change of F_a in N for one random change of the spectrum, drawn from the uncertainty of the
-    /// fit and computed to first order; limited to forces from zero to
-    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after
-    /// the change.
+    /// fit and computed to first order. It is limited so that the changed force is between zero and
+    /// [`ProfileAdhesion::largest_force`]. `None` if there is no adhesion force before or after the
+    /// change.
     pub fit_change: Option<f64>,
     /// Regime of adhesion that follows from F_a(d=0), for the fitted spectrum; `None` if the regime
     /// is unknown.
@@ -48,8 +49,8 @@ pub struct ProfileAdhesion {
 }
 
 impl ProfileAdhesion {
-    /// Computes the adhesion of a scene on the random profile with this seed. `line` has the
-    /// spectrum and its uncertainty.
+    /// Computes the adhesion of a scene on the random profile with the given seed. `line` has the
+    /// fitted spectrum and its uncertainty.
     pub fn solve(
         scene: &CheckedScene,
         line: &EquivalentLine,
@@ -60,7 +61,8 @@ impl ProfileAdhesion {
         let fitted = run_on(&scene, line.clone(), stop)?;
         let mut scene = scene;
         if let Some(work) = fitted.governing.work_of_adhesion {
-            // If κ or e_el/γ is given, the work of adhesion is that of the fitted spectrum.
+            // If the scene states κ or e_el/γ, the work of adhesion follows from the fitted
+            // spectrum. The changed spectrum gets the same work of adhesion.
             scene = scene.with(|scene| {
                 scene.adhesion = scene.adhesion.map(|adhesion| adhesion.with_work(work));
             })?;
@@ -219,7 +221,7 @@ impl MeasuredAdhesion {
             move |number: u64| {
                 let seed = scene.seed().unwrap_or(0).wrapping_add(number);
                 let solved = ProfileAdhesion::solve(scene, line, seed, stop);
-                // The receiver lives until all threads have ended.
+                // Sending cannot fail, because the receiver exists until all threads have ended.
                 let _ = sender.send(());
                 solved.map_err(|error| StudyError::at(format!("seed {seed}: "), error))
             }
@@ -248,8 +250,8 @@ impl MeasuredAdhesion {
     }
 
     /// Returns the standard deviation of the adhesion force in N due to the uncertainty of the
-    /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles;
-    /// `None` for fewer than two profiles, and if it is [not known](Self::is_fit_known).
+    /// spectrum. It is the root mean square of [`ProfileAdhesion::fit_change`] over the profiles.
+    /// `None` for fewer than two profiles, or if [the uncertainty is unknown](Self::is_fit_known).
     pub fn fit_deviation(&self) -> Option<f64> {
         if !self.is_fit_known {
             return None;
@@ -347,7 +349,8 @@ mod tests {
             assert_eq!((profile.seed, profile.adhesion_force), (seed, Some(one)));
             let change = (other - one) / SHARE;
             assert_eq!(profile.fit_change, Some(change));
-            // To first order: a step of half the size changes the force by half as much.
+            // The change is computed to first order, so half the step changes the force by about
+            // half as much.
             let half = 2.0 * (force(line.drawn(seed, 0.5 * SHARE), seed) - one) / SHARE;
             assert!(
                 (half - change).abs() < 0.2 * change.abs() + 1e-3 * one,
@@ -373,8 +376,7 @@ mod tests {
         );
     }
 
-    /// The files are read with the options of the scene, whether `periodic: true` is among them or
-    /// not.
+    /// The files are read with the options of the scene, with or without `periodic: true`.
     #[test]
     fn the_options_are_those_of_the_scene() {
         let folder = tempfile::tempdir().unwrap();
@@ -414,8 +416,8 @@ mod tests {
         );
     }
 
-    /// A spectrum of which next to nothing is known leaves the force unknown, and no stated force is
-    /// above the force of a flat face.
+    /// If hardly anything of the spectrum is known, the uncertainty of the force is unknown. No
+    /// stated force exceeds the force of a flat face.
     #[test]
     fn no_error_of_the_force_is_beyond_the_force_of_a_flat_face() {
         let (scene, line) = scene_and_line("(work: 0.05)");

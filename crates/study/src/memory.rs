@@ -5,13 +5,14 @@ use super::error::StudyError;
 use super::plan::{MOST_CHECKED, Plan};
 use asperity_data::check_room;
 
-/// Memory in bytes of code, stacks, files and the reserve of the allocator.
+/// Memory in bytes for code, stacks, files and the reserve of the allocator.
 const PROGRAM: u64 = 16 << 20;
 /// Bytes per spring of a Fourier transform that is kept for the next profile, up to
 /// [`LONGEST_KEPT`] springs.
 const KEPT: u64 = 20;
 const LONGEST_KEPT: u64 = 1 << 22;
-/// Bytes per spring of unloadings from several preloads, where nearly every spring is an event.
+/// Bytes per spring for the unloadings from several preloads, in which nearly every spring is an
+/// event.
 const REVERSED: u64 = 192;
 
 impl Plan {
@@ -34,13 +35,13 @@ impl Plan {
             } else {
                 0
             };
-            // The contact without adhesion or at zero force may add to the memory of the scene
-            // itself.
+            // The contacts without adhesion and at zero force may need memory in addition to the
+            // loading of the scene.
             let turns = self.preloads().is_some() && scene.adhesion.is_some();
             let reversed = if turns { REVERSED * points } else { 0 };
             job = job.max(peak + kept + reversed);
         }
-        // The axes, and one byte for each record.
+        // The axes have 8 bytes for each value, and the study one byte for each record.
         let values: u64 = self.axes.iter().map(Axis::count).sum();
         let bytes = PROGRAM + 8 * values + self.records_in_all() + jobs.saturating_mul(job + spare);
         check_room(bytes).map_err(|_| StudyError::Memory { jobs, bytes })?;

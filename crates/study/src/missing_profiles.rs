@@ -1,4 +1,4 @@
-//! The profiles that a study in memory lacks, and their computation.
+//! The profiles that are still missing in a study in memory, and their computation.
 
 use super::cells::Streak;
 use super::error::StudyError;
@@ -13,16 +13,16 @@ pub(super) struct MissingProfiles {
     pub plan: Plan,
     /// Indices of the profiles.
     pub lines: Vec<u64>,
-    /// What happens to a cell that cannot be computed.
+    /// Effect of a cell that cannot be computed.
     pub failures: Failures,
 }
 
-/// What happens to a cell that cannot be computed on a profile.
+/// Effect of a cell that cannot be computed on a profile.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Failures {
-    /// It ends the computation.
+    /// The error ends the computation.
     End,
-    /// The reason is kept in place of the values.
+    /// The reason is recorded instead of values, and the computation continues.
     Keep,
 }
 
@@ -30,16 +30,16 @@ pub(super) enum Failures {
 pub(super) struct SolvedProfile {
     pub line: u64,
     pub records: Vec<Recorded>,
-    /// Premises that are not met, each list with the number of the cell.
+    /// Premises of the model that are not met, each list with the number of its cell.
     pub warnings: Vec<(u64, Vec<Warning>)>,
 }
 
 impl MissingProfiles {
-    /// Computes the profiles on at most `threads` threads. `receive` gets each of them on the
-    /// calling thread.
+    /// Computes the profiles on at most `threads` threads. `receive` is called on the calling
+    /// thread with the records of each profile.
     ///
     /// # Errors
-    /// A profile or its contact cannot be computed, or `stop` returned true.
+    /// Returns an error if a profile or its contact cannot be computed, or if `stop` returned true.
     pub fn solve(
         &self,
         simulation: &mut Simulation,

@@ -1,4 +1,4 @@
-//! The value that a scene has on an axis, and scenes with other values.
+//! The value of a scene on an axis, and scenes with other values.
 
 use super::axis::{Axis, Spacing, Target};
 use asperity_contact::Move;
@@ -37,11 +37,11 @@ impl Axis {
 }
 
 /// Returns the scene with other values on axes. Numbers of the scene are set first, then quantities
-/// that follow from several numbers, then κ or e_el/γ in place of a work of adhesion. The run
-/// applies a preload, which is no part of a scene.
+/// that follow from several numbers, then κ or e_el/γ in place of a work of adhesion. A preload is
+/// not part of a scene and is applied when the contact is computed.
 ///
 /// # Errors
-/// The scene lacks a number. The error has its path and the reason.
+/// Returns an error with the path and the reason if the scene lacks a number.
 pub(super) fn scene_with<'a>(
     base: &Scene,
     values: impl Iterator<Item = (&'a Axis, f64)>,
@@ -96,13 +96,15 @@ pub(super) fn scene_with<'a>(
     Ok(scene)
 }
 
-/// Returns the turn in which the quantity of an axis is set; quantities with the same turn are set
-/// in their order.
+/// Returns the order in which quantities are set, smaller numbers first. Quantities with equal
+/// numbers are set in the order in which they are given.
 fn turn(axis: &Axis) -> usize {
     match (axis.target, axis.path.as_str()) {
-        // The last mode follows from the number of springs.
+        // The last mode follows from the number of springs, so the number of springs must be set
+        // before.
         (Target::SpringsPerWave, _) => 1,
-        // An adhesion begins with its work: the other numbers need it.
+        // The work of adhesion comes before its other numbers, which a scene cannot have without
+        // it.
         (_, "adhesion.work") => 2,
         (_, "adhesion.closing_work") => 3,
         (_, "adhesion.range") => 4,
@@ -110,7 +112,7 @@ fn turn(axis: &Axis) -> usize {
     }
 }
 
-/// Returns the adhesion of a scene by a parameter. The range of attraction stays.
+/// Returns the adhesion that has the value of κ or e_el/γ. The range of the attraction is kept.
 fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> Adhesion {
     let by_parameter = Adhesion::by_parameter(parameter, value);
     scene.adhesion.map_or(by_parameter, |adhesion| {
@@ -118,8 +120,8 @@ fn with_parameter(scene: &Scene, parameter: RoughnessParameter, value: f64) -> A
     })
 }
 
-/// Returns path and value of the shortest wave that has this number of springs. The value is a
-/// mode, or a wavelength if the scene has wavelengths.
+/// Returns path and value of the shortest wave with the given number of springs. The path is that
+/// of a mode, or of a wavelength if the scene states wavelengths.
 fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     let points = scene.numerics.points as f64;
     match scene.number("roughness.wavelengths.1") {
@@ -128,8 +130,8 @@ fn shortest_wave(scene: &Scene, springs: f64) -> (&'static str, f64) {
     }
 }
 
-/// Returns the physical numbers of a scene except counts and zeros, each with an axis over it that
-/// has no values.
+/// Returns the physical numbers of a scene, each with an axis without values. Counts and numbers
+/// that are zero are left out.
 pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     let is_physical =
         |field: &&Field| field.parent() != "numerics" && !matches!(field.range, Range::Whole(..));
@@ -140,7 +142,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<(Axis, f64)> {
     for path in paths.chain(stages) {
         let axis = Axis::new(&path, Spacing::List, Vec::new(), scene).ok();
         let number = axis.zip(scene.number(&path).filter(|value| *value != 0.0));
-        // Variants of a choice share paths.
+        // Variants of one field may have the same path, and each path is returned once.
         numbers.extend(number.filter(|_| numbers.iter().all(|(axis, _)| axis.path != path)));
     }
     numbers
@@ -156,8 +158,8 @@ fn force_unit(scene: &Scene) -> Option<f64> {
     governing(scene)?.force_unit(scene.length)
 }
 
-/// Replaces the loading of a scene by a preload of this axis and separation, if the scene
-/// determines the unit of the axis.
+/// Replaces the loading of a scene by a loading to a preload and a separation. Nothing is changed
+/// if the scene does not determine the unit of the preload.
 pub(super) fn press(scene: &mut Scene, axis: &Axis, preload: f64) {
     let unit = if axis.unit == "N" {
         Some(1.0)
@@ -281,7 +283,7 @@ mod tests {
             let document = open(base).unwrap();
             let mut scene = with(document.scene(), path, value).unwrap();
             let changed = document.set(overrides.0, overrides.1).unwrap();
-            // The words of a built-in scene are not those of a changed one.
+            // A changed built-in scene loses its title and its notice.
             scene.title = changed.scene().title.clone();
             scene.notice = changed.scene().notice.clone();
             assert_eq!(&scene, &**changed.scene(), "{path}");
@@ -328,7 +330,7 @@ mod tests {
             );
             assert_eq!(axis.value_in(&scene, None), Some(value), "{path}");
         }
-        // A longer line has the same waves: more modes.
+        // A longer profile has the same wavelengths, so more waves fit on it.
         let modes = |document: &Document| {
             document
                 .scene()

@@ -19,14 +19,14 @@ pub const MOST_LINES: u64 = 1_000_000;
 /// profiles.
 pub const MOST_RECORDS: u64 = 100_000_000;
 pub(super) const MOST_AXES: usize = 16;
-/// Largest number of scenes that are all checked. Of more scenes, only the scenes at the ends of
-/// all axes are checked.
+/// Largest number of scenes of a plan of which every scene is checked. In larger plans only the
+/// scenes at the ends of all axes are checked.
 pub(super) const MOST_CHECKED: u64 = 4096;
-/// Largest number of cells with invalid scenes that are named. Further ones are counted.
+/// Largest number of cells with invalid scenes that a message names. Further ones are only counted.
 const MOST_NAMED: usize = 8;
 const MOST_FORCES: u64 = 1000;
 
-/// Groups of axes that set the same quantity. A plan may have one axis of each group.
+/// Groups of axes that set the same quantity. A plan may have at most one axis of each group.
 const SAME: [&[&str]; 3] = [
     &[PRELOAD, "preload_in_N"],
     &[
@@ -57,8 +57,8 @@ pub struct Plan {
     pub axes: Vec<Axis>,
     /// Number of random profiles for each [cell](Plan).
     pub lines: u64,
-    /// Seed of the first profile. The other profiles have the seeds that follow. The seeds are the
-    /// same in all [cells](Plan).
+    /// Seed of the first random profile. The other profiles have the next seeds. All [cells](Plan)
+    /// have the same seeds.
     pub seed: u64,
     /// Quantities that are recorded for each [cell](Plan) on each random profile.
     pub record: Vec<Quantity>,
@@ -142,8 +142,9 @@ impl Plan {
         self.places_on(0..self.axes.len(), cell)
     }
 
-    /// Returns the indices of the values for combination `number` of these axes, of which the last
-    /// one varies fastest. The index is 0 on the other axes.
+    /// Returns for each axis of the plan the index of its value, for combination `number` of the
+    /// values on the given axes. The last of the given axes varies fastest. The index is 0 on all
+    /// other axes.
     pub(super) fn places_on(
         &self,
         axes: impl DoubleEndedIterator<Item = usize>,
@@ -192,9 +193,9 @@ impl Plan {
         coordinates.join(", ")
     }
 
-    /// Returns the scene of [cell](Plan) number `cell`, which has the values of the cell on the
-    /// axes. A preload axis is the exception: the scene keeps the loading of the plan's scene,
-    /// because the preload is applied only when the cell is computed.
+    /// Returns the scene of [cell](Plan) number `cell`, with the values of the cell on the axes. A
+    /// value on an axis of preloads is not set: the scene has the loading of the scene of the plan,
+    /// and the preload replaces it only when the cell is computed.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number of an axis, or if a value is out of its
@@ -218,8 +219,8 @@ impl Plan {
     }
 }
 
-/// Checks of a plan. The scenes of its cells are not checked again when the folder of a study is
-/// opened.
+/// Checks of a plan. The scenes of its cells are checked when a study begins, and not again when
+/// its folder is opened.
 impl Plan {
     pub(super) fn errors(&self) -> Vec<String> {
         let mut wrong = self.errors_of_texts();
@@ -282,7 +283,7 @@ impl Plan {
         wrong
     }
 
-    /// Returns the errors of the preloads and of the forces at which the stiffness is recorded.
+    /// Returns the errors of the preloads and of the forces for the exponents of the stiffness.
     fn errors_of_forces(&self) -> Vec<String> {
         let mut wrong = Vec::new();
         let preloads = self.axes.iter().find(|axis| axis.is_of_preloads());
@@ -309,7 +310,7 @@ impl Plan {
         wrong
     }
 
-    /// Returns the error of too many cells or records.
+    /// Returns the error of a plan with too many cells or records.
     fn error_of_size(&self) -> Option<String> {
         let cells = self
             .axes
@@ -335,8 +336,8 @@ impl Plan {
         })
     }
 
-    /// Returns the errors of title and notice, by the rules of a scene, and of a hash without a
-    /// measured file.
+    /// Returns the errors of the title and the notice, which follow the rules for a scene, and the
+    /// error of a hash in a plan without a measured file.
     fn errors_of_texts(&self) -> Vec<String> {
         let texts = Scene {
             title: self.title.clone(),
@@ -383,11 +384,12 @@ impl Plan {
         if wrong.is_empty() { Ok(()) } else { Err(wrong) }
     }
 
-    /// Returns cells that represent all cells. If their scenes are allowed, all are allowed, and
-    /// one of them needs the most memory. They are the first cell of each combination of values
-    /// except preloads. Of more than `most` combinations, only the cells at the ends of all axes
-    /// are returned. Each condition of a scene bounds a number from one side or from both, and so
-    /// holds between values at which it holds.
+    /// Returns cells that represent all cells: if their scenes are allowed, the scenes of all cells
+    /// are allowed, and one of them needs the most memory. The preload does not matter for this, so
+    /// only the first cell of each combination of the other values is returned. If there are more
+    /// than `most` combinations, only the cells at the ends of all axes are returned. This
+    /// suffices, because each condition on a number of a scene is a lower or an upper bound or
+    /// both, so that it holds between two values at which it holds.
     pub(super) fn extremes(&self, most: u64) -> Vec<u64> {
         let preloads = self.preloads().map_or(1, Axis::count);
         if self.cells() / preloads <= most {
@@ -457,7 +459,8 @@ mod tests {
                 .collect();
             for (index, one) in axes.iter().enumerate() {
                 for other in &axes[..index] {
-                    // All seven values, and those near that of the scene.
+                    // All seven values of the axis, and ranges of values nearer to the value of the
+                    // scene.
                     for range in [0..7, 1..6, 2..5] {
                         let part = |axis: &Axis| Axis {
                             values: axis.values[range.clone()].to_vec(),

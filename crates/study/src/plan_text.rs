@@ -198,6 +198,8 @@ impl Plan {
         Plan::of(read, scene, changes.lines).map_err(|wrong| in_plan(wrong, name))
     }
 
+    /// Makes a plan from its text and its scene. All errors of the plan are returned together.
+    /// `lines` replaces the number of profiles in the text.
     fn of(read: PlanText, scene: Scene, lines: Option<u64>) -> Result<Plan, Vec<String>> {
         let PlanText {
             title,
@@ -230,7 +232,8 @@ impl Plan {
                 Err(error) => wrong.push(error),
             }
         }
-        // The preload is the fastest axis, wherever the plan has it.
+        // The values of the preload change fastest from cell to cell, wherever the plan states this
+        // axis.
         read_axes.sort_by_key(Axis::is_of_preloads);
         let plan = Plan {
             title,
@@ -322,7 +325,7 @@ fn in_plan(wrong: Vec<String>, name: &str) -> StudyError {
     StudyError::Plan(lines)
 }
 
-/// Returns the scene of a plan with all replaced fields and with absolute paths.
+/// Returns the scene of a plan, with the changes of the fields made and with absolute paths.
 fn resolved_scene(
     read: &PlanText,
     name: &str,
@@ -350,12 +353,13 @@ fn resolved_scene(
     }
 }
 
-/// Returns the error of a plan that states its scene twice or never.
+/// Returns the error of a plan that states its scene twice, or not at all.
 fn not_one(given: &str, name: &str) -> StudyError {
     in_plan(vec![format!("{given}; allowed: one of them")], name)
 }
 
-/// Returns the scene of a document whose files are found from any folder.
+/// Returns the scene of a document with absolute paths, so that its files are found from any
+/// folder.
 fn with_absolute_paths(document: &Document) -> Scene {
     let mut scene = Scene::clone(document.scene());
     scene.rename_measured_files(|file| {

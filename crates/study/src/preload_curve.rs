@@ -11,12 +11,13 @@ use asperity_contact::{Figures, Move};
 use asperity_data::{AxisScale, Control};
 use asperity_scene::{CheckedScene, Outcome, Simulation, Solver};
 
-/// Number of preloads.
+/// Number of preloads of a curve.
 const PRELOADS: usize = 64;
-/// Index of the preload of the scene on a linear axis, which extends from the force at first touch
-/// to twice this preload.
+/// Index of the preload of the scene among the preloads on a linear axis. The axis extends from the
+/// force at first touch to twice the preload of the scene.
 const LINEAR_PLACE: f64 = 31.0;
-/// Index of the preload of the scene on a logarithmic axis, two decades of which lie above it.
+/// Index of the preload of the scene among the preloads on a logarithmic axis. Of the six decades,
+/// two lie above this preload.
 const LOGARITHMIC_PLACE: f64 = 42.0;
 /// Number of decades of a logarithmic axis.
 const DECADES: f64 = 6.0;
@@ -83,7 +84,7 @@ impl PreloadCurve {
         Ok(curve)
     }
 
-    /// Begins the curve of a computed scene without results.
+    /// Makes the curve of a scene whose outcome is known, without results on further preloads.
     fn begin(
         scene: &CheckedScene,
         outcome: &Outcome,
@@ -135,10 +136,11 @@ impl PreloadCurve {
     }
 }
 
-/// Returns the preload of a computed scene in N, or without a preload its adhesion force.
+/// Returns the preload of a computed scene in N. For a scene without a preload, returns its
+/// adhesion force.
 ///
 /// # Errors
-/// The scene has no such force, no adhesion or another solver.
+/// Returns an error if the scene has no such force, no adhesion or a solver that is not exact.
 fn preload_of(scene: &CheckedScene, outcome: &Outcome) -> Result<f64, StudyError> {
     if scene.numerics.solver != Solver::Exact {
         let place = Some("numerics.solver");
@@ -249,8 +251,8 @@ mod tests {
             (Some(4), PreloadCurve::PROFILES, true)
         );
         assert_eq!(curve(&computed, LINEAR).unwrap(), whole);
-        // The preload of the scene is among those of the axis, and its adhesion force on the
-        // staircase.
+        // The preload of the scene is one of the preloads of the axis, and its adhesion force lies
+        // on the staircase.
         let figures = computed.1.figures;
         let (preload, force) = (figures.preload.unwrap(), figures.adhesion_force.unwrap());
         let at = whole
@@ -268,7 +270,7 @@ mod tests {
             (whole.at(0.7 * preload), whole.axis.values[0]),
             (None, whole.staircase.touch.0)
         );
-        // Another axis is another curve.
+        // A curve on another scale is computed anew.
         let ratios = curve(&computed, AxisScale::Logarithmic).unwrap();
         let (first, last) = (ratios.axis.values[0], ratios.axis.values[PRELOADS - 1]);
         assert!((last / first / 1e6 - 1.0).abs() < 1e-9 && ratios.at(preload).is_some());

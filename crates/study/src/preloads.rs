@@ -1,4 +1,4 @@
-//! Studies in memory over preloads in N, and the staircase of one profile.
+//! Studies in memory over preloads in N, and the adhesion force of one profile over the preload.
 
 use super::axis::{Axis, Spacing, Target, check_ends, check_logarithm};
 use super::error::StudyError;
@@ -13,9 +13,9 @@ use asperity_scene::fields::LEG_FORCE;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 use std::ops::RangeInclusive;
 
-/// Usual number of preloads.
+/// Number of preloads if the text does not state it.
 const USUAL: usize = 64;
-/// What a text of preloads may be.
+/// Allowed texts of preloads, for error messages.
 const ALLOWED: &str = "two forces, and after colons the number of preloads and `log`, such as 0..20uN or 1e-8..1e-4:64:log";
 
 /// Share of the axis of preloads within which each step of a staircase is located.
@@ -228,7 +228,7 @@ impl Staircase {
         !self.forces.is_empty() && self.halves().is_empty()
     }
 
-    /// Returns the middles of the intervals of preloads that contain a step and are still wide.
+    /// Returns the middle of each interval of preloads that contains a step and is still too wide.
     fn halves(&self) -> Vec<f64> {
         let [first, .., last] = &self.forces[..] else {
             return Vec::new();
@@ -246,8 +246,8 @@ impl Staircase {
         middles
     }
 
-    /// Returns the staircase as a polygonal line for a chart: its corners, each with preload and
-    /// adhesion force in N.
+    /// Returns the adhesion force over the preload as a polygonal line for a chart: its corners,
+    /// each with preload and adhesion force in N.
     pub fn line(&self) -> Vec<(f64, f64)> {
         let mut corners: Vec<(f64, f64)> = self.forces.first().copied().into_iter().collect();
         for pair in self.forces.windows(2) {
@@ -258,16 +258,16 @@ impl Staircase {
     }
 }
 
-/// Turning point of a loading, and the unloading from it.
+/// Force at a turning point of the loading, and adhesion force of the unloading from this point.
 #[derive(Clone, Copy, Default)]
 struct Turned {
     /// Force at the turning point, N.
     force: f64,
-    /// Adhesion force after it, N; 0 if the force of the unloading is never negative.
+    /// Adhesion force of the unloading, N; 0 if the force is never negative.
     adhesion_force: f64,
 }
 
-/// Unloads a scene from the end of each of these moves.
+/// Unloads a scene from the end of each of the given moves.
 fn turns_at(
     scene: &CheckedScene,
     ends: &[Move],
@@ -320,7 +320,7 @@ impl Results {
         let mut least = f64::NAN;
         for cell in 0..self.plan.cells() {
             let distance = (self.plan.value(cell, 0) - preload).abs();
-            // Of equally near preloads the first counts.
+            // If two preloads are equally near, the first one counts.
             if nearest.is_none() || distance.total_cmp(&least).is_lt() {
                 nearest = Some(cell);
                 least = distance;
@@ -385,7 +385,7 @@ mod tests {
             (0.0, 2e-5, 9)
         );
         let results = solved(&document, &preloads, 16, 2).unwrap();
-        // One profile is the scene itself, loaded to one of the forces.
+        // The results on one profile agree with a run of the scene, loaded to one of the preloads.
         let scene = document.scene().with_seed(results.plan().seed_of(3));
         let loading = vec![Move::ToForce(preloads.values[4]), Move::ToSeparation];
         let scene = scene.with(|scene| scene.loading = loading).unwrap();
@@ -411,7 +411,7 @@ mod tests {
             .map(|(_, one)| one.mean)
             .collect();
         assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:?}");
-        // Twice the preload about doubles the mean.
+        // Twice the preload gives about twice the mean adhesion force.
         assert!(
             means[8] > 1.5 * means[4] && means[4] > 1.5 * means[2],
             "{means:?}"
@@ -442,8 +442,8 @@ mod tests {
         );
     }
 
-    /// Preloads in N are those of runs of their own, also of a smooth body, and a plan keeps their
-    /// unit.
+    /// Results for preloads in N agree with those of separate runs, also for a smooth body. The
+    /// text of a plan keeps the unit of its preloads.
     #[test]
     fn preloads_of_a_plan_may_be_in_newtons() {
         for base in ["jkr-sphere", "pressure-sensitive"] {
@@ -488,8 +488,8 @@ mod tests {
         }
     }
 
-    /// Each step of the staircase lies where a fine grid of preloads shows it; preloads below zero
-    /// turn while the bodies are drawn together.
+    /// The steps of the staircase agree with those on a fine grid of preloads. A loading to a
+    /// negative preload turns while adhesion draws the bodies together.
     #[test]
     fn a_staircase_has_its_steps_where_a_fine_grid_has_them() {
         let document = open("pressure-sensitive").unwrap();
@@ -540,7 +540,7 @@ mod tests {
             steps += usize::from(before < after);
         }
         assert!(steps > 2, "{steps}");
-        // Level, then upright: never a ramp.
+        // Each segment of the polygonal line is horizontal or vertical.
         assert!(
             coarse
                 .line()

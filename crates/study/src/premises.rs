@@ -1,4 +1,5 @@
-//! Premises of the model that a scene, or the unloading from several turning points, does not meet.
+//! Premises of the model that a scene does not meet, alone or with unloading from several turning
+//! points.
 
 use super::error::StudyError;
 use super::missing_profiles::Failures;
@@ -8,10 +9,10 @@ use asperity_data::{Control, CountedWarning, Warning};
 use asperity_scene::theory::ReversalMap;
 use asperity_scene::{CheckedScene, RunError, Simulation};
 
-/// Computes a scene on `profiles` random profiles, and returns the premises of the model that these
+/// Computes a scene on `profiles` random profiles. Returns the premises of the model that these
 /// profiles do not meet, each with the number of these profiles. If the scene cannot be computed on
-/// any of them, the premises are those that are known from its fields. `control` reports the number
-/// of computed profiles.
+/// any profile, the premises follow from its fields alone. `control` receives the number of
+/// computed profiles.
 ///
 /// # Errors
 /// Returns an error if several profiles are requested and the profile of the scene is fixed, if the

@@ -16,12 +16,12 @@ use std::thread::Builder;
 pub(super) type Stop<'a> = dyn Fn() -> bool + Sync + 'a;
 
 /// Solves profiles of a plan, given by their indices, on at most `threads` threads, or on fewer if
-/// the memory does not suffice. One thread uses this simulation, and each further one a new
-/// simulation of the same files. `receive` gets each result with the index of its profile, on the
-/// calling thread, as soon as the result is known.
+/// the memory does not suffice. One thread uses the given simulation. Each further thread uses a
+/// new simulation of the same files. `receive` is called on the calling thread with each result and
+/// the index of its profile, as soon as the result is known.
 ///
 /// # Errors
-/// A profile fails. The error belongs to the first of the profiles that fail.
+/// Returns the error of the first profile that cannot be solved, in the order of `lines`.
 pub(super) fn on_profiles<R: Send>(
     plan: &Plan,
     lines: &[u64],
@@ -53,7 +53,7 @@ pub(super) fn on_profiles<R: Send>(
             let line = lines[number as usize];
             let simulation = own.as_deref_mut().ok_or_else(no_simulation)?;
             let solved = solve_line(simulation, line)?;
-            // The receiver lives until all threads have ended.
+            // Sending cannot fail, because the receiver exists until all threads have ended.
             let _ = sender.send((line, solved));
             Ok(())
         }
@@ -65,8 +65,8 @@ pub(super) fn on_profiles<R: Send>(
     Ok(())
 }
 
-/// Returns the largest number of threads, at most `most`, for which the memory suffices; 1 if it
-/// suffices for none.
+/// Returns the largest number of threads, at most `most`, for which the memory suffices; 1 if the
+/// memory does not even suffice for one thread.
 fn threads_within_memory(plan: &Plan, most: usize) -> usize {
     (2..=most)
         .rev()
@@ -89,11 +89,12 @@ fn no_simulation() -> StudyError {
     .into()
 }
 
-/// Returns results for the numbers below `count`, computed on `threads` threads, each with its own
-/// `worker`. `receive` gets what the workers send, on the calling thread, as soon as it is sent.
+/// Calls a worker for each number below `count`, and returns the results. Each of the `threads`
+/// threads has its own worker. `receive` is called on the calling thread with each message of a
+/// worker, as soon as it is sent.
 ///
 /// # Errors
-/// A number fails. The error belongs to the smallest number that fails.
+/// Returns the error of the smallest number for which a worker fails.
 pub(super) fn on_threads_received<M: Send, R: Send, W: FnMut(u64) -> Result<R, StudyError>>(
     count: u64,
     threads: usize,

@@ -1,4 +1,4 @@
-//! Quantities that a study records for each cell and profile: one row of a table for each.
+//! Quantities that a study records for each cell and profile. Each quantity is a row of one table.
 
 use super::case_outcome::CaseOutcome;
 use asperity_scene::Regime;
@@ -6,11 +6,11 @@ use asperity_scene::text::did_you_mean;
 use serde::{Deserialize, Serialize};
 
 struct Row {
-    /// Name in plans and columns.
+    /// Name in plans and in columns of tables.
     name: &'static str,
     /// Symbol; empty if there is none.
     symbol: &'static str,
-    /// SI unit; `1` for a number without a unit, empty for a regime, which is not a number.
+    /// SI unit: `1` for a number without a unit, empty for a regime, which is not a number.
     unit: &'static str,
     meaning: &'static str,
     bounds: (f64, f64),
@@ -20,17 +20,17 @@ struct Row {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Needs {
-    /// Profile and governing parameters are enough.
+    /// The profile and its governing parameters are needed.
     Profile,
     /// Statistics of the heights without the form are needed.
     Heights,
-    /// F_a(d=0) is needed, which turns at first touch.
+    /// A loading that turns at first touch is needed, for F_a(d=0).
     Touch,
-    /// F_a(F=0) is needed, which turns where the force is back at zero.
+    /// A loading that turns where the force is back at zero is needed, for F_a(F=0).
     ZeroForce,
-    /// Loading to the preload is needed, or the scene's own loading.
+    /// The loading to the preload is needed, or the loading of the scene.
     Loading,
-    /// Exponents of the force curve without adhesion are needed.
+    /// The force curve without adhesion is needed, for its exponents.
     Stiffness,
 }
 
@@ -44,11 +44,11 @@ const ROW: Row = Row {
     of: |_| None,
 };
 
-/// Bounds of a quantity that may have either sign, and of a share.
+/// Bounds of a quantity that may be positive or negative, and of a share.
 const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 const SHARE: (f64, f64) = (0.0, 1.0);
 
-/// Makes the enum of the quantities and the table of their rows.
+/// Makes the enum of the quantities and the table with a row for each quantity.
 macro_rules! quantities {
     ($($variant:ident { name: $name:literal, meaning: $meaning:literal, $($field:ident: $value:expr),* $(,)? })*) => {
         /// Quantity that a study records for each [cell](crate::Plan) on each random profile. The
@@ -285,7 +285,8 @@ impl Quantity {
                 let words = Quantity::ALL
                     .into_iter()
                     .flat_map(|quantity| [quantity.name(), quantity.symbol()]);
-                // A letter or two is near to anything.
+                // Any wrong name is close to a symbol of one or two letters, so only longer words
+                // are suggested.
                 let near = did_you_mean(&name, words.filter(|word| word.chars().count() > 2));
                 if near.is_empty() {
                     let all = Quantity::names(&Quantity::ALL);
@@ -321,8 +322,8 @@ impl Quantity {
         self.row().needs
     }
 
-    /// Returns the value of the quantity in a case in its SI unit; NaN if the case has none. The
-    /// value of a regime is its index in [`asperity_scene::Regime::ALL`].
+    /// Returns the value of the quantity in a case in its SI unit; NaN if the quantity has no value
+    /// there. The value of a regime is its index in [`asperity_scene::Regime::ALL`].
     pub(super) fn of(self, case: &CaseOutcome<'_>) -> f64 {
         (self.row().of)(case)
             .filter(|value| value.is_finite())
@@ -330,7 +331,7 @@ impl Quantity {
     }
 }
 
-/// Returns the regime that a recorded value means; `None` for NaN.
+/// Returns the regime for a recorded value, which is an index or NaN; `None` for NaN.
 pub(super) fn regime_of(value: f64) -> Option<Regime> {
     Regime::ALL
         .get(Some(value as usize).filter(|_| !value.is_nan())?)

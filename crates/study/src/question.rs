@@ -11,24 +11,25 @@ use asperity_data::{AxisScale, Remedy, format_quantity, format_range, parse_quan
 use asperity_scene::fields::Field;
 use asperity_scene::{CheckedScene, RunError, Scene, Simulation, Solver};
 
-/// Ratio of the ends of the searched range to the number of the scene.
+/// Ratio of each end of the searched range to the value in the scene: a hundredth and a hundred
+/// times.
 const FACTOR: f64 = 100.0;
-/// Ratio of the largest searched preload to the preload of full contact, for a loading without a
+/// Largest searched preload over the preload of full contact, if the loading of the scene has no
 /// force.
 const DEEPER: f64 = 10.0;
-/// Largest width of an allowed range that is searched as a whole, and share of the range that is
-/// left out at its ends.
+/// Largest width of the allowed range of a number that is searched as a whole.
 const NARROW: f64 = 2.0;
+/// Share of a narrow allowed range that is left out at each of its ends.
 const MARGIN: f64 = 0.01;
-/// Share of the largest preload up to which preloads are spread evenly if the range begins at 0 N.
-/// Above it their logarithms are.
+/// Share of the largest preload up to which preloads are spaced evenly if the searched range begins
+/// at 0 N. Above this share the logarithms of the preloads are spaced evenly.
 const EVEN_PRELOADS: f64 = 1e-5;
 
-/// Path of the work of adhesion.
+/// Path of the work of adhesion in a scene.
 const WORK: &str = "adhesion.work";
 
-/// Question: at which value of one number of a scene does a quantity reach a target? It is asked
-/// for each of several random profiles.
+/// Question: at which value of one number of a scene does a quantity reach a target? The question
+/// is answered on each of several random profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// Number of the scene, or preload in N, whose value is sought. It is given as an axis without
@@ -38,24 +39,26 @@ pub struct Question {
     pub quantity: Quantity,
     /// Target value of [`Question::quantity`] in the SI unit of the quantity.
     pub target: f64,
-    /// Smallest and largest value of the number that are tried, in SI units. If the number is not
-    /// above zero in the scene, [`Question::new`] sets both to NaN, and the caller must set the
+    /// Smallest and largest value of the number that are tried, in SI units. If the number is zero
+    /// or negative in the scene, [`Question::new`] sets both to NaN, and the caller must set the
     /// range before the question is answered.
     pub searched: (f64, f64),
-    /// Scale of the searched number.
+    /// Scale, linear or logarithmic, on which the values of the number are searched.
     scale: AxisScale,
-    /// Scene with the sought number, on its profiles.
+    /// Plan of the scene with its random profiles, which records the quantities that the search
+    /// needs.
     pub(super) plan: Plan,
 }
 
 /// How a quantity depends on the sought number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
-    /// The quantity never falls, or never rises, with the number.
+    /// The quantity is monotonic in the number: it never falls, or it never rises.
     OneWay,
-    /// The quantity is F_a/F_n over the preload.
+    /// The quantity is F_a/F_n as a function of the preload F_n.
     Ratio,
-    /// The quantity is constant between two steps of F_a over the preload.
+    /// The quantity depends on the preload only through F_a. It is constant where F_a is constant,
+    /// and F_a is constant between its steps.
     Steps,
     /// The quantity may rise and fall.
     Unknown,
@@ -67,29 +70,30 @@ pub(super) enum Course {
 pub struct Answer {
     /// Seed of the profile; `None` if the profile of the scene is fixed.
     pub seed: Option<u64>,
-    /// Ascending values of the number at which the quantity crosses the target, or comes to rest on
-    /// it. Each has a relative error of at most 1e-9. If only some values are allowed, such as
-    /// whole numbers, it is the allowed value beside the crossing at which the quantity is at least
-    /// the target, but for rounding.
+    /// Ascending values of the number at which the quantity crosses the target, or becomes equal to
+    /// the target and stays equal. Each has a relative error of at most 1e-9. If only some values
+    /// are allowed, such as whole numbers, the allowed value beside the crossing is given at which
+    /// the quantity is at least the target, apart from rounding errors.
     pub crossings: Vec<f64>,
-    /// True if there may be more crossings than the listed ones, since the quantity comes close to
-    /// the target between two numbers at which it was computed. Also the first one may be missed.
+    /// True if there may be more crossings than the listed ones, because the quantity comes close
+    /// to the target between two numbers at which it was computed. Even the first crossing may be
+    /// missing then.
     pub may_miss: bool,
-    /// True if the crossings follow from a proof: the quantity cannot turn, or is known in closed
-    /// form, or was computed at all allowed numbers. Otherwise the quantity was computed at
-    /// [`Answer::tried`] numbers, and a crossing between two of them is missed if the quantity
-    /// leaves its course there for a short way.
+    /// True if the crossings follow from a proof: the quantity is monotonic, or is known in closed
+    /// form, or was computed at all allowed numbers. Otherwise the quantity was computed only at
+    /// [`Answer::tried`] numbers. Two crossings are then missed if the quantity passes the target
+    /// and comes back between two neighbouring numbers.
     pub is_proven: bool,
-    /// Number of computations.
+    /// Number of values of the sought number at which the quantity was computed.
     pub tried: u64,
-    /// True if the quantity is at least the target: first for the smallest, then for the largest
-    /// searched number at which it has a value.
+    /// True if the quantity is at least the target. The first entry is for the smallest, the second
+    /// for the largest searched number at which the quantity has a value.
     pub reached: [bool; 2],
-    /// True if F_a(d=0) reaches the target already, so that no preload is needed. False if no
+    /// True if F_a(d=0) already reaches the target, so that no preload is needed. False if no
     /// preload is sought or if the quantity is not an adhesion force after the preload.
     pub at_touch: bool,
     /// Smallest and largest value of the quantity at all numbers at which it was computed; `None`
-    /// if it has no value at any of them.
+    /// if the quantity has no value at any of these numbers.
     pub reachable: Option<(f64, f64)>,
 }
 
@@ -117,7 +121,7 @@ impl Question {
     /// );
     /// ```
     pub fn parse_condition(text: &str) -> Result<(Quantity, f64), StudyError> {
-        // The symbol F_a(F=0) has the sign itself.
+        // The text is split at the last `=`, because the symbol F_a(F=0) contains this sign.
         let example = "a quantity and its value, such as \"F_a/F_a,max = 80 %\"";
         let Some((name, value)) = text.rsplit_once('=') else {
             return Err(StudyError::refused(None, format!("{text:?}"), example));
@@ -147,17 +151,17 @@ impl Question {
         Ok((quantity, target))
     }
 
-    /// Makes a question: at which value of the number at `path` does a quantity have a given value?
-    /// It is asked for `profiles` random profiles of a checked scene. `path` may be `preload`.
-    /// Numbers from a hundredth to a hundred times the value in the scene are searched. For a
-    /// number with a narrow allowed range, such as the Hurst exponent, nearly this whole range is
-    /// searched. Preloads are searched from 0 N to a hundred times the largest force to which the
-    /// scene is loaded. `condition` is the quantity and its wanted value in SI units.
+    /// Makes the question at which value of the number at `path` a quantity has a given value. The
+    /// question is for `profiles` random profiles of a checked scene. `path` may be `preload`.
+    /// Numbers from a hundredth to a hundred times the value in the scene are searched. If the
+    /// allowed range of the number is narrow, as for the Hurst exponent, nearly the whole allowed
+    /// range is searched. Preloads are searched from 0 N to a hundred times the largest force to
+    /// which the scene is loaded. `condition` is the quantity and its wanted value in SI units.
     ///
     /// # Errors
     /// Returns an error if the scene lacks the number, or if several profiles are requested and the
-    /// profile of the scene is fixed. It is also an error to ask for a preload if the solver of the
-    /// scene is not [`Solver::Exact`].
+    /// profile of the scene is fixed. A preload is refused if the solver of the scene is not
+    /// [`Solver::Exact`].
     pub fn new(
         scene: &CheckedScene,
         path: &str,
@@ -178,7 +182,7 @@ impl Question {
         let UsualRange { scale, ends } = usual;
         StudyError::check_profiles(scene, profiles)?;
         let plan = Plan::of_scene(&base, profiles, &recorded(&axis, quantity));
-        // A number below zero has no range around it.
+        // The usual range is a range of ratios, so there is none around zero or a negative number.
         let searched = ends.unwrap_or((f64::NAN, f64::NAN));
         Ok(Question {
             axis,
@@ -193,7 +197,7 @@ impl Question {
     /// Returns an error for an empty range.
     pub(super) fn check(&self) -> Result<(), StudyError> {
         let (from, to) = self.searched;
-        // Also for an end that is no number.
+        // This comparison also refuses an end that is NaN.
         if from < to && (to - from).is_finite() {
             return self.check_allowed();
         }
@@ -207,7 +211,7 @@ impl Question {
         Err(self.refused(&format!("range {first} to {last}"), allowed))
     }
 
-    /// Returns an error for a range without an allowed number, such as a whole one.
+    /// Returns an error for a range that contains no allowed number, such as no whole number.
     fn check_allowed(&self) -> Result<(), StudyError> {
         if self.coordinates().is_some() {
             return Ok(());
@@ -243,9 +247,9 @@ impl Question {
                 Quantity::AdhesionCoefficient => Course::Ratio,
                 Quantity::PullOffIndentation => Course::Steps,
                 Quantity::Fragments => Course::Unknown,
-                // A deeper preload leaves more springs in contact at each indentation of the
-                // unloading. Therefore the pull and the area of the loop grow. Quantities without a
-                // loading are constant.
+                // A larger preload leaves more springs in contact at each indentation of the
+                // unloading. Therefore the pull-off force and the dissipated energy never fall with
+                // the preload. Quantities that do not depend on the loading are constant.
                 _ => Course::OneWay,
             },
             _ if self.is_adhesion_over_work() => Course::OneWay,
@@ -254,8 +258,8 @@ impl Question {
     }
 
     /// Returns true if the question asks for a work of adhesion, κ or e_el/γ, and the quantity is
-    /// the adhesion force of a loop. A larger work of adhesion leaves more springs in contact at
-    /// each indentation.
+    /// the adhesion force of a loop. With a larger work of adhesion more springs stay in contact at
+    /// each indentation, so this force never falls.
     fn is_adhesion_over_work(&self) -> bool {
         let is_work = matches!(self.axis.target, Target::Number(Field { path: WORK, .. }));
         let scene = &self.plan.scene;
@@ -276,15 +280,14 @@ impl Question {
         (is_work || self.axis.target.parameter().is_some()) && is_loop_force && is_rigid
     }
 
-    /// Returns true if the first preload that reaches the target is sought: the quantity never
-    /// falls with the preload.
+    /// Returns true if the question asks for the smallest preload that reaches the target, as the
+    /// quantity never falls with the preload.
     pub fn seeks_least_preload(&self) -> bool {
         self.is_of_preload() && self.course() == Course::OneWay
     }
 
-    /// Returns true if the waves of the roughness are given by wavelengths and the sought number
-    /// changes how many of them fit on the length. Only numbers at which a whole number of waves
-    /// fits are answers.
+    /// Returns true if the roughness is given by wavelengths and the sought number changes how many
+    /// waves fit on the length. Only values for which a whole number of waves fits can be answers.
     pub fn is_of_whole_waves(&self) -> bool {
         matches!(
             self.allowed(),
@@ -297,7 +300,8 @@ impl Question {
         Allowed::of(&self.axis, &self.plan.scene)
     }
 
-    /// Returns coordinates of the searched range; `None` if the range has no allowed number.
+    /// Returns the coordinates on which the search is done; `None` if the searched range contains
+    /// no allowed number.
     pub(super) fn coordinates(&self) -> Option<Coordinates> {
         let (from, to) = self.searched;
         let is_of_preload = self.is_of_preload();
@@ -316,8 +320,9 @@ impl Question {
     }
 }
 
-/// Returns the same quantity turned at first touch, for an adhesion force over the preload, which
-/// never falls.
+/// Returns the quantity of a loop turned at first touch that corresponds to an adhesion force over
+/// the preload; `None` for other quantities. The quantity at first touch is the smallest one, since
+/// the adhesion force never falls with the preload.
 pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     match (axis.target, quantity) {
         (Target::Preload { .. }, Quantity::AdhesionForce) => {
@@ -330,8 +335,8 @@ pub(super) fn at_touch(axis: &Axis, quantity: Quantity) -> Option<Quantity> {
     }
 }
 
-/// Returns the quantities that are recorded at each number: the quantity of the question, then one
-/// that the search needs.
+/// Returns the quantities that are recorded at each number: the quantity of the question, its value
+/// after a turn at first touch, and F_a if the search follows the steps of F_a.
 fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
     let follows_steps = matches!(
         quantity,
@@ -344,10 +349,10 @@ fn recorded(axis: &Axis, quantity: Quantity) -> Vec<Quantity> {
         .collect()
 }
 
-/// Scale and range on which a number is usually searched.
+/// Scale and range on which a number is searched unless the caller sets another range.
 struct UsualRange {
     scale: AxisScale,
-    /// Smallest and largest searched number; `None` if a number below zero has no range around it.
+    /// Smallest and largest searched number; `None` if the value in the scene is zero or negative.
     ends: Option<(f64, f64)>,
 }
 
@@ -377,7 +382,7 @@ impl UsualRange {
     }
 }
 
-/// What a question asks for, in a scene that has it as a number.
+/// Axis and usual range of the sought number, and the scene with this number as a field.
 struct Sought {
     axis: Axis,
     usual: UsualRange,
@@ -401,7 +406,7 @@ impl Sought {
         } else {
             DEEPER * reach.full_contact.0
         };
-        // Within reach of every profile, wherever its full contact is.
+        // Each profile can reach this force, at whatever indentation it comes into full contact.
         let most = usual.min(reach.force - reach.full_contact.0);
         Ok(Sought {
             axis: Axis::of_preload(),
@@ -426,7 +431,8 @@ impl Sought {
             && path == WORK
             && adhesion.parameter().is_some()
         {
-            // The work of adhesion that follows from κ or e_el/γ becomes a number of the scene.
+            // A scene with κ or e_el/γ has no work of adhesion. The work that follows from it
+            // becomes a field of the scene, so that it can be varied.
             scene.adhesion = Some(adhesion.with_work(work));
         }
         let Some(present) = axis.value_in(&scene, Some(&governing)) else {
@@ -440,8 +446,8 @@ impl Sought {
 }
 
 impl Answer {
-    /// Returns the number of the profile: the first crossing, or the smallest preload that reaches
-    /// the target.
+    /// Returns the value that answers the question on this profile: the first crossing, or the
+    /// smallest preload that reaches the target.
     pub(super) fn value(&self, question: &Question) -> Option<f64> {
         let already = question.seeks_least_preload() && self.reached[0];
         if already {

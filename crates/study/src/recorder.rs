@@ -1,5 +1,5 @@
-//! The recorder of a streak, which computes its loadings on one profile and reads the recorded
-//! quantities.
+//! Computation of the recorded quantities of a streak: all cells that differ only in the preload,
+//! on one profile.
 
 use super::case_outcome::{CaseOutcome, LoadingOutcome, ProfileRecord};
 use super::cells::Streak;
@@ -12,34 +12,34 @@ use asperity_surface::SurfaceError;
 use std::mem::take;
 
 /// Values of the recorded quantities for each preload, in the order of the plan; NaN for a quantity
-/// that the case does not have.
+/// that has no value.
 pub(super) type Records = Vec<Vec<f64>>;
 
-/// Values of a record, or the reason in one line why they cannot be computed.
+/// Values of a record, or the reason, as one line of text, why they cannot be computed.
 pub(super) type Recorded = Result<Vec<f64>, String>;
 
-/// Recorder of the cases of a plan. It keeps the profile, its contact tree and its properties from
-/// case to case.
+/// Computes the records of a plan. The profile, its contact tree and its properties are kept for
+/// the next record with the same profile.
 pub(super) struct Recorder<'p> {
     plan: &'p Plan,
     pub simulation: Simulation,
-    /// Properties of the last profile, with its scene without adhesion and loading.
+    /// Properties of the last profile, and the scene of this profile without adhesion and loading.
     profile: Option<(CheckedScene, ProfileRecord)>,
-    /// Premises that recorded cases do not meet, with the numbers of the cells.
+    /// Premises that recorded cases do not meet, each list with the number of its cell.
     warnings: Vec<(u64, Vec<Warning>)>,
     stop: &'p dyn Fn() -> bool,
 }
 
-/// Outcomes of loadings that each begin at separation.
+/// Outcomes of several loadings, each of which begins at separation.
 #[derive(Default)]
 struct SolvedLoops {
     loadings: Vec<LoadingOutcome>,
-    /// F_a(d=0), N.
+    /// Adhesion force turned at first touch, F_a(d=0), N.
     first_touch: Option<f64>,
 }
 
-/// Returns the move at which a loading turns that only presses and separates; `None` for another
-/// loading.
+/// Returns the turning point of a loading that consists of one move and a separation; `None` for
+/// any other loading.
 fn turn_of(loading: &[Move]) -> Option<Move> {
     match loading {
         [
@@ -63,15 +63,16 @@ impl<'p> Recorder<'p> {
     }
 
     /// Returns the premises that the cases recorded so far do not meet, each list with the number
-    /// of the cell, and forgets them.
+    /// of its cell, and empties the list.
     pub fn take_warnings(&mut self) -> Vec<(u64, Vec<Warning>)> {
         take(&mut self.warnings)
     }
 
-    /// Computes a streak. A cell that cannot be computed gets the reason in place of its values.
+    /// Computes a streak. A cell that cannot be computed gets the reason instead of values.
     ///
     /// # Errors
-    /// The memory does not suffice, or `stop` returned true. Neither is due to a cell.
+    /// Returns an error if the memory does not suffice, or if `stop` returned true. Such an error
+    /// has nothing to do with the values of a cell.
     pub fn record_each(&mut self, streak: &Streak) -> Result<Vec<Recorded>, RunError> {
         let error = match self.record(streak) {
             Ok(records) => return Ok(records.into_iter().map(Ok).collect()),
@@ -85,7 +86,8 @@ impl<'p> Recorder<'p> {
             let first_line = reason.lines().next().unwrap_or_default();
             return Ok(vec![Err(printable(first_line).into_owned())]);
         }
-        // Of several preloads some may be within reach.
+        // The error may be due to one preload, such as an unreachable force, so each is computed
+        // separately.
         let mut records = Vec::new();
         for cell in streak.cells.clone() {
             let cells = cell..cell + 1;
@@ -95,10 +97,11 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Computes a streak.
+    /// Computes all cells of a streak together.
     ///
     /// # Errors
-    /// The profile or the contact fails, or `stop` returned true.
+    /// Returns an error if the profile or the contact cannot be computed, or if `stop` returned
+    /// true.
     pub fn record(&mut self, streak: &Streak) -> Result<Records, RunError> {
         let plan = self.plan;
         let scene = plan
@@ -158,8 +161,8 @@ impl<'p> Recorder<'p> {
         Ok(records)
     }
 
-    /// Returns the loading of each cell of a streak, if a recorded quantity needs it. Preloads are
-    /// in units of E* h L, or in N.
+    /// Returns the loading of each cell of a streak; empty if no recorded quantity needs it. The
+    /// preloads of the plan are in units of E* h L, or in N.
     fn loops(
         &self,
         streak: &Streak,
@@ -184,7 +187,7 @@ impl<'p> Recorder<'p> {
             .collect()
     }
 
-    /// Computes loadings that each begin at separation.
+    /// Computes several loadings, each of which begins at separation.
     fn solve(
         &mut self,
         scene: &CheckedScene,
@@ -211,7 +214,7 @@ impl<'p> Recorder<'p> {
         Ok(solved)
     }
 
-    /// Computes loops that turn at these moves. One loading serves all of them.
+    /// Computes loops that turn at the given moves. A single loading passes all turning points.
     fn solve_reversals(
         &mut self,
         scene: &CheckedScene,
@@ -240,6 +243,8 @@ impl<'p> Recorder<'p> {
         self.simulation.run(scene, self.stop, &mut |_, _, _| Ok(()))
     }
 
+    /// Returns the recorded properties of the profile of a scene. They depend neither on the
+    /// adhesion nor on the loading, and are kept for the next scene with the same profile.
     fn profile_record(&mut self, scene: &CheckedScene) -> Result<ProfileRecord, RunError> {
         let heights = self.plan.records(Needs::Heights);
         let stiffness = self.plan.records(Needs::Stiffness);
@@ -258,7 +263,8 @@ impl<'p> Recorder<'p> {
                 Some(amplitude),
             ) = (&mut scene.roughness, amplitude)
             {
-                // The amplitude may depend on the adhesion.
+                // The amplitude in the scene may follow from κ. It is stated as an rms height,
+                // because the adhesion is removed.
                 (*rms_height, *rms_gradient) = (Some(amplitude.rms_height), None);
             }
         })?;
@@ -269,7 +275,8 @@ impl<'p> Recorder<'p> {
         }
         let mut record = ProfileRecord::default();
         if heights {
-            // Without the form, which is the same on all profiles.
+            // The heights are those of the roughness alone, without the form, which all profiles
+            // share.
             let (line, ..) = self
                 .simulation
                 .make_line(&nonadhesive.with(|scene| scene.form = None)?)?;
@@ -282,9 +289,9 @@ impl<'p> Recorder<'p> {
         Ok(record)
     }
 
-    /// Returns the exponents of the contact without adhesion, fitted to logarithms over the range
-    /// of forces of the plan. No spring is stretched, so the stiffness is E* times the contact
-    /// length.
+    /// Returns the exponents of force and stiffness of the contact without adhesion; `None` if they
+    /// cannot be fitted. They are slopes of logarithms over the range of forces of the plan. The
+    /// stiffness is E* times the contact length, because no spring is stretched.
     fn exponents(&mut self, scene: &CheckedScene) -> Result<Option<(f64, f64)>, RunError> {
         let (_, _, governing) = self.simulation.make_line(scene)?;
         let Some(unit) = governing.force_unit(scene.length) else {
@@ -311,7 +318,7 @@ impl<'p> Recorder<'p> {
     }
 }
 
-/// Records cases of a plan with a recorder that has this simulation, and returns the simulation.
+/// Calls `record` with a recorder that uses the given simulation, and gives the simulation back.
 pub(super) fn with_recorder<R>(
     plan: &Plan,
     simulation: &mut Simulation,
@@ -324,7 +331,8 @@ pub(super) fn with_recorder<R>(
     recorded
 }
 
-/// Returns true for an error due to the machine or the user rather than to a cell.
+/// Returns true for an error that is due to the machine or the user, and not to the values of a
+/// cell.
 fn is_of_machine(error: &RunError) -> bool {
     let is_short = matches!(
         error,

@@ -1,9 +1,10 @@
-//! The same contact as a profile and in three dimensions: means over random profiles and random
-//! squares with one spectrum.
+//! Comparison of random profiles with random squares in three dimensions that have the same
+//! spectrum.
 //!
-//! A free rigid square of the side L is compared with a profile (line) of the length L, without a
-//! fit. Line and square are independent draws, so only their means are compared. At the same force
-//! the line has 1.1 to 4.2 times the area of contact in three dimensions.
+//! A free rigid square of the side L is compared with a profile (line) of the length L, and no
+//! constant is fitted. The heights of line and square are drawn independently, so only means over
+//! many of them are compared. At the same force the area of contact of the line is 1.1 to 4.2 times
+//! the area in three dimensions.
 
 use super::compared::Compared;
 use super::ensemble::Ensemble;
@@ -26,7 +27,8 @@ pub struct ReferenceOptions {
     pub lines: u64,
 }
 
-/// Number of random profiles for each square. A profile takes a thousandth of the time.
+/// Number of random profiles for each square. A profile takes about a thousandth of the computing
+/// time of a square.
 const LINES_PER_MAP: u64 = 16;
 
 impl ReferenceOptions {
@@ -64,13 +66,13 @@ impl Loaded {
     /// Smallest mean number of grid cells in contact with which a force is compared.
     pub const LEAST_CELLS: f64 = 20.0;
 
-    /// Returns the larger one of the errors [`Compared::grid`] of indentation and stiffness.
+    /// Returns the larger of the errors [`Compared::grid`] of indentation and stiffness.
     pub fn grid(&self) -> Option<f64> {
         Some(self.indentation.grid?.max(self.stiffness.grid?))
     }
 }
 
-/// Force at which profiles and squares are not compared, because too few grid cells of the squares
+/// Force at which profiles and squares are not compared because too few grid cells of the squares
 /// are in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
@@ -98,9 +100,9 @@ pub struct RoughnessOfBoth {
 /// Comparison of a scene on random profiles with the same scene on random squares in three
 /// dimensions. A square is a rigid rough body of the side L on an elastic half-space.
 ///
-/// Both are pressed alike: from separation to the same force or indentation, and back to
-/// separation. Of a longer loading this is the last loop, to the stage with the largest force after
-/// the last separation.
+/// Profile and square are loaded in the same way: from separation to the same force or indentation,
+/// and back to separation. If the loading of the scene has several loops, the last one counts. It
+/// turns at the stage with the largest force after the last separation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reference {
     /// Numbers of profiles, squares and grid cells with which the comparison was computed.
@@ -123,9 +125,10 @@ pub struct Reference {
     /// of the instrument, this is the mean force of the profiles there.
     pub preload: f64,
     /// Comparison without adhesion at several forces, from a hundredth of the preload to the
-    /// preload, where at least [`Loaded::LEAST_CELLS`] grid cells of a square are in contact.
+    /// preload. At each of these forces at least [`Loaded::LEAST_CELLS`] grid cells of a square are
+    /// in contact.
     pub loading: Vec<Loaded>,
-    /// Forces at which fewer grid cells are in contact.
+    /// Forces at which fewer than [`Loaded::LEAST_CELLS`] grid cells are in contact.
     pub left_out: Vec<LeftOut>,
     /// Comparison of the adhesion force F_a in N after the preload; `None` for a scene without
     /// adhesion.
@@ -136,8 +139,8 @@ pub struct Reference {
     /// Comparison of the energy in J that the contact loses in the loop to the preload and back;
     /// `None` for a scene without adhesion.
     pub dissipated_energy: Option<Compared>,
-    /// True for a smooth body of revolution for which the profile is exact, so that every
-    /// difference is an error of the squares.
+    /// True for a smooth body of revolution for which the method of dimensionality reduction is
+    /// exact, so that every difference between profile and square is an error of the square.
     pub line_is_exact: bool,
     /// Errors of the comparison of adhesion forces, or of indentations for a scene without
     /// adhesion, one for each source.
@@ -147,18 +150,19 @@ pub struct Reference {
     #[serde(skip)]
     pub warnings: Vec<CountedWarning>,
     /// Number of convolutions over the grid of a square that the solver computed for all squares
-    /// together, a measure of the computing work.
+    /// together, a measure of the computing work. The coarser squares, which show the error of the
+    /// grid, are not counted.
     pub convolutions: u64,
     /// Computing time in s: first of all profiles together, then of all squares together.
     pub seconds: [f64; 2],
-    /// Mean computing time of one square, s.
+    /// Mean computing time of one square in s, without its coarser square.
     pub seconds_of_square: f64,
 }
 
 /// Event that [`Reference::of`] reports while it compares profiles with squares.
 #[derive(Clone, Debug)]
 pub enum ReferenceEvent {
-    /// Memory and time are known, and the computation of the profiles begins.
+    /// Memory and computing time are estimated, and the computation of the profiles begins.
     Begins {
         /// Number of squares, which is one for a body without random roughness.
         maps: u64,
@@ -169,11 +173,12 @@ pub enum ReferenceEvent {
         /// Computing time of all squares in s, estimated from smaller squares.
         seconds: f64,
     },
-    /// About a hundredth of the profiles are computed.
+    /// Another hundredth (about) of the profiles is computed.
     Profiles {
-        /// Number of further profiles.
+        /// Number of profiles computed since the last event of this kind.
         count: u64,
-        /// Number of all profiles.
+        /// Number of all computations of profiles. Each profile counts twice if it is computed both
+        /// in the loop and without adhesion.
         lines: u64,
     },
     /// All profiles are computed, and the computation of the squares begins.
@@ -182,9 +187,9 @@ pub enum ReferenceEvent {
         /// has no adhesion.
         lines: Vec<f64>,
     },
-    /// A square is computed at one more force or indentation.
+    /// The contact of a square is computed at one more force or indentation.
     Loaded {
-        /// Share of the computation of all squares, estimated from smaller squares.
+        /// Share of the work on all squares that this step is, estimated from smaller squares.
         share: f64,
     },
     /// The computation of a square is finished.
@@ -237,13 +242,15 @@ mod tests {
         Reference::of(scene, options, &mut Simulation::default(), control)
     }
 
-    /// A rough square with modes 1 to 4, which a coarse grid resolves.
+    /// Returns a scene with a rough square that has only the modes 1 to 4, which a coarse grid
+    /// resolves.
     fn coarse_square() -> Document {
         let document = open(&format!("{DOCS}examples/rough-square.ron")).unwrap();
         document.set("roughness.modes", "(1, 4)").unwrap()
     }
 
-    /// Compares a coarse square with another loading, on one square, without the computing times.
+    /// Compares one coarse square with profiles under another loading. The computing times are set
+    /// to zero.
     fn with_loading(document: &Document, loading: &str) -> Reference {
         let document = document.set("loading", loading).unwrap();
         let found = reference(document.scene(), 32, 1, 1).unwrap();
@@ -254,8 +261,8 @@ mod tests {
         }
     }
 
-    /// For a sphere the line is exact, so that both models agree to the error of the grid, and this
-    /// error is named.
+    /// For a sphere the line is exact. Both models therefore agree within the error of the grid,
+    /// and this error is stated.
     #[test]
     fn a_sphere_is_the_same_in_both_models() {
         let scene = open("jkr-sphere").unwrap();
@@ -287,7 +294,7 @@ mod tests {
         assert!(budget.grid >= Some((force.ratio - 1.0).abs()), "{budget:?}");
     }
 
-    /// The line of a flat square or of a sphere with steep waves is not exact.
+    /// The line is not exact for a flat square, nor for a sphere with steep waves.
     #[test]
     fn only_the_line_of_a_rising_body_is_exact() {
         let sphere = open("jkr-sphere").unwrap();
@@ -311,15 +318,15 @@ mod tests {
         }
     }
 
-    /// The line of a rough body is a model, whose stiffness is of the size of that of squares. No
-    /// bit but the times depends on the number of threads.
+    /// The stiffness of lines of a rough body is close to the stiffness of squares, but not equal.
+    /// Nothing except the computing times depends on the number of threads.
     #[test]
     fn a_rough_body_is_compared_in_the_mean() {
         let scene = open("pressure-sensitive").unwrap();
         let found = reference(scene.scene(), 64, 2, 2).unwrap();
         assert_eq!((found.waves, found.omitted), (Some((4, 8)), Some(512)));
         for loaded in &found.loading {
-            // Two squares scatter by a half.
+            // With only two squares the stiffness scatters by about half its value.
             assert!((0.4..2.5).contains(&loaded.stiffness.ratio), "{loaded:?}");
             assert!(
                 loaded.cells >= Loaded::LEAST_CELLS && loaded.grid().is_some(),
@@ -345,7 +352,8 @@ mod tests {
                 && found.budget.grid.is_some()
                 && found.budget.sample.is_some()
         );
-        // Equal heights without adhesion, and equal elastic energy with adhesion.
+        // The squares have the rms height of the lines without adhesion, and the elastic energy of
+        // the lines with adhesion.
         let roughness = found.roughness.unwrap();
         let line = roughness.line;
         assert!(
@@ -363,7 +371,7 @@ mod tests {
         );
     }
 
-    /// Only the last loop is compared, which begins after the last separation and ends in
+    /// Only the last loop of the loading is compared. It begins in separation and ends in
     /// separation.
     #[test]
     fn the_last_loop_is_compared() {
@@ -387,7 +395,7 @@ mod tests {
         assert!(less < loss, "{less:?} {loss:?}");
     }
 
-    /// Squares and lines turn at the same indentation, whatever the force there.
+    /// Squares and lines turn at the same indentation, even if their forces there differ.
     #[test]
     fn an_indentation_is_the_same_for_all() {
         let document = coarse_square()
@@ -438,7 +446,7 @@ mod tests {
             assert_eq!(last.force, reference.preload);
             found.push(reference);
         }
-        // A stiff instrument changes nothing.
+        // With a very stiff instrument the displacement of the drive is equal to the indentation.
         let [indentation, displacement] = <[_; 2]>::try_from(found).unwrap();
         assert!((indentation.preload / displacement.preload - 1.0).abs() < 1e-3);
         let energy = |found: &Reference| found.dissipated_energy.unwrap();
@@ -446,7 +454,8 @@ mod tests {
         assert!((line - 1.0).abs() < 1e-3, "{line}");
     }
 
-    /// Lines are compared at exact forces and not between samples.
+    /// Lines are compared at the exact forces of the comparison. The number of samples of the force
+    /// curve has no influence.
     #[test]
     fn samples_of_the_curve_change_nothing() {
         let document = coarse_square().set("numerics.samples", "2").unwrap();
@@ -484,8 +493,8 @@ mod tests {
         );
     }
 
-    /// A row of the table of docs/line-and-three-dimensions.md agrees with fewer squares, within
-    /// the intervals of both.
+    /// A comparison with three squares agrees with a row of the table in
+    /// docs/line-and-three-dimensions.md within the confidence intervals of both.
     #[test]
     fn the_table_of_the_page_is_that_of_the_squares() {
         let page = std::fs::read_to_string(format!("{DOCS}line-and-three-dimensions.md")).unwrap();
@@ -517,7 +526,7 @@ mod tests {
                 off < error.hypot(found.error.unwrap()),
                 "{ratio} ± {error}: {found:?}"
             );
-            // Three squares scatter more than twelve, but no number is another one by a factor of
+            // Three squares scatter more than twelve, but no ratio differs by more than a factor of
             // two.
             assert!(
                 (0.5..2.0).contains(&(found.ratio / ratio)),

@@ -1,4 +1,4 @@
-//! Errors of a comparison with three dimensions by their sources.
+//! Errors of a comparison with three dimensions, one for each source of errors.
 
 use super::compared::Compared;
 use serde::Serialize;
@@ -12,9 +12,9 @@ pub struct ReferenceBudget {
     /// cell of any square, divided by the rms height of the square.
     pub solver: f64,
     /// Error of the mean over the squares by their grid. It is the relative difference between this
-    /// mean and the mean over the same squares with half as many grid cells along the side, or the
-    /// difference from the profile if the profile is exact and differs more. `None` if half as many
-    /// cells are too few.
+    /// mean and the mean over the same squares with half as many grid cells along the side. If the
+    /// profile is exact and differs more from the squares, it is the difference from the profile.
+    /// `None` if half as many cells are too few.
     pub grid: Option<f64>,
     /// Half the width of the 95 % confidence interval of [`Compared::ratio`], divided by this
     /// ratio; `None` for fewer than two profiles or squares.
@@ -30,7 +30,7 @@ pub struct ReferenceBudget {
     pub largest: &'static str,
 }
 
-/// What is known of the bodies of a comparison.
+/// Properties of the bodies of a comparison.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bodies {
     /// True for random profiles and squares.
@@ -41,7 +41,7 @@ pub(super) struct Bodies {
 
 impl ReferenceBudget {
     /// Collects the errors. `headline` is the comparison of the adhesion force or of the
-    /// indentation, and `solver` the error [`ReferenceBudget::solver`].
+    /// indentation. `solver` is the error [`ReferenceBudget::solver`].
     pub(super) fn new(solver: f64, headline: Option<&Compared>, bodies: Bodies) -> ReferenceBudget {
         let mut budget = ReferenceBudget {
             solver,
@@ -77,12 +77,12 @@ impl ReferenceBudget {
         self.sample = compared.error.map(|error| error / compared.ratio);
         self.grid = compared.grid;
         if bodies.line_is_exact {
-            // The difference is the error of the squares.
+            // The profile is exact, so the difference is an error of the squares.
             self.grid = Some(difference.abs().max(compared.grid.unwrap_or(0.0)));
             self.model = Some(0.0);
             return;
         }
-        // Bodies that are not random have no error of a sample.
+        // If the bodies are not random, the comparison has no error of a sample.
         let sample = if bodies.are_random {
             compared.error
         } else {
@@ -104,8 +104,8 @@ mod tests {
         line_is_exact: false,
     };
 
-    /// A ratio of `lines`/2 with the error `error` in a comparison whose coarse squares differ by
-    /// `grid`.
+    /// Returns a comparison with the ratio `lines`/2 and the error `error`. The coarse squares have
+    /// the relative difference `grid`.
     fn compared(lines: f64, error: Option<f64>, grid: Option<f64>) -> Compared {
         let values = Values {
             lines: vec![lines; 2],
@@ -127,7 +127,8 @@ mod tests {
         assert_eq!((within.model, within.largest), (Some(0.0), "sample"));
         let coarse = budget(compared(2.08, Some(0.05), Some(0.1)));
         assert_eq!((coarse.model, coarse.largest), (Some(0.0), "grid"));
-        // 8 against 2: 3 above 1, of which 1 is the sample and 4 times 0.1 the grid.
+        // The ratio 8/2 exceeds 1 by 3. The error of the sample explains 1, and the error of the
+        // grid 4 · 0.1, so 1.6 is left.
         let far = budget(compared(8.0, Some(1.0), Some(0.1)));
         assert!(
             (far.model.unwrap() - 1.6).abs() < 1e-12 && far.largest == "model",
@@ -157,8 +158,8 @@ mod tests {
         );
     }
 
-    /// A smooth square differs from a line of the same length, and the line of a body of revolution
-    /// is exact.
+    /// A smooth square differs from a line of the same length without any error of a sample. The
+    /// line of a body of revolution is exact.
     #[test]
     fn a_smooth_body_has_no_sample() {
         let alone = compared(2.2, None, Some(0.03));

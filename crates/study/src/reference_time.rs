@@ -1,26 +1,28 @@
-//! Time of a comparison with squares in three dimensions, estimated from small squares before it
-//! begins.
+//! Computing time of a comparison with squares in three dimensions, estimated from small squares
+//! before the comparison begins.
 
 use super::error::StudyError;
 use super::spatial::{Body, SquareLoading, Watch};
 use asperity_data::format_rounded;
 use std::time::Instant;
 
-/// Smallest number of cells along the side of a square, and of the coarser square that is compared
-/// with it.
+/// Smallest number of grid cells along the side of a square, also for the coarser square that is
+/// compared with it.
 pub const LEAST_CELLS: usize = 32;
-/// Smallest time in s of a square from which the time of larger squares follows.
+/// Smallest computing time in s of a small square from which the time of larger squares is
+/// estimated.
 const LEAST_TIMED: f64 = 0.2;
-/// Factor of the time of a square with twice the cells along its side, without and with adhesion.
+/// Factor of the computing time of a square if the number of cells along its side doubles: first
+/// without, then with adhesion.
 const GROWTH: [f64; 2] = [6.5, 8.5];
-/// Longest time of a comparison in s, which is a day.
+/// Longest allowed computing time of a comparison in s, one day.
 pub const LONGEST: f64 = 86_400.0;
 
-/// Computing time of a square, estimated from smaller squares, each with twice the cells of the one
-/// before.
+/// Computing time of a square, estimated from smaller squares. Each of them has twice the cells
+/// along its side of the one before.
 #[derive(Clone, Copy, Debug)]
 pub struct SquareTime {
-    /// Time of a square and of the coarser square that is compared with it, s.
+    /// Computing time in s of a square together with the coarser square that is compared with it.
     pub seconds: f64,
     /// Number of loads of a square.
     pub loads: u64,
@@ -28,7 +30,7 @@ pub struct SquareTime {
 }
 
 impl SquareTime {
-    /// Estimates the time of a square with this number of cells along the side.
+    /// Estimates the computing time of a square with `cells` grid cells along its side.
     pub fn estimate(
         body: &Body,
         cells: usize,
@@ -65,7 +67,7 @@ impl SquareTime {
         }
     }
 
-    /// Returns the time in s of `maps` squares on a number of threads.
+    /// Returns the computing time in s of `maps` squares on `threads` threads.
     pub fn of_squares(&self, maps: u64, threads: usize) -> f64 {
         self.seconds * maps.div_ceil(threads as u64) as f64
     }
@@ -76,8 +78,8 @@ impl SquareTime {
     }
 }
 
-/// Refuses a comparison of `maps` squares of `cells` cells along the side if it takes longer than a
-/// day.
+/// Returns an error if the comparison of `maps` squares with `cells` grid cells along the side
+/// takes longer than a day.
 pub fn check_time(
     cells: usize,
     maps: u64,

@@ -1,4 +1,5 @@
-//! A scene with the waves that squares resolve, as a profile and in three dimensions.
+//! A scene of profiles and squares that both have only those waves that the grid of the squares
+//! resolves.
 
 use super::error::StudyError;
 use super::shells::{ComparedRoughness, Shells, Spectrum};
@@ -10,16 +11,16 @@ use asperity_surface::{Amplitude, EquivalentLine, SelfAffine};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Number of cells for the shortest wave of a square.
+/// Smallest number of grid cells on the shortest wave of a square.
 const CELLS_PER_WAVE: u64 = 8;
-/// Number of springs for the shortest wave of a profile.
+/// Number of springs on the shortest wave of a profile.
 const SPRINGS_PER_WAVE: u64 = 64;
 /// Smallest number of springs of a profile.
 const LEAST_SPRINGS: u64 = 4096;
-/// Share of the largest gap of a profile that counts as rounding.
+/// Share of the largest gap of a profile below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-12;
 
-/// Scene with the waves that squares resolve.
+/// A scene without the waves that the grid of the squares does not resolve.
 pub(super) struct Resolved {
     /// Scene of the profiles.
     pub line: CheckedScene,
@@ -27,22 +28,25 @@ pub(super) struct Resolved {
     /// resolve.
     measured: Option<Arc<MeasuredRoughness>>,
     pub body: Body,
-    /// Roughness of the profiles; `None` for smooth ones.
+    /// Roughness of the profiles; `None` for smooth profiles.
     pub line_roughness: Option<ComparedRoughness>,
-    /// First and last wave over the length; `None` for a smooth body.
+    /// First and last mode of the roughness, in periods over the length; `None` for a smooth body.
     pub waves: Option<(u64, u64)>,
-    /// Last wave of the scene, if squares do not resolve it.
+    /// Last mode of the scene, if the grid of the squares does not resolve it.
     pub omitted: Option<u64>,
-    /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards,
-    /// for which the profile is exact while the contact ends before the profile does.
+    /// True for a smooth body of revolution whose profile rises everywhere from the axis outwards.
+    /// For this body the profile is exact as long as the contact does not reach the ends of the
+    /// profile.
     pub line_is_exact: bool,
 }
 
 impl Resolved {
-    /// Keeps the waves of a scene that squares with this number of cells along a side resolve.
+    /// Leaves out the waves of a scene that squares with `cells` grid cells along a side do not
+    /// resolve.
     ///
     /// # Errors
-    /// The number of cells is not allowed, or the scene has no body in three dimensions.
+    /// Returns an error if the number of cells is not allowed, or if the scene has no body in three
+    /// dimensions.
     pub fn of(
         scene: &CheckedScene,
         cells: usize,
@@ -58,7 +62,8 @@ impl Resolved {
         let line_is_exact =
             scene.roughness.is_none() && scene.form.is_some() && rises_everywhere(&line.gaps);
         let mut changed = Scene::clone(scene);
-        // The work of adhesion stays where waves are left out.
+        // The work of adhesion is that of the complete scene, although κ changes when waves are
+        // left out.
         if let Some((adhesion, work)) = scene.adhesion.zip(governing.work_of_adhesion) {
             changed.adhesion = Some(adhesion.with_work(work));
         }
@@ -90,8 +95,9 @@ impl Resolved {
         Ok(resolved)
     }
 
-    /// Keeps the waves of a self-affine spectrum with this amplitude that squares resolve, in the
-    /// squares and in the scene of the profiles.
+    /// Leaves out the waves of a self-affine spectrum that the grid of the squares does not
+    /// resolve, for the squares and for the scene of the profiles. `amplitude` is that of the
+    /// complete spectrum.
     fn keep_self_affine(
         &mut self,
         spectrum: SelfAffine,
@@ -128,8 +134,8 @@ impl Resolved {
         Ok(())
     }
 
-    /// Keeps the waves of a measured spectrum that squares resolve, in the squares and in the scene
-    /// of the profiles.
+    /// Leaves out the waves of a measured spectrum that the grid of the squares does not resolve,
+    /// for the squares and for the scene of the profiles.
     fn keep_measured(
         &mut self,
         line: &EquivalentLine,
@@ -147,11 +153,11 @@ impl Resolved {
         Ok(())
     }
 
-    /// Returns the last wave that squares with this number of cells along a side resolve, of the
-    /// waves from `first` to `whole` over the length.
+    /// Returns the last wave that squares with `cells` grid cells along a side resolve. The scene
+    /// has the waves from `first` to `whole`, in periods over the length.
     ///
     /// # Errors
-    /// The squares resolve none of these waves.
+    /// Returns an error if the squares resolve none of these waves.
     fn keep_waves(&mut self, first: u64, whole: u64, cells: usize) -> Result<u64, StudyError> {
         let last = whole.min(cells as u64 / CELLS_PER_WAVE);
         self.waves = Some((first, last));
@@ -162,8 +168,8 @@ impl Resolved {
         Ok(last)
     }
 
-    /// Gives the squares the waves of a spectrum. `amplitude` is that of the profiles with these
-    /// modes.
+    /// Sets the waves of the squares from a spectrum. `amplitude` is that of the profiles with the
+    /// same modes.
     fn roughen(&mut self, spectrum: Spectrum, modes: (u64, u64), amplitude: Amplitude) {
         let shells = Shells::new(spectrum, self.body.side, modes);
         let line = ComparedRoughness {
@@ -179,7 +185,7 @@ impl Resolved {
         self.line_roughness = Some(line);
     }
 
-    /// Returns a simulation of the profiles.
+    /// Returns a simulation that has the measured roughness of the profiles.
     pub fn simulation(&self) -> Simulation {
         let simulation = Simulation::default();
         match &self.measured {
@@ -189,13 +195,14 @@ impl Resolved {
     }
 }
 
-/// Returns the number of springs of profiles whose shortest wave is this one over the length.
+/// Returns the number of springs of a profile whose shortest wave has `last` periods over the
+/// length.
 fn springs(last: u64) -> u64 {
     let springs = (SPRINGS_PER_WAVE * last).next_power_of_two();
     springs.max(LEAST_SPRINGS)
 }
 
-/// Returns true if a profile with these gaps rises everywhere on both sides of its deepest point.
+/// Returns true if the profile with these gaps rises everywhere on both sides of its deepest point.
 fn rises_everywhere(gaps: &[f64]) -> bool {
     let deepest = gaps.iter().copied().fold(0.0, f64::max);
     let summit = (0..gaps.len())
@@ -208,7 +215,7 @@ fn rises_everywhere(gaps: &[f64]) -> bool {
         && left.all(|pair| pair[0] >= pair[1] - rounding)
 }
 
-/// Converts an error of the scene itself.
+/// Converts an error of the scene that is compared.
 pub(super) fn of_scene(error: RunError) -> StudyError {
     error.into()
 }

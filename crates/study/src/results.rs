@@ -25,14 +25,15 @@ pub struct Results {
     values: Vec<f64>,
     done: Vec<bool>,
     records_done: u64,
-    /// Reasons of the records that cannot be computed, by the index of the record.
+    /// Reasons why records cannot be computed, by the index of the record.
     failed: BTreeMap<u64, String>,
-    /// Premises that records computed in memory do not meet, by the index of the record.
+    /// Premises of the model that records do not meet, by the index of the record. Only records
+    /// computed in memory have them.
     warnings: BTreeMap<u64, Vec<Warning>>,
 }
 
-/// What [`merge`](crate::merge) found in the files of a study. A record has the values of one
-/// [cell](Plan) on one random profile.
+/// Numbers of records that [`merge`](crate::merge) found in the files of a study. A record has the
+/// values of one [cell](Plan) on one random profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merged {
@@ -40,8 +41,8 @@ pub struct Merged {
     pub records: u64,
     /// Number of records that have no values because they cannot be computed.
     pub failed: u64,
-    /// First few of the records that cannot be computed, each with the number of the [cell](Plan),
-    /// the seed of the profile and the reason.
+    /// The first few records that cannot be computed: number of the [cell](Plan), seed of the
+    /// profile, and reason.
     pub first_failed: Vec<(u64, u64, String)>,
     /// Number of records that the study has once it is complete.
     pub total: u64,
@@ -60,7 +61,7 @@ pub struct Merged {
 }
 
 impl PartialEq for Results {
-    /// Returns true for equal plans and values that are equal bit by bit. Missing values are equal.
+    /// Returns true for equal plans and values with equal bits. Two missing values are equal.
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan && same(&self.values, &other.values) && self.failed == other.failed
     }
@@ -77,7 +78,7 @@ impl std::fmt::Debug for Results {
     }
 }
 
-/// Returns true for values with equal bits. All NaN are equal.
+/// Returns true if the values have the same bits. Any two NaN count as equal.
 fn same(one: &[f64], other: &[f64]) -> bool {
     if one.len() != other.len() {
         return false;
@@ -117,7 +118,7 @@ impl Results {
     /// Creates a study without records.
     ///
     /// # Errors
-    /// The table is too large for the memory.
+    /// Returns an error if the memory does not suffice for the table.
     pub(super) fn empty(plan: Plan) -> Result<Results, StudyError> {
         let records = plan.records_in_all();
         let mut values = Vec::new();
@@ -136,10 +137,10 @@ impl Results {
         })
     }
 
-    /// Makes the study of [`Results::of_scene`] without values.
+    /// Creates the study of [`Results::of_scene`] without values.
     ///
     /// # Errors
-    /// Returns the errors of [`Results::of_scene`], except for failed profiles.
+    /// Returns the errors of [`Results::of_scene`], except those of the computation.
     pub(super) fn begin(
         scene: &Scene,
         record: &[Quantity],
@@ -196,7 +197,7 @@ impl Results {
         }
     }
 
-    /// Sets the records of a profile in all cells.
+    /// Stores the records of a profile in all cells.
     pub(super) fn take_in(&mut self, solved: SolvedProfile) {
         for (cell, record) in (0..).zip(solved.records) {
             self.set_record(cell * self.plan.lines + solved.line, record);
@@ -204,7 +205,7 @@ impl Results {
         self.set_warnings(solved.line, solved.warnings);
     }
 
-    /// Sets the premises that records of a profile do not meet, each list with the number of its
+    /// Stores the premises that records of a profile do not meet. Each list has the number of its
     /// cell.
     pub(super) fn set_warnings(&mut self, line: u64, warnings: Vec<(u64, Vec<Warning>)>) {
         for (cell, warnings) in warnings {
@@ -216,7 +217,8 @@ impl Results {
     /// Reads all shard files of a study.
     ///
     /// # Errors
-    /// A file cannot be read, or two records of the same cell and profile differ.
+    /// Returns an error if a file cannot be read, or if two records of the same cell and profile
+    /// differ.
     pub(super) fn of_shards(folder: &Folder) -> Result<(Results, Merged), StudyError> {
         let mut results = Results::empty(folder.plan().clone())?;
         let files = folder.files()?;
@@ -266,8 +268,8 @@ impl Results {
         Ok((results, merged))
     }
 
-    /// Returns the error for two different records with the same index, of which the second is in
-    /// the file `other`.
+    /// Returns the error for two records with the same index but different values. The second
+    /// record is in the file `other`.
     fn conflict(
         &self,
         folder: &Folder,
@@ -288,7 +290,7 @@ impl Results {
         }
     }
 
-    /// Returns the number of records that are done.
+    /// Returns the number of records that have values or a reason why they have none.
     pub(super) fn count(&self) -> u64 {
         self.records_done
     }
@@ -304,14 +306,15 @@ impl Results {
         *done = true;
     }
 
-    /// Sets the values of a record, which is counted by cell, then by profile.
+    /// Stores the values of a record. The index `place` counts the profiles of the first cell, then
+    /// those of the second cell, and so on.
     pub(super) fn set(&mut self, place: u64, values: &[f64]) {
         let columns = self.plan.record.len();
         self.values[place as usize * columns..][..columns].copy_from_slice(values);
         self.set_done(place);
     }
 
-    /// Sets a record to its values, or to the reason why it has none.
+    /// Stores the values of a record, or the reason why it has none.
     pub(super) fn set_record(&mut self, place: u64, record: Recorded) {
         match record {
             Ok(values) => self.set(place, &values),
@@ -322,7 +325,7 @@ impl Results {
         }
     }
 
-    /// Returns the record with this index, if there is one.
+    /// Returns the record with this index; `None` if it is missing.
     fn recorded(&self, place: u64) -> Option<Recorded> {
         match self.failed.get(&place) {
             Some(reason) => Some(Err(reason.clone())),
@@ -356,8 +359,8 @@ impl Results {
     }
 
     /// Returns the premises of the model that the profiles of a [cell](Plan) do not meet, each with
-    /// the number of these profiles. Results that were read from files have no such list; their
-    /// column [`Quantity::Warnings`] has the number of premises.
+    /// the number of these profiles. The list is empty for results that were read from files. There
+    /// the column [`Quantity::Warnings`] has the number of premises.
     pub fn warnings(&self, cell: u64) -> Vec<CountedWarning> {
         let places = cell * self.plan.lines..(cell + 1) * self.plan.lines;
         let mut counted: Vec<CountedWarning> = Vec::new();
@@ -371,8 +374,8 @@ impl Results {
         counted
     }
 
-    /// Returns the premises of the model that profiles do not meet in any [cell](Plan), each with
-    /// the number of these profiles.
+    /// Returns the premises of the model that profiles do not meet, over all [cells](Plan), each
+    /// with the number of these profiles.
     pub fn all_warnings(&self) -> Vec<CountedWarning> {
         let mut counted: Vec<CountedWarning> = Vec::new();
         for line in 0..self.plan.lines {
@@ -482,7 +485,7 @@ impl Results {
         })
     }
 
-    /// Returns the recorded quantities except regimes, on scales for the whole study.
+    /// Returns the recorded quantities except regimes. The scale of each suits the whole study.
     pub(super) fn layers(&self) -> Vec<GridLayer> {
         let recorded = self
             .plan
@@ -494,16 +497,16 @@ impl Results {
             .collect()
     }
 
-    /// Returns a recorded quantity with a scale for the whole study, either the given one or one
-    /// that suits all means.
+    /// Returns a recorded quantity with its scale. Without a given scale it gets the scale that
+    /// suits the means in the whole study.
     pub(super) fn layer(&self, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
         let means =
             (0..self.plan.cells()).filter_map(|cell| Some(self.statistics(cell, quantity)?.mean));
         GridLayer::new(quantity, scale, &means.collect::<Vec<_>>())
     }
 
-    /// Returns the cells over one or two axes with the quantities of these layers. `places` has the
-    /// indices of the values on the other axes.
+    /// Returns the cells over one or two axes with the quantities of `layers`. On the other axes,
+    /// `places` has the indices of the fixed values.
     pub(super) fn grid(
         &self,
         axes_of_grid: (usize, Option<usize>),
@@ -538,7 +541,7 @@ impl Results {
         )
     }
 
-    /// Returns a cell with the statistics of these quantities; `None` without records.
+    /// Returns the statistics of the given quantities in a cell; `None` for a cell without records.
     pub(super) fn cell(&self, cell: u64, quantities: &[Quantity]) -> Option<GridCell> {
         let statistics = quantities
             .iter()

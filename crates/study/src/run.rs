@@ -1,4 +1,4 @@
-//! Computation of the records of a plan that a folder lacks, on all processor cores. The results do
+//! Computation of the records of a plan that its folder lacks, on several threads. The results do
 //! not depend on the number of threads.
 
 use super::cells::{Cells, Streak};
@@ -21,13 +21,13 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::Builder;
 use std::time::{Duration, Instant};
 
-/// Longest time that written records wait for the disk. A power cut loses waiting records, which
-/// are computed again. One sync takes tenths of a millisecond, and many on network file systems. On
-/// a local disk 100 000 records of 256 springs take 11 s with this wait, 12 s if each sync takes
-/// all records since the one before, and 190 s with a sync for each record. For cells of thousands
-/// of springs there is no difference.
+/// Longest time that written records wait until they are synced to the disk. After a power cut
+/// waiting records are lost and must be computed again. A sync takes tenths of a millisecond, and
+/// much longer on network file systems. On a local disk 100 000 records of 256 springs take 11 s
+/// with this wait, 12 s with a sync as soon as the sync before has ended, and 190 s with a sync for
+/// each record. For cells of thousands of springs there is no difference.
 const SYNC: Duration = Duration::from_millis(50);
-/// Number of records that may wait between computation and file.
+/// Largest number of computed records that wait to be written to the file.
 const WAITING: usize = 4096;
 const TICK: Duration = Duration::from_millis(200);
 
@@ -81,8 +81,8 @@ pub struct StudyRun {
 }
 
 /// Computes the missing results of one [`Shard`] of the study in a folder, and writes them to a new
-/// file in the folder. `control` is asked after each loading whether it stops the computation,
-/// which then ends without an error. It reports the progress several times a second and at the end.
+/// file in the folder. `control` receives the progress several times a second and at the end. If
+/// `control` stops the computation, the computation ends after a loading, without an error.
 ///
 /// # Errors
 /// Returns an error if zero threads are requested, if the memory does not suffice for a record, or
@@ -111,8 +111,8 @@ pub fn run_study(
         let warnings = Vec::new();
         return Ok(StudyRun { progress, warnings });
     }
-    // Read once, so that all threads compute from the same bytes, even if the file changes
-    // meanwhile.
+    // The measured files are read once, so that all threads compute from the same bytes even if a
+    // file changes meanwhile.
     let profile = profile(plan, folder.path())?;
     let clock = Instant::now();
     let (path, mut file) = folder.new_file(shard)?;
@@ -132,7 +132,7 @@ pub fn run_study(
             let mut counted = counted.lock().unwrap_or_else(PoisonError::into_inner);
             missing.count_warnings(&solved, &mut counted);
             drop(counted);
-            // The text has no receiver once the file cannot be written.
+            // Sending fails if the file cannot be written, which ends the computation.
             let text = missing.encoded(solved.streak, &solved.records);
             sender.send(text).is_ok()
         };
@@ -159,7 +159,7 @@ pub fn run_study(
 /// Records that a folder lacks.
 struct MissingRecords<'a> {
     plan: &'a Plan,
-    /// For each record of the plan, whether the folder has it already.
+    /// For each record of the plan, true if the folder has it already.
     done: &'a [bool],
 }
 
@@ -203,11 +203,11 @@ struct WrittenFile<'a> {
     file: &'a mut File,
     /// Clock since the beginning of the computation.
     clock: Instant,
-    /// Number of written records that may not have reached the disk.
+    /// Number of written records that may not have been synced to the disk.
     pending: u64,
-    /// Time from the beginning to the last written records.
+    /// Time from the beginning of the computation to the last written records.
     computed: Duration,
-    /// Time at which the last records reached the disk.
+    /// Time of the last sync.
     synced: Instant,
 }
 
@@ -223,8 +223,8 @@ impl<'a> WrittenFile<'a> {
         }
     }
 
-    /// Writes records as they arrive. Syncs with the disk after the longest wait and at the end.
-    /// The progress counts only records that have reached the disk.
+    /// Writes records as they arrive. Syncs them to the disk after at most the time `SYNC`, and at
+    /// the end. The progress counts only synced records.
     fn write_all(
         &mut self,
         receiver: &Receiver<String>,

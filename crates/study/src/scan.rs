@@ -1,29 +1,29 @@
-//! Scan of a quantity over a range of numbers in which it may rise and fall.
+//! Search for crossings of a quantity that may rise and fall over a range of numbers.
 //!
-//! The quantity is first computed at numbers that are spread evenly. Intervals are then halved
-//! where the quantity may reach the target between two numbers: where the distance of the quantity
-//! from the target is no larger than its deviations from a straight line nearby, and where it turns
-//! close to the target.
+//! The quantity is first computed at numbers with equal distances. Then intervals are halved in
+//! which the quantity may reach the target unseen. An interval is suspect if the quantity is not
+//! farther from the target than it deviates from a straight line nearby, or if it turns close to
+//! the target.
 
 use super::coordinates::Coordinates;
 use asperity_scene::RunError;
 use std::cmp::Ordering;
 
-/// Number of intervals into which the range is divided first.
+/// Number of intervals into which the range is divided at first.
 pub(super) const INTERVALS: usize = 32;
-/// Largest number of numbers at which the quantity is computed in a scan.
+/// Largest number of values at which the quantity is computed in a scan.
 pub(super) const MOST_TRIED: usize = 192;
-/// Smallest share of the range, in coordinates, to which an interval is halved.
+/// Smallest width of an interval, as a share of the range in coordinates, below which it is not
+/// halved.
 const NARROWEST: f64 = 1.0 / 4096.0;
-/// Ratio of the distance from the target to the deviation from a straight line up to which an
-/// interval is halved.
+/// Distance from the target over deviation from a straight line up to which an interval is halved.
 const SAFETY: f64 = 4.0;
 
-/// Share of all values of the quantity within which it turns close to the target, divided by
-/// [`SAFETY`].
+/// If the quantity turns in an interval, its deviation counts as at least this share of the
+/// difference between its largest and smallest value.
 const CLOSE: f64 = 1.0 / 400.0;
 
-/// A number and the quantity there, which is NaN if the quantity has no value.
+/// A number, and the value of the quantity at this number; NaN if the quantity has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tried {
     pub number: f64,
@@ -31,7 +31,7 @@ pub(super) struct Tried {
 }
 
 impl Tried {
-    /// Returns true if the quantity has a value here.
+    /// Returns true if the quantity has a value at this number.
     fn is_known(&self) -> bool {
         !self.value.is_nan()
     }
@@ -40,29 +40,29 @@ impl Tried {
 /// Function that computes the quantity at several ascending numbers.
 pub(super) type Compute<'c> = dyn FnMut(&[f64]) -> Result<Vec<f64>, RunError> + 'c;
 
-/// Numbers of a range at which the quantity is known, in ascending order.
+/// Ascending numbers of a range, each with the computed value of the quantity.
 #[derive(Clone, Debug)]
 pub(super) struct Scan {
     coordinates: Coordinates,
     target: f64,
     pub tried: Vec<Tried>,
-    /// True if all allowed numbers are tried.
+    /// True if the quantity was computed at all allowed numbers.
     is_complete: bool,
 }
 
 /// Interval between neighbouring numbers of a scan that may hide a crossing.
 #[derive(Clone, Copy, Debug)]
 struct Suspect {
-    /// Number in the middle.
+    /// Number in the middle of the interval, at which the quantity is computed next.
     middle: f64,
     /// True if the interval is above the first known crossing.
     is_beyond: bool,
-    /// Deviation from a straight line divided by the distance from the target.
+    /// Possible deviation from a straight line divided by the distance from the target.
     urgency: f64,
 }
 
 impl Scan {
-    /// Scans the range of the coordinates.
+    /// Scans the whole range of the coordinates.
     pub fn of(
         coordinates: Coordinates,
         target: f64,
@@ -87,8 +87,8 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Computes the quantity at all allowed numbers between those without a value at the ends of
-    /// the range, if these are few.
+    /// If the range has few allowed numbers, computes the quantity at all of them. Only numbers
+    /// near an end of the range are left out, beyond a number at which the quantity has no value.
     fn complete(&mut self, compute: &mut Compute<'_>) -> Result<(), RunError> {
         let mut tried = self.tried.iter();
         let first = tried.position(Tried::is_known).unwrap_or(0);
@@ -125,7 +125,8 @@ impl Scan {
     fn next_numbers(&self) -> Vec<f64> {
         let left = MOST_TRIED.saturating_sub(self.tried.len()).min(INTERVALS);
         let mut suspects = self.suspects();
-        // The first crossing counts.
+        // Intervals below the first known crossing come first, because the first crossing is the
+        // answer.
         suspects.sort_by(|one, other| {
             let by_urgency = other.urgency.total_cmp(&one.urgency);
             one.is_beyond.cmp(&other.is_beyond).then(by_urgency)
@@ -159,25 +160,28 @@ impl Scan {
         suspects
     }
 
-    /// Returns true if a crossing may be missed: the quantity comes close to the target between two
-    /// numbers.
+    /// Returns true if a crossing may be missed, because the quantity comes close to the target
+    /// between two numbers.
     pub fn may_miss(&self) -> bool {
         let mut intervals = 0..self.tried.len().saturating_sub(1);
         !self.is_complete && intervals.any(|index| self.may_hide(index))
     }
 
-    /// Returns true if interval `index` may hide a crossing and has a number in it to try.
+    /// Returns true if interval `index` may hide a crossing and contains a number that was not
+    /// tried.
     fn may_hide(&self, index: usize) -> bool {
         let ends = [self.tried[index].number, self.tried[index + 1].number];
         self.urgency(index) > 1.0 && self.coordinates.middle(ends).is_some()
     }
 
-    /// Returns true if all allowed numbers are tried, so that nothing is missed.
+    /// Returns true if the quantity was computed at all allowed numbers, so that no crossing is
+    /// missed.
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }
 
-    /// Returns true if the quantity passes the target between number `index` and the next one.
+    /// Returns true if the quantity is on different sides of the target at number `index` and at
+    /// the next number.
     fn is_crossed(&self, index: usize) -> bool {
         let sides = [
             side(self.tried[index], self.target),
@@ -186,14 +190,14 @@ impl Scan {
         matches!(sides, [Some(one), Some(other)] if one != other)
     }
 
-    /// Width of interval `index` in coordinates.
+    /// Returns the width of interval `index` in coordinates.
     fn width(&self, index: usize) -> f64 {
         let places =
             [index, index + 1].map(|point| self.coordinates.coordinate(self.tried[point].number));
         places[1] - places[0]
     }
 
-    /// Returns a number above 1 if interval `index` may hide a crossing.
+    /// Returns the urgency of halving interval `index`. Above 1 the interval may hide a crossing.
     fn urgency(&self, index: usize) -> f64 {
         let from = self.tried[index].value;
         let to = self.tried[index + 1].value;
@@ -205,8 +209,9 @@ impl Scan {
             return f64::INFINITY;
         }
         let distances = [(from - self.target).abs(), (to - self.target).abs()];
-        // Beyond both ends of an interval without a crossing, between the ends of one that has a
-        // crossing.
+        // An interval without a crossing hides one if the quantity leaves the range between its
+        // ends far enough to reach the target. An interval with a crossing hides two more if the
+        // quantity turns inside.
         let distance = if self.is_crossed(index) {
             0.5 * (to - from).abs()
         } else {
@@ -225,7 +230,7 @@ impl Scan {
     }
 
     /// Returns true if interval `index` has an end at which the quantity is closer to the target
-    /// than at the numbers beside it, and on the same side.
+    /// than at the neighbours of this end, and all three are on the same side of the target.
     fn turns(&self, index: usize) -> bool {
         let end = if self.distance(index) <= self.distance(index + 1) {
             index
@@ -243,7 +248,7 @@ impl Scan {
         })
     }
 
-    /// Returns the distance of the quantity from the target at number `point`.
+    /// Returns the distance between the quantity and the target at number `point`.
     fn distance(&self, point: usize) -> f64 {
         (self.tried[point].value - self.target).abs()
     }
@@ -260,8 +265,8 @@ impl Scan {
     }
 
     /// Returns how far the quantity may deviate from a straight line in interval `index`: the
-    /// median deviation at the eight numbers nearest to it. A single jump of the quantity causes
-    /// deviations at two numbers only.
+    /// median of the deviations at the eight nearest numbers. The median is not affected by a
+    /// single jump of the quantity, which causes deviations at only two numbers.
     fn deviation(&self, index: usize) -> f64 {
         let width = self.width(index);
         let first = index.saturating_sub(3);
@@ -272,8 +277,9 @@ impl Scan {
         deviations.get(deviations.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Returns the deviation of the quantity at number `point` from a straight line through the
-    /// neighbours, extrapolated to an interval of this width if it is wider.
+    /// Returns the deviation of the quantity at number `point` from the straight line between its
+    /// two neighbours. The deviation grows with the square of the distance between numbers, and is
+    /// scaled to an interval of the given width if that is larger.
     fn deviation_at(&self, point: usize, width: f64) -> Option<f64> {
         let before = self.tried.get(point.checked_sub(1)?)?;
         let here = self.tried.get(point)?;
@@ -286,7 +292,7 @@ impl Scan {
     }
 }
 
-/// Returns on which side of the target the quantity is; `None` if it has no value.
+/// Returns the side of the target on which the quantity is; `None` if the quantity has no value.
 pub(super) fn side(tried: Tried, target: f64) -> Option<Ordering> {
     tried.value.partial_cmp(&target)
 }

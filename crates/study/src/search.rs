@@ -13,13 +13,13 @@ use super::stairs::{Stair, ratio_crossings, step_crossings};
 use asperity_scene::{RunError, Simulation};
 use std::cmp::Ordering;
 
-/// Relative difference up to which a value counts as the target. Energies are constant between two
-/// steps but for rounding.
+/// Relative difference up to which a value counts as equal to the target. Energies are constant
+/// between two steps of the adhesion force, except for rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 impl Question {
     /// Answers the question on one profile. The second value is the reason why the scene could not
-    /// be computed with one of the numbers.
+    /// be computed with a tried number, if there is one.
     ///
     /// # Errors
     /// Returns an error if `stop` returned true or if the memory does not suffice.
@@ -49,11 +49,13 @@ struct Search<'s> {
     stop: &'s dyn Fn() -> bool,
     /// Numbers at which the quantity has been computed, in the order of the computation.
     known: Vec<Tried>,
-    /// First reason why the scene could not be computed with one of the numbers.
+    /// First reason why the scene could not be computed with a tried number.
     refused: Option<String>,
 }
 
 impl Search<'_> {
+    /// Searches the crossings in the way that suits the course of the quantity, and completes the
+    /// answer with the range of the computed values.
     fn answer(mut self) -> Result<(Answer, Option<String>), RunError> {
         let question = self.question;
         let mut answer = Answer {
@@ -64,7 +66,8 @@ impl Search<'_> {
                 .map(|_| question.plan.seed_of(self.line)),
             ..Answer::default()
         };
-        // The check of the question found an allowed number.
+        // The question was refused before if the range has no allowed number, so there are
+        // coordinates.
         if let Some(coordinates) = question.coordinates() {
             match question.course() {
                 Course::OneWay => self.search_one_way(&coordinates, &mut answer)?,
@@ -94,7 +97,8 @@ impl Search<'_> {
         Ok((answer, self.refused))
     }
 
-    /// Searches a quantity that never turns: two numbers bracket its only crossing.
+    /// Searches a quantity that is monotonic in the number. If the ends of the range are on
+    /// different sides of the target, there is one crossing between them.
     fn search_one_way(
         &mut self,
         coordinates: &Coordinates,
@@ -110,20 +114,20 @@ impl Search<'_> {
         let tried: Vec<Tried> = self.known.clone();
         let values: Vec<f64> = tried.iter().map(|tried| tried.value).collect();
         if values.iter().any(|value| value.is_nan()) && !values.iter().all(|value| value.is_nan()) {
-            // A part of the range has no value: it is searched for this part.
+            // The quantity has no value in a part of the range, which a scan finds.
             return self.scan(coordinates, answer);
         }
         self.add_crossings(coordinates, &tried, answer)
     }
 
-    /// Searches the ratio F_a/F_n from stair to stair of F_a.
+    /// Searches the ratio F_a/F_n. Between two steps of F_a the crossing follows in closed form.
     fn search_ratio(&mut self, answer: &mut Answer) -> Result<(), RunError> {
         let (from, to) = self.question.searched;
         let target = self.question.target;
         answer.is_proven = true;
         if to <= 0.0 || target <= 0.0 {
-            // The ratio exists above 0 N only, and it is zero only where F_a is zero: up to its
-            // first step.
+            // The ratio exists only for preloads above 0 N. It is zero only where F_a is zero,
+            // which is below the first step of F_a.
             let stairs = self.climb(&[from.max(0.0), to])?;
             let is_zero = stairs
                 .first()
@@ -141,7 +145,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Searches a quantity that is constant wherever F_a is.
+    /// Searches a quantity that is constant between two steps of F_a.
     fn search_steps(
         &mut self,
         coordinates: &Coordinates,
@@ -160,7 +164,7 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Scans a quantity that may rise and fall.
+    /// Searches a quantity that may rise and fall, by a scan of the range.
     fn scan(&mut self, coordinates: &Coordinates, answer: &mut Answer) -> Result<(), RunError> {
         let target = self.question.target;
         let scan = Scan::of(*coordinates, target, &mut |numbers| {
@@ -171,23 +175,23 @@ impl Search<'_> {
                 .collect())
         })?;
         answer.is_proven = scan.is_complete();
-        // The number of patches and the place of the smallest force jump without a warning, and
-        // profiles with other numbers of waves are other profiles.
+        // The number of patches and the indentation at pull-off can jump between any two numbers.
+        // Profiles with different whole numbers of waves are different profiles.
         let jumps = coordinates.is_discrete()
             || matches!(
                 self.question.quantity,
                 Quantity::Fragments | Quantity::PullOffIndentation
             );
         answer.may_miss = scan.may_miss() || (jumps && !scan.is_complete());
-        // The first number may have the target itself.
+        // The quantity may be equal to the target at the first number.
         let first = scan.tried.first().filter(|first| first.value == target);
         answer.crossings.extend(first.map(|first| first.number));
         self.add_crossings(coordinates, &scan.tried, answer)
     }
 
-    /// Adds the numbers between which the quantity passes the target, or comes to rest on it.
-    /// Between a number without a value and one with a value other than the target, no crossing is
-    /// known.
+    /// Adds the crossings: numbers at which the quantity passes the target, or becomes equal to it
+    /// and stays equal. If the quantity has no value at one of two neighbouring numbers and is not
+    /// equal to the target at the other, no crossing is known between them.
     fn add_crossings(
         &mut self,
         coordinates: &Coordinates,
@@ -211,8 +215,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Returns the number between two others at which the quantity passes the target, or comes to
-    /// rest on it.
+    /// Returns the number between `from` and `to` at which the quantity passes the target, or
+    /// becomes equal to it and stays equal.
     fn crossing(
         &mut self,
         coordinates: &Coordinates,
@@ -236,9 +240,11 @@ impl Search<'_> {
                 value: self.value(number)?,
             };
             match side(reached, target) {
-                // A plateau on the target ends here. It may begin earlier.
+                // The quantity is constant and equal to the target up to this number, and perhaps
+                // from a smaller one.
                 Some(Ordering::Equal) if !falls_onto => (end, falls_onto) = (reached, true),
-                // The quantity falls through the target on the way.
+                // The quantity falls below the target before it is equal to the target, so it
+                // passes the target.
                 Some(Ordering::Less) if from.value.is_nan() => {
                     (from, falls_onto) = (reached, false)
                 }
@@ -248,13 +254,13 @@ impl Search<'_> {
         }
     }
 
-    /// Computes the quantity at one number; NaN if it has no value there.
+    /// Computes the quantity at one number; NaN if the quantity has no value there.
     fn value(&mut self, number: f64) -> Result<f64, RunError> {
         Ok(self.compute(&[number])?[0][0])
     }
 
-    /// Computes stairs of the adhesion force at preloads. The adhesion force is 0 if the unloading
-    /// never pulls.
+    /// Computes the adhesion force and the quantity at several preloads. The adhesion force is 0 if
+    /// the force of the unloading is never negative.
     fn climb(&mut self, preloads: &[f64]) -> Result<Vec<Stair>, RunError> {
         let records = self.compute(preloads)?;
         let mut stairs = Vec::with_capacity(preloads.len());
@@ -269,7 +275,7 @@ impl Search<'_> {
         Ok(stairs)
     }
 
-    /// Computes the recorded quantities at each of several numbers; NaN for those that have no
+    /// Computes the recorded quantities at each of several numbers; NaN for a quantity without a
     /// value.
     fn compute(&mut self, numbers: &[f64]) -> Result<Vec<Vec<f64>>, RunError> {
         let question = self.question;
@@ -281,7 +287,7 @@ impl Search<'_> {
             axes: vec![axis],
             ..question.plan.clone()
         };
-        // One loading serves all preloads.
+        // All preloads are computed with a single loading, other numbers one after the other.
         let step = if question.is_of_preload() {
             plan.cells()
         } else {

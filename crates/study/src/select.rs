@@ -1,4 +1,5 @@
-//! The selection of a figure from a merged study: quantities, axes, and values of the fixed axes.
+//! Selection of the part of a merged study that a figure shows: quantities, axes, and values of the
+//! fixed axes.
 
 use super::axis::Axis;
 use super::error::StudyError;
@@ -71,13 +72,13 @@ pub struct Selected {
     pub note: Option<Note>,
 }
 
-/// How the axes of a study are used.
+/// Use of each axis of a study in a figure.
 struct ChosenAxes {
     /// Index of the axis that the user named as horizontal.
     across: Option<usize>,
     /// Index of the axis that the user named as vertical.
     up: Option<usize>,
-    /// For each axis the index of its fixed value.
+    /// For each axis the index of its fixed value; `None` for an axis that is not fixed.
     fixed: Vec<Option<usize>>,
 }
 
@@ -87,10 +88,10 @@ impl ChosenAxes {
     }
 }
 
-/// Axis that the user names.
+/// Axis that the user has named.
 struct NamedAxis {
     index: usize,
-    /// What the axis is in the figure.
+    /// Use of the axis in the figure, for messages.
     role: &'static str,
 }
 
@@ -124,7 +125,8 @@ impl Selection {
             }
         };
         let mut scale = self.scale;
-        // The same quantity by two protocols has one scale.
+        // The adhesion forces turned at first touch and at zero force share one scale, so that
+        // their panels can be compared.
         let are_shares = quantities
             .iter()
             .all(|quantity| Quantity::ADHESION_SHARES.contains(quantity));
@@ -147,6 +149,8 @@ impl Selection {
         })
     }
 
+    /// Returns the quantities that the user names, otherwise the recorded ones among the usual
+    /// quantities, otherwise the first recorded quantity.
     fn quantities(&self, plan: &Plan) -> Result<Vec<Quantity>, StudyError> {
         let mut recorded = plan.record.clone();
         recorded.retain(|quantity| !quantity.is_regime());
@@ -161,7 +165,7 @@ impl Selection {
             Quantity::FirstTouchAdhesionShare,
             Quantity::AdhesionCoefficient,
         ];
-        // Without a preload there is no coefficient, and both protocols are side by side.
+        // Without F_a/F_n the figure compares the two adhesion forces without a preload.
         let usual = if recorded.contains(&Quantity::AdhesionCoefficient) {
             paper
         } else {
@@ -178,7 +182,8 @@ impl Selection {
         Ok(vec![quantity_named(first, &recorded)?])
     }
 
-    /// Returns the named axes, which must exist and be named once. An axis with one value is fixed.
+    /// Returns the use of the axes. A named axis must exist and be named only once. An axis with a
+    /// single value is fixed.
     fn axes(&self, axes: &[Axis]) -> Result<ChosenAxes, StudyError> {
         let mut named: Vec<NamedAxis> = Vec::new();
         let mut across = None;
@@ -224,8 +229,8 @@ fn quantity_named(name: &str, recorded: &[Quantity]) -> Result<Quantity, StudyEr
     Err(StudyError::refused(Some(&place), found, allowed))
 }
 
-/// Returns the index of the axis that is named for a role in the figure, unless it has another
-/// role.
+/// Returns the index of the axis that is named for a use in the figure, and refuses an axis that
+/// has another use already.
 fn name_axis(
     named: &mut Vec<NamedAxis>,
     axes: &[Axis],
@@ -241,15 +246,15 @@ fn name_axis(
     Ok(index)
 }
 
-/// Returns the index of the value of an axis that a text means. Messages have values of 4 digits:
-/// those may be typed, and mean the nearest value.
+/// Returns the index of the value of an axis that a text means. Messages show values with 4 digits.
+/// A value typed with these digits means the nearest value of the axis.
 fn place_of(text: &str, axis: &Axis) -> Option<usize> {
     let wanted = parse_quantity(text, axis.unit).ok()?;
     let mut nearest = None;
     let mut least = f64::INFINITY;
     for (place, value) in axis.values.iter().enumerate() {
         let distance = (value - wanted).abs();
-        // Of equally near values the first counts.
+        // If two values are equally near, the first one counts.
         if distance <= 5e-4 * value.abs() && distance < least {
             nearest = Some(place);
             least = distance;
@@ -259,8 +264,8 @@ fn place_of(text: &str, axis: &Axis) -> Option<usize> {
 }
 
 /// Returns the indices of the horizontal axis and, if there is one, of the second axis. Unless the
-/// user names them, H is horizontal and κ or e_el/γ vertical, or curves extend along the longer of
-/// two axes.
+/// user names the axes, H is horizontal and κ or e_el/γ vertical. If one axis has few values, they
+/// are curves over the other axis.
 fn free_axes(axes: &[Axis], chosen: &ChosenAxes) -> Result<(usize, Option<usize>), StudyError> {
     let free: Vec<usize> = (0..axes.len())
         .filter(|index| chosen.fixed[*index].is_none() && !chosen.is_named(*index))
@@ -286,7 +291,7 @@ fn none_left() -> StudyError {
     StudyError::refused(None, found, "an axis with two values at least")
 }
 
-/// Returns the error for more free axes than a figure has.
+/// Returns the error for more free axes than a figure can have.
 fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
     let all: Vec<String> = free
         .iter()
@@ -302,7 +307,8 @@ fn too_many_free(axes: &[Axis], free: &[usize]) -> StudyError {
         .with(Remedy::FixAxis(format!("{path}={value}")))
 }
 
-/// Fixes an axis of preloads at its first value if too many axes are free, and says so.
+/// Fixes the axis of preloads at its first value if too many axes are free. Returns a note about
+/// it.
 fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<Note> {
     let last = axes.len().checked_sub(1)?;
     let axis = axes.get(last).filter(|axis| axis.is_of_preloads())?;
@@ -317,15 +323,14 @@ fn first_preload(axes: &[Axis], chosen: &mut ChosenAxes) -> Option<Note> {
     Some(note.with(Remedy::OtherValue(path.clone())))
 }
 
-/// Returns true if the axis `few` has few values and the axis `many` has many. The few values are
-/// then curves over the other axis.
+/// Returns true if the axis `few` has so few values that they are shown as curves over the axis
+/// `many`, which has more values.
 fn is_few(axes: &[Axis], few: usize, many: usize) -> bool {
     axes[few].values.len() <= MOST_CURVES && axes[many].values.len() > MOST_CURVES
 }
 
-/// Returns a quantity shown as curves. A single curve has a linear scale, with a second,
-/// logarithmic chart for small values. Several curves need one scale on which the highest does not
-/// hide the others.
+/// Returns a quantity shown as curves. A single curve has a linear scale, and small values get a
+/// second, logarithmic chart. Several curves share a scale that suits the means of all curves.
 fn section_layer(grid: &Grid, quantity: Quantity, scale: Option<AxisScale>) -> GridLayer {
     let statistics = grid.statistics(quantity, false);
     let mut curves = statistics.chunks(grid.size().0.max(1));

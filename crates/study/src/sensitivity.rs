@@ -37,7 +37,8 @@ pub struct Influence {
     /// Path, name and unit of the number, as an axis without values.
     pub axis: Axis,
     /// Value of the number in the unchanged scene, in the SI unit of [`Influence::axis`]. A
-    /// wavelength is the one that is computed, of which a whole number fits on the length.
+    /// wavelength is rounded so that a whole number of waves fits on the length, as in the computed
+    /// profile.
     pub value: f64,
     /// First the smaller, then the larger value of the number, each with the results for this
     /// value; `None` if the scene does not allow the value. The changes of a wavelength and of a
@@ -46,15 +47,15 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// Returns the change of the number divided by its size. `side` is 0 for the smaller value and
-    /// 1 for the larger one.
+    /// Returns the change of the number as a share of its size. `side` is 0 for the smaller value
+    /// and 1 for the larger value.
     pub fn step(&self, side: usize) -> f64 {
         (self.sides[side].0 - self.value) / self.value.abs()
     }
 }
 
-/// How much the results of a scene change if one number of the scene is changed by a tenth, for
-/// each number.
+/// Changes of the results of a scene if one number of the scene is changed by a tenth, for each
+/// number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
     /// Number of random profiles computed so far. The first profile has the seed of the scene.
@@ -62,45 +63,46 @@ pub struct Sensitivity {
     /// Medians over the profiles of the results of the unchanged scene in SI units, in the order of
     /// [`Sensitivity::RESULTS`].
     pub present: Values,
-    /// Smallest results, then largest results of the unchanged scene among the profiles, in SI
-    /// units and in the order of [`Sensitivity::RESULTS`]; `None` if the profile of the scene is
-    /// fixed.
+    /// Range of the results of the unchanged scene among the profiles, in SI units: first the
+    /// smallest values, then the largest values, each in the order of [`Sensitivity::RESULTS`].
+    /// `None` if the profile of the scene is fixed.
     pub range: Option<[Values; 2]>,
-    /// Results for changes of each number of the scene. Zeros and counts, such as the number of
-    /// springs, are left out.
+    /// Results for changes of each number of the scene. Numbers that are zero, and counts such as
+    /// the number of springs, are left out.
     pub influences: Vec<Influence>,
     /// Premises of the model that the unchanged scene does not meet, each with the number of
     /// profiles that do not meet it. The list is empty until all profiles are computed.
     pub warnings: Vec<CountedWarning>,
 }
 
-/// Results on one profile for the scene and for each changed scene; NaN for a missing result.
+/// Results on one profile of each variant in the order of [`Neighbourhood::variants`]; NaN for a
+/// missing result.
 type Solved = Vec<[f64; 3]>;
 
-/// The scene, or the scene with one of its numbers changed, as a plan without axes.
+/// The unchanged scene, or the scene with one of its numbers changed, as a plan without axes.
 struct Variant {
     plan: Plan,
     shapes: Shapes,
     is_changed: bool,
 }
 
-/// A scene with all scenes in which one of its numbers is changed.
+/// A scene and all scenes in which one of its numbers is changed.
 struct Neighbourhood {
-    /// Numbers of the scene, without results.
+    /// Numbers of the scene. Their results are set after the variants are computed.
     influences: Vec<Influence>,
-    /// The scene itself, then each changed scene that is allowed, in the order of `influences`.
+    /// The unchanged scene, then each changed scene that is allowed, in the order of `influences`.
     variants: Vec<Variant>,
     /// Indices of the variants in the order in which they are computed on a profile.
     order: Vec<usize>,
 }
 
 impl Sensitivity {
-    /// Relative change by which each number of the scene is made smaller and larger. A whole number
-    /// changes by at least 1, and a wavelength by at least one wave on the length.
-    /// [`Influence::step`] is the change that is made.
+    /// Share of its value by which each number of the scene is made smaller and larger. A whole
+    /// number changes by at least 1, and a wavelength so that at least one more or one less wave
+    /// fits on the length. [`Influence::step`] returns the actual change.
     pub const STEP: f64 = 0.1;
 
-    /// Results of the scene whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
+    /// Results whose changes are computed: F_a, F_a(d=0) and the dissipated energy.
     pub const RESULTS: [Quantity; 3] = [
         Quantity::AdhesionForce,
         Quantity::FirstTouchAdhesionForce,
@@ -109,8 +111,8 @@ impl Sensitivity {
 
     /// Computes a checked scene, and the scenes with one of its numbers changed, on the same random
     /// profiles. There are as many profiles as [`Ensemble::profiles_of`] returns. A scene with κ
-    /// instead of a work of adhesion keeps κ when another number changes. Where the length changes,
-    /// the numbers of waves on it stay, so wavelengths change with it.
+    /// instead of a work of adhesion keeps κ when another number changes. If the length changes,
+    /// the same numbers of waves fit on it, so the wavelengths change in proportion.
     ///
     /// `control` reports the sensitivity over the profiles computed so far after each profile.
     ///
@@ -172,7 +174,7 @@ impl Sensitivity {
         Ok(sensitivity)
     }
 
-    /// Sets the statistics over these profiles.
+    /// Sets the medians and ranges of all results from the results on these profiles.
     fn summarise(&mut self, profiles: &[&Solved]) {
         let several = profiles.len() > 1;
         self.profiles = profiles.len() as u64;
@@ -228,8 +230,8 @@ impl Sensitivity {
         ordered
     }
 
-    /// Returns the size of the larger one of the relative changes of a result on both sides; 0
-    /// without a change.
+    /// Returns the larger of the two absolute relative changes of a result, for the smaller and for
+    /// the larger value of the number; 0 if the result has no change.
     fn largest_change(&self, influence: &Influence, result: usize) -> f64 {
         let mut largest: f64 = 0.0;
         for (_, changed) in &influence.sides {
@@ -266,7 +268,8 @@ impl Neighbourhood {
             });
             influences.push(Influence { axis, value, sides });
         }
-        // First the scenes that leave the profile as it is.
+        // Variants with the same profile as the unchanged scene come first, so that the profile is
+        // made once.
         let mut order: Vec<usize> = (0..variants.len()).collect();
         order.sort_by_key(|index| Reverse(variants[*index].shapes));
         Neighbourhood {
@@ -349,8 +352,8 @@ fn range_of_change(profiles: &[&Solved], variant: usize, result: usize) -> Optio
     Some((smallest, largest))
 }
 
-/// Returns the number with which a scene computes: of a wavelength a whole number fits on the
-/// length.
+/// Returns the number with which a scene computes. A wavelength is rounded so that a whole number
+/// of waves fits on the length.
 fn computed(allowed: Allowed, value: f64) -> f64 {
     if matches!(allowed, Allowed::Fractions(_)) {
         allowed.nearest(value)
@@ -359,9 +362,9 @@ fn computed(allowed: Allowed, value: f64) -> f64 {
     }
 }
 
-/// Returns a number that is changed up or down by the share [`Sensitivity::STEP`], or to the
-/// nearest other number that is allowed, and the scene with this number. The scene is `None` if the
-/// number is not allowed.
+/// Returns the number changed by the share [`Sensitivity::STEP`], and the scene with this number.
+/// `sign` is 1 for a larger and −1 for a smaller number. If only some numbers are allowed, the
+/// number is changed to another allowed one. The scene is `None` if the number is not allowed.
 fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<CheckedScene>) {
     let step = Sensitivity::STEP * value.abs();
     let number = match Allowed::of(axis, scene) {
@@ -373,7 +376,7 @@ fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<Ch
             };
             number
         }
-        // The numbers of waves on the length stay.
+        // If the length changes, [`with_number`] changes the wavelengths in proportion.
         Allowed::Any | Allowed::Multiples(_) => value + sign * step,
     };
     let neighbour = with_number(scene, axis, number);
@@ -383,8 +386,8 @@ fn changed(scene: &Scene, axis: &Axis, value: f64, sign: f64) -> (f64, Option<Ch
     )
 }
 
-/// Returns the scene with another value of a number. Where the length changes, the numbers of waves
-/// on it stay.
+/// Returns the scene with another value of a number. If the number is the length, the wavelengths
+/// change in proportion, so that the same numbers of waves fit on the length.
 fn with_number(scene: &Scene, axis: &Axis, number: f64) -> Result<Scene, SceneErrors> {
     let mut values = vec![(axis.clone(), number)];
     if let Allowed::Multiples(_) = Allowed::of(axis, scene) {
@@ -427,7 +430,8 @@ mod tests {
         found
     }
 
-    /// F_a = (3/2)πγR of a sphere changes in proportion to γ and R, and with nothing else.
+    /// The adhesion force of a sphere is (3/2)πγR. It is in proportion to γ and R, and depends on
+    /// no other number.
     #[test]
     fn a_sphere_follows_its_radius_and_the_work_of_adhesion() {
         let found = sensitivity("jkr-sphere", 1);
@@ -457,8 +461,9 @@ mod tests {
         assert!(matches!(first.axis.symbol, "R" | "γ"), "{first:?}");
     }
 
-    /// Wavelengths move by whole waves, and the results are those of a scene with these modes. The
-    /// length moves with its waves.
+    /// A wavelength changes so that one more or one less wave fits on the length, and the results
+    /// are those of a scene that states these modes. If the length changes, the wavelengths change
+    /// in proportion.
     #[test]
     fn wavelengths_change_by_whole_waves() {
         let base = open("pressure-sensitive")
@@ -488,7 +493,8 @@ mod tests {
                 "roughness.wavelengths.0",
                 [Some([3, 100]), Some([1, 100])],
             ),
-            // Not whole on the length: the profile has 4 waves of 25 µm, not of 23 µm.
+            // The stated wavelength of 23 µm does not fit a whole number of times: the profile has
+            // 4 waves of 25 µm.
             (
                 "(2.3e-5, 1e-6)",
                 [4, 100],
@@ -501,7 +507,8 @@ mod tests {
                 "roughness.wavelengths.1",
                 [Some([1, 111]), Some([1, 91])],
             ),
-            // The shortest wave is the longest one.
+            // The longest wave must not be shorter than the shortest one, so one side is not
+            // allowed.
             (
                 "(2.5e-5, 2.5e-5)",
                 [4, 4],
@@ -559,7 +566,7 @@ mod tests {
                     "{waves} {path} {side}"
                 );
             }
-            // As with modes.
+            // A change of the length has the same results as in a scene that states modes.
             let stretched = found
                 .influences
                 .iter()
@@ -582,7 +589,7 @@ mod tests {
         }
     }
 
-    /// Medians and ranges are those of separate runs of the same seeds.
+    /// Medians and ranges agree with those of separate runs with the same seeds.
     #[test]
     fn a_rough_scene_changes_on_the_same_profiles() {
         let found = sensitivity("pressure-sensitive", 2);

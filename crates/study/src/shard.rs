@@ -1,4 +1,4 @@
-//! Shards of a plan: parts for processes that share the plan.
+//! Shards of a plan: parts that are computed by different processes.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -34,7 +34,7 @@ impl Shard {
     /// Creates a part of a plan.
     ///
     /// # Errors
-    /// The numbers are not allowed; the error says what is allowed.
+    /// Returns a message that says what is allowed if the numbers are not allowed.
     pub(super) fn new(number: u32, count: u32) -> Result<Shard, String> {
         let is_sound = (1..=MOST).contains(&count) && (1..=count).contains(&number);
         let allowed =
@@ -44,7 +44,8 @@ impl Shard {
             .ok_or_else(allowed)
     }
 
-    /// Returns the indices of the units of work that belong to this shard, out of `units` units.
+    /// Returns the indices of the units of work that belong to this shard. The plan has `units`
+    /// units.
     pub(super) fn units(self, units: u64) -> impl Iterator<Item = u64> {
         (u64::from(self.number) - 1..units).step_by(self.count as usize)
     }

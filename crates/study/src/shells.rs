@@ -1,11 +1,11 @@
-//! Roughness of random squares: each shell of their waves has the variance of one mode of the line.
+//! Roughness of random squares. The waves of a square are grouped in shells, and each shell has the
+//! variance of one mode of the line.
 
 use asperity_surface::{EquivalentLine, SelfAffine};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Roughness of the profiles or of the squares of a comparison, as it follows from the waves that
-/// were computed.
+/// Roughness of the profiles or of the squares of a comparison, computed from the waves in use.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ComparedRoughness {
     /// Root mean square height h, m.
@@ -36,7 +36,7 @@ pub(super) enum Spectrum {
         /// Amplitude A₁ in m that mode 1 would have without a roll-off.
         amplitude: f64,
     },
-    /// Spectrum of the surface whose equivalent line this is.
+    /// Spectrum of the measured surface that has this equivalent line.
     Measured(EquivalentLine),
 }
 
@@ -53,8 +53,8 @@ impl Spectrum {
         0.5 * amplitude * amplitude
     }
 
-    /// Returns the mean square height in m² of a wave of a surface that has this spectrum at all
-    /// wave numbers. `waves` is the number of periods over the side.
+    /// Returns the mean square height in m² of one wave of a surface with this spectrum. `waves` is
+    /// the number of periods over the side.
     fn variance_of_surface(&self, waves: f64, side: f64) -> f64 {
         match self {
             Spectrum::SelfAffine {
@@ -67,14 +67,14 @@ impl Spectrum {
 }
 
 /// Waves of a random square. A square of the side L has waves with whole numbers of periods along
-/// both sides, so that few of them have nearly the wave number of a mode of the line. The waves
+/// both sides, so only few of them have nearly the wave number of a mode of the line. The waves
 /// with |k| from k − ½ to k + ½ periods over the side are shell k. Their variances are those of the
-/// spectrum times a factor of the shell. With this factor they sum to the variance A_k²/2 of mode
-/// k, so that square and line have the same rms height.
+/// spectrum times a factor of the shell. The factor makes their sum equal to the variance A_k²/2 of
+/// mode k, so that square and line have the same rms height.
 ///
-/// In a shell the variances fall by a further factor 1/|k|. Most waves of the first shells are
-/// shorter than the mode of their shell, and with this factor less of the variance belongs to them:
-/// e_el of modes 1 to 8 exceeds that of the line by 4 to 5 %, without the factor by 4 to 7 %.
+/// Within a shell the variances fall by a further factor 1/|k|. Most waves of the first shells are
+/// shorter than the mode of their shell, and the factor 1/|k| lessens their share of the variance.
+/// With it e_el of modes 1 to 8 exceeds that of the line by 4 to 5 %, without it by 4 to 7 %.
 #[derive(Clone, Debug)]
 pub(super) struct Shells {
     spectrum: Spectrum,
@@ -100,18 +100,18 @@ impl Shells {
         });
         for (mode, sum) in (modes.0..=modes.1).zip(sums) {
             let variance = shells.spectrum.variance_of_line(mode, side);
-            // Without a wave in the spectrum, nothing is scaled.
+            // A shell without a wave in the spectrum remains without waves.
             let factor = if sum > 0.0 { variance / sum } else { 0.0 };
             shells.factors.push(factor);
         }
         shells
     }
 
-    /// Calls a function with the shell, as an index from the first mode on, and the number of
-    /// periods of each wave.
+    /// Calls a function for each wave, with the index of its shell, counted from the first mode,
+    /// and the number of its periods over the side.
     fn for_each_wave(&self, mut call: impl FnMut(usize, f64, &Shells)) {
         let most = self.modes.1 as i64 + 1;
-        // A quarter of all waves; a quarter turn makes the others.
+        // The loops pass a quarter of all waves. Turning them by 90° gives the others.
         for y in 0..=most {
             for x in 1..=most {
                 let waves = (x as f64).hypot(y as f64);
@@ -124,10 +124,10 @@ impl Shells {
         }
     }
 
-    /// Returns the index of the shell of a wave, from the first mode on; `None` for a wave that the
-    /// squares do not have.
+    /// Returns the index of the shell of a wave, counted from the first mode; `None` for a wave
+    /// that the squares do not have.
     fn shell(&self, waves: f64) -> Option<usize> {
-        // No wave lies on the edge of a shell: the square of k + ½ is no whole number.
+        // No wave lies on the edge of a shell, because the square of k + ½ is not a whole number.
         let mode = waves.round() as u64;
         let (first, last) = self.modes;
         (first..=last)
@@ -135,8 +135,8 @@ impl Shells {
             .then(|| (mode - first) as usize)
     }
 
-    /// Returns the mean square height in m² that a wave adds to the square. `waves` is the number
-    /// of periods over the side.
+    /// Returns the mean square height in m² of a wave of the square. `waves` is the number of its
+    /// periods over the side.
     pub fn variance(&self, waves: f64) -> f64 {
         match self.shell(waves) {
             Some(shell) => self.factors[shell] * self.variance_before_scaling(waves),
@@ -234,8 +234,8 @@ mod tests {
         }
     }
 
-    /// The stated roughness is that of the heights, whose gradients are differences over a fine
-    /// grid.
+    /// The computed roughness agrees with the roughness of the heights themselves, whose gradients
+    /// are differences on a fine grid.
     #[test]
     fn the_heights_have_the_stated_roughness() {
         let cells = 256;

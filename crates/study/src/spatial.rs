@@ -9,25 +9,26 @@ use asperity_half_space::{
 };
 use asperity_surface::Form;
 
-/// Residual of contacts without adhesion, in rms heights.
+/// Tolerance of the solver for contacts without adhesion, divided by the rms height.
 const TOLERANCE: f64 = 1e-8;
-/// Relative difference of two forces that determine a stiffness.
+/// Relative difference of the two forces whose indentations give a stiffness by a difference
+/// quotient.
 const APART: f64 = 0.02;
-/// Share of the preload by which a loop may miss the preload.
+/// Share of the target at which a loop that turns at a force or a displacement may turn too early.
 const NEAR: f64 = 0.01;
-/// Share of an indentation that counts as rounding.
+/// Share of an indentation below which a difference counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 /// Largest number of steps of a loop, far more than any loop needs.
 const MOST_STEPS: usize = 4000;
 
-/// A body in three dimensions, without its random phases.
+/// Body of a scene in three dimensions. The random phases of its roughness are not part of it.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub form: Option<Form>,
     /// Waves of the roughness; `None` for a smooth body.
     pub shells: Option<Shells>,
-    /// Factor of the heights of the roughness in contacts with adhesion. With it squares and lines
-    /// have the same e_el/γ.
+    /// Factor of the heights of the roughness in contacts with adhesion. With this factor the
+    /// squares have the same e_el/γ as the lines.
     pub adhesive_height_factor: f64,
     /// Side L of the square, m.
     pub side: f64,
@@ -37,7 +38,7 @@ pub(super) struct Body {
     pub works: Option<[f64; 2]>,
 }
 
-/// Turning point of the loop to which squares and lines are pressed alike.
+/// Turning point of the loop, the same for squares and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Turn {
     /// Force, N.
@@ -63,7 +64,7 @@ impl Turn {
         }
     }
 
-    /// Returns how far a square has come, in the unit of the target, and the target.
+    /// Returns how far a square has come towards the turning point.
     fn progress(self, state: &AdhesiveState) -> Approach {
         match self {
             Turn::Force(target) => Approach {
@@ -88,11 +89,11 @@ impl Turn {
     }
 }
 
-/// How far a square has come on the way to the turning point.
+/// Progress of a square on the way to the turning point: reached value and target in the same unit.
 struct Approach {
     reached: f64,
     target: f64,
-    /// Share of the target that may be missing.
+    /// Share of the target that may be missing at the end.
     tolerance: f64,
 }
 
@@ -107,7 +108,7 @@ pub(super) struct SquareLoading {
     pub step: f64,
 }
 
-/// What the computation of a square calls meanwhile.
+/// Functions that are called during the computation of a square.
 #[derive(Clone, Copy)]
 pub(super) struct Watch<'a> {
     /// Returns true if the computation should end.
@@ -116,7 +117,7 @@ pub(super) struct Watch<'a> {
     pub loaded: &'a dyn Fn(),
 }
 
-/// State without adhesion at one force.
+/// State of a square at one force, computed without adhesion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pressing {
     pub indentation: f64,
@@ -127,7 +128,7 @@ pub(super) struct Pressing {
     pub residual: f64,
 }
 
-/// Figures of an adhesive loop.
+/// Results of a loop with adhesion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Pulling {
     /// Adhesion force, N.
@@ -136,24 +137,24 @@ pub(super) struct Pulling {
     pub at_touch: f64,
     /// Dissipated energy, J.
     pub dissipated_energy: f64,
-    /// Indentation in m and force in N from first touch on.
+    /// Points of the loop from first touch on, each with indentation in m and force in N.
     pub curve: Vec<(f64, f64)>,
 }
 
-/// The numbers of one random square.
+/// Results of one random square.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
     pub pressings: Vec<Pressing>,
-    /// Figures of the adhesive loop; `None` without adhesion.
+    /// Results of the loop with adhesion; `None` without adhesion.
     pub pulling: Option<Pulling>,
     pub convolutions: u64,
-    /// Number of loads, each with or without adhesion.
+    /// Number of computed loads, with and without adhesion, for the progress.
     pub count: u64,
 }
 
 impl Loads {
-    /// Returns the adhesion force in N, or the indentation in m under the last force if there is no
-    /// adhesion.
+    /// Returns the adhesion force in N or, for a square without adhesion, the indentation in m
+    /// under the last force.
     pub fn headline(&self) -> Option<f64> {
         match &self.pulling {
             Some(pulling) => Some(pulling.adhesion_force),
@@ -163,14 +164,15 @@ impl Loads {
 }
 
 impl Body {
-    /// Returns the memory in bytes of the largest part of a computation.
+    /// Returns the memory in bytes that the computation of a square needs at its largest stage.
     pub fn bytes(&self, cells: usize) -> u64 {
         let adhesive = if self.works.is_some() {
             AdhesiveSquare::bytes(cells)
         } else {
             0
         };
-        // Heights; waves in their place before.
+        // The heights remain in memory during the contact. Before, the waves need three times their
+        // memory.
         let heights = 8 * (cells * cells) as u64;
         heights
             + HalfSpace::bytes(cells, Boundary::Free)
@@ -178,8 +180,9 @@ impl Body {
                 .max(3 * heights)
     }
 
-    /// Loads the square with these random phases to each force without adhesion, and in a loop to
-    /// the turning point and back with adhesion.
+    /// Loads the square with the random phases of `seed`: first to each force without adhesion,
+    /// then with adhesion in two loops, of which one turns at first touch and the other at the
+    /// turning point. The side of the square has `cells` grid cells.
     pub fn load(
         &self,
         cells: usize,
@@ -211,8 +214,8 @@ impl Body {
         Ok(loads)
     }
 
-    /// Returns the heights in m of the square with these random phases, row by row. The heights of
-    /// the roughness are multiplied by a factor.
+    /// Returns the heights in m of the square with the random phases of `seed`, row by row. The
+    /// heights of the roughness, but not of the form, are multiplied by `factor`.
     pub fn heights(&self, cells: usize, seed: u64, factor: f64) -> Result<Vec<f64>, StudyError> {
         let mut heights = match &self.shells {
             Some(shells) => random_map(
@@ -231,15 +234,15 @@ impl Body {
             for (index, height) in heights.iter_mut().enumerate() {
                 let x = distances[index % cells];
                 let y = distances[index / cells];
-                // Beside a punch the body is out of reach of any contact.
+                // Outside a punch the body is so far away that it never comes into contact.
                 *height -= form.depth_in_square(x, y, self.side).unwrap_or(self.side);
             }
         }
         Ok(heights)
     }
 
-    /// Brings a square with adhesion to first touch. `works` are the works of adhesion on closing
-    /// and on opening, J/m².
+    /// Begins the loop of a square with adhesion at first touch. `works` are the works of adhesion
+    /// on closing and on opening in J/m².
     fn begin_loop<'a>(
         &self,
         heights: &[f64],
@@ -287,7 +290,7 @@ impl Body {
     }
 }
 
-/// The motion of a square with adhesion.
+/// State of a square with adhesion during its loop, and the points of its force curve.
 struct Loop<'a> {
     body: AdhesiveSquare,
     state: AdhesiveState,
@@ -296,7 +299,7 @@ struct Loop<'a> {
 }
 
 impl<'a> Loop<'a> {
-    /// Begins the motion at first touch.
+    /// Begins the loop at first touch.
     fn begin(mut body: AdhesiveSquare, watch: Watch<'a>) -> Result<Loop<'a>, HalfSpaceError> {
         let state = body.move_to(0.0, watch.stop)?;
         (watch.loaded)();
@@ -317,10 +320,11 @@ impl<'a> Loop<'a> {
         Ok(())
     }
 
-    /// Presses to the turning point, in steps of the indentation in m.
+    /// Increases the indentation in steps of at most `step` in m, up to the turning point.
     fn press(&mut self, turn: Turn, step: f64) -> Result<(), StudyError> {
         let mut approach = turn.progress(&self.state);
-        // Only an indentation grows as evenly as the steps.
+        // Only if the loop turns at an indentation, the first step that would pass the turning
+        // point is known.
         let mut next = match turn {
             Turn::Indentation(indentation) => step.min(indentation),
             _ => step,
@@ -332,7 +336,8 @@ impl<'a> Loop<'a> {
             let before = approach.reached;
             self.move_by(next)?;
             approach = turn.progress(&self.state);
-            // The next step ends at the target, by the slope of the last one.
+            // The next step should end at the turning point. Its length follows from the slope of
+            // the last step.
             let missing = (approach.target - approach.reached) * next / (approach.reached - before);
             let shortest = if matches!(turn, Turn::Indentation(_)) {
                 0.0
@@ -357,7 +362,7 @@ impl<'a> Loop<'a> {
         ))
     }
 
-    /// Pulls off in steps of the indentation in m, until nothing touches.
+    /// Reduces the indentation in steps of `step` in m, until the square is separated.
     fn pull_off(&mut self, step: f64) -> Result<(), StudyError> {
         for _ in 0..MOST_STEPS {
             if self.state.area == 0.0 {
@@ -368,7 +373,7 @@ impl<'a> Loop<'a> {
         Ok(())
     }
 
-    /// Returns the largest tensile force in N.
+    /// Returns the largest tensile force of the loop in N.
     fn adhesion_force(&self) -> f64 {
         self.curve
             .iter()
@@ -377,7 +382,7 @@ impl<'a> Loop<'a> {
     }
 }
 
-/// Returns the work of the force along a curve in J.
+/// Returns the work of the force along a curve in J, by the trapezoidal rule.
 fn work(curve: &[(f64, f64)]) -> f64 {
     curve
         .windows(2)

@@ -1,5 +1,5 @@
-//! Loops of random squares in three dimensions for comparison with the profile, as far as they are
-//! computed.
+//! Loops of random squares in three dimensions for comparison with the profile, available while
+//! they are computed.
 
 use super::compared::{Compared, Values};
 use super::error::StudyError;
@@ -31,7 +31,7 @@ pub struct SquareLoops {
 
 impl SquareLoops {
     /// Computes the force curves of squares for a scene, with the options [`ReferenceOptions::of`].
-    /// `simulation` knows the folder of the measured files of the scene. `control` reports the
+    /// `simulation` has the folder of the measured files of the scene. `control` receives the
     /// curves so far at the beginning, after each hundredth of the computation, and after each
     /// square.
     ///
@@ -57,7 +57,7 @@ impl SquareLoops {
         Ok(loops)
     }
 
-    /// Takes in an event. Returns true if there is something new to show.
+    /// Adds the data of an event. Returns true if a view of the loops has to change.
     fn take_in(&mut self, event: &ReferenceEvent) -> bool {
         match event {
             ReferenceEvent::Begins { maps, .. } => self.maps = *maps,
@@ -68,7 +68,8 @@ impl SquareLoops {
             }
             ReferenceEvent::Loaded { share } => {
                 let before = (100.0 * self.share).floor();
-                // The number of loads is an estimate.
+                // The number of loads is an estimate, so the sum of the shares may exceed 1 before
+                // the end.
                 self.share = (self.share + share).min(0.99);
                 return (100.0 * self.share).floor() > before;
             }
@@ -112,30 +113,31 @@ impl SquareLoops {
 /// Points with indentation in m and force in N.
 type Curve = Vec<(f64, f64)>;
 
-/// Returns the index of the last one of the deepest points of a curve.
+/// Returns the index of the last point with the largest indentation.
 fn deepest(curve: &[(f64, f64)]) -> usize {
     (0..curve.len())
         .max_by(|one, other| curve[*one].0.total_cmp(&curve[*other].0))
         .unwrap_or(0)
 }
 
-/// Returns the points of the loading in the order of their indentations.
+/// Returns the points of the loading in ascending order of their indentations.
 fn loading_of(curve: &[(f64, f64)]) -> Curve {
     let mut loading = curve[..curve.len().min(deepest(curve) + 1)].to_vec();
-    // A separated square has no force, and the first point of a loading is first touch.
+    // A separated square has no force, and the first point of a loading with adhesion is first
+    // touch. A loading without adhesion begins with zero force at zero indentation.
     if loading.first().is_some_and(|first| first.0 > 0.0) {
         loading.insert(0, (0.0, 0.0));
     }
     loading
 }
 
-/// Returns the points of the unloading in the order of their indentations.
+/// Returns the points of the unloading in ascending order of their indentations.
 fn unloading_of(curve: &[(f64, f64)]) -> Curve {
     curve.iter().skip(deepest(curve)).rev().copied().collect()
 }
 
-/// Returns the band of several curves, up to the end that all of them reach; `None` if no curve has
-/// two points.
+/// Returns the band of several curves over the indentations that all of them reach; `None` if no
+/// curve has two points.
 fn band(curves: &[Curve]) -> Option<[Vec<CurvePoint>; 3]> {
     let curves: Vec<&Curve> = curves.iter().filter(|curve| curve.len() > 1).collect();
     let beginnings = curves.iter().map(|curve| curve[0].0);
@@ -162,11 +164,11 @@ fn band(curves: &[Curve]) -> Option<[Vec<CurvePoint>; 3]> {
     Some(band)
 }
 
-/// Steps of a band.
+/// Number of steps of a band.
 const BAND_POINTS: usize = 100;
 
-/// Returns the force in N at an indentation in m, between points in the order of their
-/// indentations.
+/// Returns the force in N at an indentation in m, interpolated between points in ascending order of
+/// their indentations.
 fn force_at(points: &[(f64, f64)], indentation: f64) -> f64 {
     let after = points
         .partition_point(|point| point.0 < indentation)
@@ -197,7 +199,7 @@ mod tests {
         };
         let control = Control::default().on_threads(1).reporting_to(&mut report);
         let loops = SquareLoops::of(scene.scene(), &mut Simulation::default(), control).unwrap();
-        // There is progress before the only square is finished.
+        // Progress is reported before the only square is finished.
         assert_eq!((counts[0], shares[0]), ((1, 0), 0.0));
         assert_eq!(counts.last(), Some(&(1, 1)));
         assert!(
@@ -256,7 +258,7 @@ mod tests {
             (up - 2.0 * root).abs() < 1e-12 && (down - 2.0 * root).abs() < 1e-12,
             "{up} {down}"
         );
-        // Without adhesion there is a loading alone, which begins at first touch.
+        // Without adhesion there is only a band for the loading. It begins at first touch.
         let pressed = SquareLoops {
             curves: vec![vec![(1.0, 2.0), (2.0, 4.0)]],
             ..SquareLoops::default()

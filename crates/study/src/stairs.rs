@@ -1,5 +1,5 @@
-//! Crossings of quantities that follow from the adhesion force over the preload, which rises in
-//! steps and is constant between two steps.
+//! Crossings of quantities that follow from the adhesion force F_a as a function of the preload.
+//! F_a rises in steps and is constant between two steps.
 
 use super::bracket::WITHIN;
 use super::coordinates::Coordinates;
@@ -7,19 +7,21 @@ use super::preloads::SAME;
 use super::scan::{Tried, side};
 use asperity_scene::RunError;
 
-/// Largest number of preloads that are computed on one profile.
+/// Largest number of preloads at which one profile is computed.
 const MOST: usize = 4096;
-/// Largest ratio of the ends of an interval of preloads that is halved, instead of its logarithm.
+/// Ratio of the ends of an interval of preloads up to which it is divided in the middle. A wider
+/// interval is divided in the middle of the logarithms.
 const WIDE: f64 = 4.0;
-/// Share of the searched range below which no step of F_a is located.
+/// Width of an interval, as a share of the searched range, below which a step of F_a is not located
+/// more precisely.
 const LEAST: f64 = 1e-20;
-/// Ratio of the ends of the interval that is cut off from an interval from 0 N.
+/// An interval that begins at 0 N is divided at its upper end divided by this number.
 const FROM_ZERO: f64 = 16.0;
-/// Smallest share of the range, in coordinates, to which an interval with a step is halved if it
-/// has no crossing.
+/// Smallest width, as a share of the range in coordinates, of an interval that has a step but no
+/// crossing. It is not divided further.
 const NARROWEST: f64 = 1.0 / 4096.0;
 
-/// A preload in N with the adhesion force F_a in N after it and the value of a quantity.
+/// A preload in N with the adhesion force F_a in N after this preload, and the value of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stair {
     pub preload: f64,
@@ -27,28 +29,28 @@ pub(super) struct Stair {
     pub value: f64,
 }
 
-/// Function that computes the stairs of ascending preloads.
+/// Function that computes a [`Stair`] for each of several ascending preloads.
 pub(super) type Climb<'c> = dyn FnMut(&[f64]) -> Result<Vec<Stair>, RunError> + 'c;
 
-/// Crossings in ascending order, and whether some may be missing.
+/// Ascending crossings. The second field is true if some crossings may be missing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Crossings {
     pub numbers: Vec<f64>,
     pub may_miss: bool,
 }
 
-/// Two preloads with the stairs between them.
+/// Interval between two preloads, with the adhesion force at both ends.
 #[derive(Clone, Copy, Debug)]
 struct Flight {
     low: Stair,
     high: Stair,
 }
 
-/// What is known about the crossings of a flight.
+/// Result of the search for crossings in one interval.
 enum Found {
     Nothing,
     Crossing(f64),
-    /// There may be crossings on both sides of this preload.
+    /// There may be crossings below and above this preload.
     Split(f64),
 }
 
@@ -59,8 +61,9 @@ impl Flight {
         high - low > SAME * high.abs()
     }
 
-    /// Looks for preloads at which F_a is `ratio` times the preload. `depth` is the number of
-    /// splits before, and `range` the length of the searched range in N.
+    /// Looks for preloads in the interval at which F_a is `ratio` times the preload. `depth` is the
+    /// number of divisions that led to this interval. `range` is the length of the searched range
+    /// in N.
     fn look(&self, ratio: f64, depth: usize, range: f64) -> Found {
         let low = self.low;
         let high = self.high;
@@ -74,7 +77,8 @@ impl Flight {
                 Found::Nothing
             };
         }
-        // F_a is between the forces at both ends.
+        // F_a never falls, so it lies between the forces at both ends, and the ratio cannot cross
+        // the target.
         if high.adhesion_force < ratio * low.preload || low.adhesion_force > ratio * high.preload {
             return Found::Nothing;
         }
@@ -87,8 +91,9 @@ impl Flight {
                 Found::Nothing
             };
         }
-        // On the stair of the lower end the crossing is here. Above the second preload the ratio is
-        // smaller everywhere.
+        // If F_a is still that of the lower end, the ratio crosses the target at this preload. If
+        // the lower end is already below the target, the ratio is smaller than the target above
+        // this preload.
         let stair = if is_above[0] { low } else { high };
         let preload = at_most(stair.adhesion_force, ratio);
         if depth.is_multiple_of(2) && low.preload < preload && preload < high.preload {
@@ -98,7 +103,7 @@ impl Flight {
     }
 }
 
-/// Returns the smallest preload at which this force divided by the preload is at most `ratio`.
+/// Returns the smallest preload at which `force` divided by the preload is at most `ratio`.
 fn at_most(force: f64, ratio: f64) -> f64 {
     let mut preload = force / ratio;
     while force - ratio * preload > 0.0 {
@@ -107,7 +112,7 @@ fn at_most(force: f64, ratio: f64) -> f64 {
     preload
 }
 
-/// Returns a preload between two others.
+/// Returns a preload between two others, at which an interval is divided.
 fn middle(low: f64, high: f64) -> f64 {
     if low <= 0.0 {
         high / FROM_ZERO
@@ -118,8 +123,8 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Returns the preloads between two others, at least 0 N, at which F_a is `ratio` times the
-/// preload. The ratio is above zero.
+/// Returns the preloads at which F_a is `ratio` times the preload. `ends` are two preloads in N,
+/// zero or above, and `ratio` is above zero.
 pub(super) fn ratio_crossings(
     ends: [f64; 2],
     ratio: f64,
@@ -156,7 +161,7 @@ pub(super) fn ratio_crossings(
     Ok(crossings)
 }
 
-/// Returns the two parts of each flight that is split at a stair.
+/// Returns both parts of each interval, divided at the preload of a computed stair.
 fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     let mut parts = Vec::with_capacity(2 * flights.len());
     for (flight, &stair) in flights.iter().zip(stairs) {
@@ -172,9 +177,9 @@ fn halves(flights: &[Flight], stairs: &[Stair]) -> Vec<Flight> {
     parts
 }
 
-/// Returns neighbouring stairs between which a quantity passes the target that is constant wherever
-/// F_a is constant. The second value is true if such a pair may be missing, because two steps are
-/// closer together than the stairs.
+/// Finds the crossings of a quantity that is constant between two steps of F_a. Returns pairs of
+/// neighbouring preloads between which the quantity passes the target. The second value is true if
+/// such a pair may be missing, because two steps are closer together than the computed preloads.
 pub(super) fn step_crossings(
     coordinates: &Coordinates,
     target: f64,
@@ -231,8 +236,8 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Stairs with the adhesion force after the last of the steps (preload, adhesion force) up to a
-    /// preload.
+    /// Returns the stair of each preload, with the adhesion force after the last step up to this
+    /// preload. `steps` are pairs of preload and adhesion force.
     fn stairs(steps: &[(f64, f64)], preloads: &[f64]) -> Vec<Stair> {
         let stair = |&preload: &f64| {
             let adhesion_force = steps
@@ -254,7 +259,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut most = 0;
         for case in 0..400 {
-            // Steps over eight decades of preloads, the first at or above 0 N.
+            // The steps extend over eight decades of preloads. The first step is at 0 N or above.
             let first = if case % 2 == 0 { 0.0 } else { 1e-9 };
             let mut steps = vec![(first, 1e-7 * random.random::<f64>())];
             for _ in 0..random.random_range(0..40) {
@@ -269,7 +274,7 @@ mod tests {
             let ends = [0.0, 0.5 * steps[steps.len() - 1].0 + 1e-3];
             let found =
                 ratio_crossings(ends, ratio, &mut |preloads| Ok(stairs(&steps, preloads))).unwrap();
-            // In closed form, from stair to stair.
+            // The expected crossings follow in closed form between each step and the next one.
             let mut expected = Vec::new();
             let mut is_above = steps[0].0 == 0.0;
             for (index, &(preload, force)) in steps.iter().enumerate() {

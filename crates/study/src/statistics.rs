@@ -7,25 +7,28 @@ use asperity_data::{
 use asperity_scene::Regime;
 use serde::Serialize;
 
-/// Probability for which confidence intervals are computed.
+/// Probability with which a confidence interval contains the true mean.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 
-/// Share of random profiles in one regime above which the profiles agree.
+/// Share of the profiles above which the regime of these profiles counts as the regime of all.
 const AGREEING_SHARE: f64 = 0.75;
 
-/// Smallest number of profiles whose median has an interval.
+/// Smallest number of values whose median has a confidence interval.
 const FEWEST: usize = 4;
-/// Half the width of the interval of a median in quantiles, times the root of the number of
-/// profiles. It is the normal approximation of the binomial distribution for 95 of 100 cases.
+/// Half-width of the confidence interval of a median, as a share of the sorted values times √n,
+/// where n is the number of values. The number of values below the median has a binomial
+/// distribution with the standard deviation √n/2, and 1.96 standard deviations hold 95 of 100
+/// cases: 1.96 · √n/2 = 0.98 √n.
 const HALF: f64 = 0.98;
 
-/// Share of one profile in a mean above which a warning is given.
+/// Share of one profile in the sum over all profiles above which a warning is given.
 const MOST_OF_ONE: f64 = 0.5;
 
 /// Statistics over random profiles of one quantity, in the SI unit of the quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Statistics {
-    /// Number of profiles with a value. The statistics are over these profiles.
+    /// Number of profiles on which the quantity has a value. Only these profiles enter the
+    /// statistics.
     pub count: usize,
     /// Mean of the quantity over the profiles with a value.
     pub mean: f64,
@@ -35,8 +38,8 @@ pub struct Statistics {
     /// Smallest and largest value of the quantity among the profiles.
     pub range: (f64, f64),
     /// Lower and upper end of the 95 % confidence interval of the median, for any distribution.
-    /// With 8 profiles it holds the median of infinitely many profiles in about 93 of 100 cases,
-    /// with 16 and more in about 95. `None` for fewer than 4 values.
+    /// With 8 profiles the interval contains the median of infinitely many profiles in about 93 of
+    /// 100 cases, with 16 and more in about 95. `None` for fewer than 4 values.
     pub median_interval: Option<(f64, f64)>,
     /// Spread of the values and confidence interval of [`Statistics::mean`]; `None` for a single
     /// value.
@@ -56,20 +59,21 @@ pub struct Spread {
     /// Lower and upper end of the 95 % confidence interval of the mean, by Student's t. If the
     /// quantity has a bound, such as 0 for a force, the interval does not reach this bound.
     ///
-    /// The interval assumes that the mean of these values is normally distributed. If few of many
-    /// profiles make most of the mean, it is too narrow: for F_a(d=0) it holds the mean in about 82
-    /// of 100 cases with 8 profiles, 86 with 32 and 92 with
-    /// 64. [`Statistics::median_interval`] has no such assumption.
+    /// The interval assumes that the mean of the values is normally distributed. If few of many
+    /// profiles make most of the mean, the interval is too narrow: for F_a(d=0) it contains the
+    /// mean in about 82 of 100 cases with 8 profiles, in 86 with 32 and in 92 with 64.
+    /// [`Statistics::median_interval`] has no such assumption.
     pub confidence_interval: (f64, f64),
 }
 
-/// Function that returns the value in a column of a table of statistics; `None` if it is unknown.
+/// Function that returns the statistic shown in a column of a table; `None` if the statistic is
+/// unknown.
 type Column = fn(&Statistics) -> Option<f64>;
 
 impl Statistics {
-    /// Computes the statistics of values of a quantity; `None` if there are none. `bounds` are the
-    /// smallest and the largest value that the quantity can have, −∞ and ∞ if it has no bounds.
-    /// Values that are not finite are left out.
+    /// Computes the statistics of values of a quantity; `None` without a finite value. `bounds` are
+    /// the smallest and the largest value that the quantity can have, −∞ and ∞ if the quantity has
+    /// no bounds. Values that are not finite are left out.
     ///
     /// ```
     /// use asperity_study::{Quantity, Statistics};
@@ -85,7 +89,7 @@ impl Statistics {
         sorted.sort_by(f64::total_cmp);
         let range = (*sorted.first()?, *sorted.last()?);
         let count = values.len() as f64;
-        // Divided by the largest value, so that no square overflows or underflows.
+        // The values are divided by the largest one, so that no square overflows or underflows.
         let largest = values
             .iter()
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -114,8 +118,9 @@ impl Statistics {
         })
     }
 
-    /// Statistics that a table shows of each quantity, one in each column: the last part of the
-    /// name of the column, such as `median`, and the function that returns the value in the column.
+    /// Statistics that a table shows of each quantity, one in each column. Each entry is the last
+    /// part of the name of the column, such as `median`, and the function that returns the value in
+    /// the column.
     pub const COLUMNS: [(&str, Column); 9] = [
         ("mean", |all| Some(all.mean)),
         ("sd", |all| Some(all.spread?.standard_deviation)),
@@ -172,8 +177,8 @@ impl Statistics {
         (least >= 0.0 && share.is_finite()).then_some(share)
     }
 
-    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. For a
-    /// single value each end is the mean.
+    /// Returns the lower and the upper end of the 95 % confidence interval of the mean. A single
+    /// value has no spread, and both ends are the mean.
     pub fn ends(&self) -> (f64, f64) {
         self.confidence_interval().unwrap_or((self.mean, self.mean))
     }
@@ -185,18 +190,19 @@ impl Statistics {
 }
 
 /// Returns an interval around the mean with the half-width `half`. Without bounds `half` is added
-/// to the mean. With one bound it is added to the logarithm of the distance from the bound, with
-/// two bounds to the logarithm of the ratio of both distances. The interval never reaches a bound.
+/// to the mean and subtracted from the mean. With one bound the same is done with the logarithm of
+/// the distance between mean and bound, and with two bounds with the logarithm of the ratio of both
+/// distances, so that the interval never reaches a bound.
 fn interval(mean: f64, half: f64, bounds: (f64, f64)) -> (f64, f64) {
     let (least, most) = bounds;
-    // Rounding may have carried the mean itself across a bound.
+    // Rounding errors may have moved the mean itself to a bound or beyond.
     if mean - least <= 0.0 || most - mean <= 0.0 {
         return (mean, mean);
     }
     (moved(mean, -half, bounds), moved(mean, half, bounds))
 }
 
-/// Returns the mean moved by `step` within the bounds.
+/// Returns the mean moved by about `step`, without reaching one of the bounds; see [`interval`].
 fn moved(mean: f64, step: f64, bounds: (f64, f64)) -> f64 {
     let (least, most) = bounds;
     let above = mean - least;
@@ -211,8 +217,8 @@ fn moved(mean: f64, step: f64, bounds: (f64, f64)) -> f64 {
     most - (most - least) / (1.0 + odds)
 }
 
-/// Returns an interval of ascending values that holds the median of any distribution in about 95 of
-/// 100 cases; `None` for few values.
+/// Returns an interval that contains the median of the distribution in about 95 of 100 cases, for
+/// any distribution. `ascending` are the values in ascending order. `None` for fewer than 4 values.
 pub(crate) fn median_interval(ascending: &[f64]) -> Option<(f64, f64)> {
     let count = ascending.len();
     if count < FEWEST {
@@ -261,7 +267,7 @@ impl RegimeCounts {
         ]
     }
 
-    /// Returns the number of all counted profiles, whether their regime is known or unknown.
+    /// Returns the number of all counted profiles, including those of unknown regime.
     pub fn profiles(self) -> usize {
         self.known().iter().sum::<usize>() + self.none
     }
@@ -297,10 +303,11 @@ impl RegimeCounts {
         second.filter(|_| !agree).map(|(regime, _)| regime)
     }
 
-    /// Returns the regimes that occur with their numbers of profiles, the largest first.
+    /// Returns the regimes that occur, each with its number of profiles, the largest number first.
     fn ordered(self) -> [Option<(Regime, usize)>; 3] {
         let mut counts = [0, 1, 2].map(|place| (Regime::ALL[place], self.known()[place]));
-        // Stable: of equal numbers the one with more adhesion remains first.
+        // The sorting is stable: of two regimes with equal numbers, the one with more adhesion
+        // remains first.
         counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         counts.map(|one| Some(one).filter(|(_, count)| *count > 0))
     }
@@ -316,8 +323,8 @@ impl RegimeCounts {
         names.zip(counts).filter(|(_, count)| *count > 0)
     }
 
-    /// Returns for each regime, in the order of [`Regime::ALL`], the share of the profiles of known
-    /// regime that are in it; `None` if no regime is known.
+    /// Returns for each regime, in the order of [`Regime::ALL`], its share of the profiles of known
+    /// regime; `None` if no regime is known.
     pub fn shares(self) -> Option<[f64; 3]> {
         let all: usize = self.known().iter().sum();
         (all > 0).then(|| self.known().map(|count| count as f64 / all as f64))
@@ -330,13 +337,15 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// A value with about the standard normal distribution.
+    /// Returns a random number with nearly the standard normal distribution: the sum of twelve
+    /// uniform numbers minus its mean. The variance of the sum is 12 · 1/12 = 1.
     fn normal(random: &mut ChaCha8Rng) -> f64 {
         (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
     }
 
-    /// Shares of samples of `count` log-normal forces whose intervals hold the median and the mean
-    /// of the distribution.
+    /// Returns the shares of random samples whose confidence intervals contain the true median and
+    /// the true mean. Each sample has `count` log-normal forces with the standard deviation
+    /// `deviation` of the logarithm.
     fn shares_held(count: usize, deviation: f64, samples: u32) -> [f64; 2] {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let truths = [1.0, (0.5 * deviation * deviation).exp()];
@@ -354,9 +363,9 @@ mod tests {
         held.map(|held| f64::from(held) / f64::from(samples))
     }
 
-    /// The interval of the median holds it in about 95 of 100 samples, however skewed the forces
-    /// are. The interval of the mean does so for forces that scatter little, and fails for forces
-    /// that scatter much, as its documentation states.
+    /// The interval of the median contains the median in about 95 of 100 samples, however skewed
+    /// the forces are. The interval of the mean contains the mean as often only for forces that
+    /// scatter little, as its documentation states.
     #[test]
     fn intervals_hold_the_median_always_and_the_mean_of_forces_that_scatter_little() {
         for count in [8, 16, 32, 128] {
@@ -482,7 +491,8 @@ mod tests {
                 "{all:?}"
             );
         }
-        // The logarithm of a force: one factor to both sides.
+        // The interval is symmetric in the logarithm of the force: mean/low and high/mean are
+        // equal.
         let all = Statistics::of(wide.to_vec(), force).unwrap();
         let (low, high) = all.confidence_interval().unwrap();
         assert!(

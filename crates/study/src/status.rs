@@ -1,4 +1,4 @@
-//! The progress of a study and of the processes that work on it.
+//! The progress of a study, and of the processes that compute it.
 
 use super::cells::{Cells, Streak};
 use super::error::StudyError;
@@ -124,13 +124,13 @@ impl Status {
     }
 }
 
-/// Returns the records per second over a time in s; `None` for zero time.
+/// Returns the number of records per second over a time in s; `None` for a time of zero.
 pub(super) fn rate(records: u64, seconds: f64) -> Option<f64> {
     (seconds > 0.0).then(|| records as f64 / seconds)
 }
 
-/// Returns the number of all records of a shard, and the number of existing ones. Counting all
-/// shards together takes as long as counting the whole study.
+/// Returns the number of all records of a shard, and the number of its existing records. To count
+/// all shards takes as long as to count the whole study.
 pub(super) fn count(folder: &Folder, cells: &Cells<'_>, done: &[bool], shard: Shard) -> (u64, u64) {
     let mut total = 0;
     let mut there = 0;

@@ -1,7 +1,7 @@
-//! The folder of a study: its plan, and one file for each process that has worked on it.
+//! The folder of a study, with the plan and one file for each process that has computed a part.
 //!
-//! A shard file is only ever appended to, by the process that made it. Each record is a line with a
-//! checksum. However a process ends, its written records remain, and an incomplete line is ignored.
+//! A process only appends to its own shard file. Each record is a line with a checksum. If a
+//! process is killed, its complete lines remain valid, and an incomplete line is ignored.
 
 use super::error::StudyError;
 use super::measured::{changed, file_of, with_hash};
@@ -25,13 +25,14 @@ use std::{fs, io};
 
 /// Version of the format of shard files, [`ShardFile`].
 pub const STORE_VERSION: u32 = 1;
-/// Largest length in bytes of a line of a shard file or a table. Records are much shorter.
+/// Largest length in bytes of a line of a shard file or a table, for protection against damaged
+/// files. Records are much shorter.
 const LONGEST_LINE: u64 = 1 << 16;
 
 const SHARDS: &str = "shards";
 const ENDING: &str = "shard";
 
-/// Text between cell and seed and the reason, in a record without values.
+/// Text between the seed and the reason, in a record without values.
 const FAILED: &str = ",:";
 
 /// Number of characters of the checksum and the comma after it.
@@ -75,8 +76,9 @@ pub struct ShardFile {
     pub written: f64,
 }
 
-/// Record of a study: its index, counted by cell, then by seed, and one value for each quantity of
-/// the plan, NaN if missing, or the reason why there are none.
+/// Record of a study: its index, then one value for each quantity of the plan, NaN if missing, or
+/// the reason why it has no values. The index counts the profiles of the first cell, then those of
+/// the second cell, and so on.
 pub(super) type Record = (u64, Recorded);
 
 impl Folder {
@@ -126,7 +128,7 @@ impl Folder {
         let text = plan.to_ron();
         if !file.exists() {
             match write_new(&file, false, |out| out.write_all(text.as_bytes())) {
-                // Another process was faster.
+                // Another process may have written the plan since the check.
                 Ok(()) | Err(WriteError::Exists { .. }) => {}
                 Err(error) => return Err(error.into()),
             }
@@ -211,14 +213,15 @@ impl Folder {
         Ok((path, file))
     }
 
-    /// Creates a file with its header, of which neither a crash nor a power cut leaves a part.
+    /// Creates a file with its header and syncs them to the disk, so that a later power cut cannot
+    /// lose the header.
     fn begun_file(&self, path: &Path, header: &ShardHeader) -> io::Result<File> {
         let mut text = String::new();
         seal(&serde_json::to_string(header)?, &mut text);
         let mut file = File::create_new(path)?;
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
-        // The name in the folder has to be durable as well.
+        // The name of the file in the folder must survive a power cut as well.
         sync_folder(&self.path.join(SHARDS))?;
         Ok(file)
     }
@@ -253,7 +256,8 @@ impl Folder {
     ) -> Result<impl Iterator<Item = Result<Option<Record>, StudyError>> + 'f, StudyError> {
         let opened =
             open_regular(&file.path).map_err(|error| StudyError::folder(&file.path, error))?;
-        // Most of many files are small.
+        // Most files of a study are small, so the size of the buffer follows from the size of the
+        // file.
         let size = opened
             .metadata()
             .map_err(StudyError::unreadable(&file.path))?
@@ -276,8 +280,9 @@ impl Folder {
         is_of_plan.then_some((cell * self.plan.lines + profile, record))
     }
 
-    /// Returns which records exist, by index, after all files are synced to the disk. Otherwise a
-    /// power cut could lose records that a killed process did not sync, although they were counted.
+    /// Returns for each index whether the record exists. All files are synced to the disk before.
+    /// Otherwise a power cut could lose records of a killed process, and they would not be computed
+    /// again.
     pub(super) fn done(&self) -> Result<Vec<bool>, StudyError> {
         let mut done = vec![false; self.plan.records_in_all() as usize];
         for file in self.files()? {
@@ -286,7 +291,7 @@ impl Folder {
                     .into_iter()
                     .for_each(|(place, _)| done[place as usize] = true);
             }
-            // Windows requires write access.
+            // Windows syncs only files that were opened for writing.
             let open = OpenOptions::new()
                 .read(true)
                 .write(cfg!(windows))
@@ -300,7 +305,8 @@ impl Folder {
     }
 }
 
-/// Returns the shard file of the plan with this checksum; `None` if it has no header yet.
+/// Returns the shard file at `path`; `None` if it has no header yet. A file of another plan, with
+/// another checksum, is an error.
 fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, StudyError> {
     let file = open_regular(&path).map_err(|error| StudyError::folder(&path, error))?;
     let written = file
@@ -311,7 +317,7 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
         .duration_since(UNIX_EPOCH)
         .unwrap_or_default()
         .as_secs_f64();
-    // Of thousands of files, only the first lines are read here.
+    // A folder may have thousands of files, and only their first lines are read here.
     let first = lines(BufReader::with_capacity(1 << 10, file))
         .next()
         .transpose();
@@ -328,8 +334,8 @@ fn file_of_plan(path: PathBuf, checksum: &str) -> Result<Option<ShardFile>, Stud
     }))
 }
 
-/// Reads a whole header. A crash cannot cause an error in a header, so an error is a fault of the
-/// writer.
+/// Reads a complete header. A crash leaves no wrong header, so a wrong header is refused as an
+/// error of the program that wrote it.
 fn header_of(payload: &str, checksum: &str) -> Result<ShardHeader, String> {
     let header: ShardHeader = serde_json::from_str(payload).map_err(|error| {
         format!(
@@ -361,18 +367,17 @@ pub(super) fn seal(payload: &str, into: &mut String) {
     );
 }
 
-/// Returns the payload of a line without its line break; `None` if it does not agree with the
-/// checksum.
+/// Returns the text of a line after its checksum; `None` if the checksum is missing or wrong.
 pub(super) fn unseal(line: &str) -> Option<&str> {
     let payload = line.get(CHECKSUM..)?;
     let checksum = line.get(..CHECKSUM)?.strip_suffix(',')?;
-    // One way of writing, so that equal records are equal text.
+    // The checksum is compared as text, so that each record can be written in only one way.
     let is_ours = checksum == format!("{:08x}", crc32fast::hash(payload.as_bytes()));
     is_ours.then_some(payload)
 }
 
-/// Appends the record of a cell and a seed. NaN, a missing value, becomes an empty column. A reason
-/// follows a colon.
+/// Appends the record of a cell and a seed. A missing value (NaN) becomes an empty column, and a
+/// reason follows after a colon.
 pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String) {
     let mut payload = format!("{cell},{seed}");
     if let Err(reason) = record {
@@ -382,15 +387,15 @@ pub(super) fn encode(cell: u64, seed: u64, record: &Recorded, into: &mut String)
     for value in record.iter().flatten() {
         payload.push(',');
         if !value.is_nan() {
-            // The shortest text that is read back bit for bit.
+            // This is the shortest text from which the same bits are read.
             let _ = write!(payload, "{value:?}");
         }
     }
     seal(&payload, into);
 }
 
-/// Returns cell, seed and values of a payload, with NaN for empty columns; `None` unless it has
-/// `count` values or a reason.
+/// Returns cell, seed and values of a record, with NaN for empty columns; `None` unless the record
+/// has `count` values or a reason.
 pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)> {
     if let Some((place, reason)) = payload.split_once(FAILED) {
         let (cell, seed) = place.split_once(',')?;
@@ -414,8 +419,8 @@ pub(super) fn decode(payload: &str, count: usize) -> Option<(u64, u64, Recorded)
     (values.len() == count).then_some((cell, seed, Ok(values)))
 }
 
-/// Returns the lines of a text without their line breaks; `None` for a line that is too long,
-/// incomplete or not text.
+/// Returns the lines of a text without their line breaks. A line is `None` if it is too long,
+/// incomplete or not UTF-8.
 pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<Option<String>>> {
     std::iter::from_fn(move || {
         let mut line = Vec::new();
@@ -431,7 +436,7 @@ pub(super) fn lines(mut text: impl BufRead) -> impl Iterator<Item = io::Result<O
     })
 }
 
-/// Returns a line without its line break; `None` for one that is incomplete or not text.
+/// Returns a line without its line break; `None` if it has no line break or is not UTF-8.
 fn whole_line(mut line: Vec<u8>) -> Option<String> {
     if line.pop() != Some(b'\n') {
         return None;
@@ -443,11 +448,11 @@ fn text_of(file: &Path) -> Result<String, StudyError> {
     read_regular_text(file, LONGEST_TEXT).map_err(|error| StudyError::folder(file, error))
 }
 
-/// Returns the error for a folder with another plan than `plan`. `there` is the text of this other
-/// plan.
+/// Returns the error for a folder that has another plan than `plan`. `there` is the text of the
+/// plan in the folder.
 fn refusal(path: &Path, there: &str, plan: &Plan) -> StudyError {
     let file = path.join(PLAN_FILE);
-    // If only the content of the measured file differs, the error is specific.
+    // If only the content of a measured file has changed, the error says so.
     let of_folder = Plan::read(there, PLAN_FILE, &Changes::default());
     if let (Ok(of_folder), Some(measured), Some(found)) =
         (of_folder, file_of(plan), &plan.measured_sha256)
@@ -487,7 +492,7 @@ fn line_in_words(line: Option<&str>) -> String {
     }
 }
 
-/// Returns the name of this machine in letters allowed in a file name.
+/// Returns the name of this machine, with only letters that are allowed in a file name.
 fn host() -> String {
     #[cfg(unix)]
     let name = rustix::system::uname()
@@ -532,7 +537,7 @@ mod tests {
             for (read, value) in read.unwrap().iter().zip(&values) {
                 prop_assert!(read.to_bits() == value.to_bits() || (read.is_nan() && value.is_nan()));
             }
-            // Every cut or change is noticed.
+            // Every shortened or changed line is refused.
             for end in 0..line.len() {
                 prop_assert_eq!(unseal(&line[..end]), None);
             }

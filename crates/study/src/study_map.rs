@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub struct StudyMap {
     folder: PathBuf,
     study: Results,
-    /// Indices of the axes: horizontal, vertical, and the others.
+    /// Index of the horizontal axis of the maps in the plan.
     across: usize,
     up: Option<usize>,
     others: Vec<usize>,
@@ -50,7 +50,7 @@ impl StudyMap {
         let others = (0..axes.len())
             .filter(|axis| *axis != across && Some(*axis) != up)
             .collect();
-        // Without a separator at its end.
+        // `components` leaves out a separator at the end of the path.
         let folder = folder.components().collect();
         Ok(StudyMap {
             folder,
@@ -91,14 +91,14 @@ impl StudyMap {
             .product()
     }
 
-    /// Returns for each axis of the study the index of the value of a map; 0 on the axes of the map
-    /// itself.
+    /// Returns for each axis of the study the index of the value of map `slice`. The index is 0 on
+    /// the axes of the maps.
     fn places(&self, slice: u64) -> Vec<usize> {
         self.plan().places_on(self.others.iter().copied(), slice)
     }
 
-    /// Returns the axes of the study that are not axes of the map, each with the index of the map's
-    /// value.
+    /// Returns the axes of the study that are not axes of the maps, each with the index of the
+    /// value of map `slice`.
     fn at(&self, slice: u64) -> impl Iterator<Item = (&Axis, usize)> {
         let places = self.places(slice);
         self.others
@@ -122,8 +122,8 @@ impl StudyMap {
             .map(|axis| &self.plan().axes[axis])
     }
 
-    /// Returns the scene of a map on the first profile of the study, with these values on the axes
-    /// of the map. An axis without a value here keeps the value of the plan's scene.
+    /// Returns the scene of map `slice` on the first profile of the study. `over` has values on the
+    /// axes of the map. An axis without a value in `over` keeps the value of the scene of the plan.
     fn scene(&self, slice: u64, over: &[(&Axis, f64)]) -> Result<Scene, SceneErrors> {
         let plan = self.plan();
         let mut scene = plan.scene.clone();
@@ -161,12 +161,13 @@ impl StudyMap {
     /// # Errors
     /// Returns an error if a value of the scene is not allowed.
     pub fn document(&self) -> Result<Document, SceneErrors> {
-        // As typed, so that this name in a command opens the study again.
+        // The path is that given by the user, so that a command with this path opens the study
+        // again.
         Document::from_scene(&self.scene(0, &[])?, &self.folder.display().to_string())
     }
 
-    /// Returns true if `scene` belongs to map number `slice`. It may have any values on the axes of
-    /// the map and any number of points of the force curve.
+    /// Returns true if `scene` belongs to map number `slice`. The values on the axes of the map and
+    /// the number of points of the force curve may differ.
     pub fn is_of(&self, slice: u64, scene: &Scene) -> bool {
         let known: Vec<_> = self
             .over()
@@ -200,8 +201,8 @@ impl StudyMap {
     }
 }
 
-/// Returns κ and H of a scene, if the scene states them. For a measured profile they follow only
-/// from its file.
+/// Returns κ and H of a scene if the scene states them. For a measured profile they follow from the
+/// file, and `None` is returned.
 fn place(scene: &Scene) -> Option<(f64, f64)> {
     let Some(Roughness::SelfAffine { hurst, .. }) = scene.roughness else {
         return None;
@@ -209,7 +210,8 @@ fn place(scene: &Scene) -> Option<(f64, f64)> {
     Some((governing(scene)?.kappa?, hurst))
 }
 
-/// Returns true if κ and H are equal except for rounding. Unknown values are not compared.
+/// Returns true if κ and H are equal except for rounding errors, or if one of the scenes does not
+/// state them.
 fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     let (Some((kappa, hurst)), Some((other_kappa, other_hurst))) = (one, other) else {
         return true;
@@ -217,7 +219,7 @@ fn is_close(one: Option<(f64, f64)>, other: Option<(f64, f64)>) -> bool {
     is_equal(kappa, other_kappa) && is_equal(hurst, other_hurst)
 }
 
-/// Returns true if two numbers are equal except for rounding.
+/// Returns true if two numbers are equal except for rounding errors.
 fn is_equal(one: f64, other: f64) -> bool {
     (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
 }
@@ -232,8 +234,8 @@ mod tests {
     use asperity_data::AxisScale;
     use asperity_scene::{Regime, RoughnessParameter};
 
-    /// A plan with κ not in ascending order and before H, two preloads, another axis and five
-    /// profiles.
+    /// A plan in which κ comes before H and is not in ascending order, with two preloads, another
+    /// axis and five profiles.
     const PLAN: &str = r#"(
         version: 1,
         title: "A study",
@@ -255,8 +257,8 @@ mod tests {
         record: [adhesion_coefficient, regime, preload_force],
     )"#;
 
-    /// Maps of a plan in which the coefficient of a cell is its number, the preload is its number
-    /// in µN, and the profiles are in the regimes of `REGIMES`. Cell 5 is missing.
+    /// Makes the maps of a plan. In each cell F_a/F_n is the number of the cell, the preload is
+    /// this number in µN, and the profiles have the regimes of `REGIMES`. Cell 5 is missing.
     fn study_map(plan: &str) -> StudyMap {
         let plan = Plan::parse(plan, "plan", &Changes::default()).unwrap();
         let folder = tempfile::tempdir().unwrap();
@@ -306,7 +308,7 @@ mod tests {
                 Quantity::PreloadForce,
             ];
             assert_eq!(grid.quantities(), quantities);
-            // From 0 to 23 µN over all maps.
+            // The scale covers the preloads of all maps, from 0 to 23 µN.
             let force = grid.layer(Quantity::PreloadForce).unwrap();
             assert_eq!(
                 (force.scale, force.range),
@@ -355,7 +357,7 @@ mod tests {
             panic!()
         };
         assert_eq!((seed, modes, hurst), (7, Some((1, 16)), 0.5));
-        // 0.5 E* h L.
+        // The force is 0.5 E* h L.
         let Move::ToForce(force) = scene.loading[0] else {
             panic!("{:?}", scene.loading)
         };

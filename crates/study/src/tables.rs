@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub const RESULTS_VERSION: u32 = 1;
 /// Name of the column with the reasons of records without values.
 const REASON: &str = "reason";
-/// Largest length in bytes of a description of the columns that is read.
+/// Largest length in bytes of a description of the columns that is read; a longer file is refused.
 const LONGEST_SIDECAR: usize = 1 << 26;
 
 impl Merged {
@@ -38,9 +38,9 @@ impl Merged {
     pub const SIDECAR: &str = "results.json";
 }
 
-/// Merges the results of all processes in the folder of a study, and writes the tables
+/// Merges the results of all processes in the folder of a study. Writes the tables
 /// [`Merged::RESULTS`] and [`Merged::SUMMARY`] with their description [`Merged::SIDECAR`]. If some
-/// results are missing, the tables have the existing ones.
+/// results are missing, the tables have the results that exist.
 ///
 /// # Errors
 /// Returns an error if two files have different results for the same [cell](Plan) and profile, or
@@ -61,8 +61,8 @@ pub fn merge(folder: &Folder) -> Result<Merged, StudyError> {
     Ok(merged)
 }
 
-/// Description of the columns, with the plan and what a merge found. JSON has the keys in this
-/// order.
+/// Description of the columns, with the plan and the numbers of a merge, in the order of the keys
+/// in JSON.
 #[derive(Serialize)]
 struct Sidecar<'a> {
     format: u32,
@@ -181,7 +181,7 @@ fn with_cell<'a, T: 'a>(
     })
 }
 
-/// Returns the SHA-256 of the results of the last merge, if it is recorded.
+/// Returns the SHA-256 of the table that the last merge wrote; `None` if no description states it.
 fn recorded_hash(folder: &Path) -> Option<String> {
     let text = read_regular_text(&folder.join(Merged::SIDECAR), LONGEST_SIDECAR).ok()?;
     let all: serde_json::Value = serde_json::from_str(&text).ok()?;
@@ -262,8 +262,7 @@ impl Results {
         })
     }
 
-    /// Completes the table with a column of the reasons of records without values, if there are
-    /// any.
+    /// Completes the table. If records have no values, a last column has the reasons.
     fn with_reasons<'a, T: 'a>(
         &'a self,
         table: TableOf<'a, T>,
@@ -335,7 +334,8 @@ impl Results {
                 return Err(merged.wrong(&format!("line {number} is not a row of this study")));
             }
         }
-        // Rows that are doubled, missing or changed may still be rows.
+        // A table whose rows were repeated, deleted or changed may still be readable, so its hash
+        // is compared.
         let found = sha256_of(path).map_err(|error| StudyError::folder(path, error))?;
         match recorded_hash(folder) {
             Some(recorded) if recorded == found => Ok(results),
@@ -361,7 +361,7 @@ impl Results {
         names.join(",")
     }
 
-    /// Adds a row of the table of records; `None` if it is not a row of this study.
+    /// Adds a row of the table of all results; `None` if the text is not a row of this study.
     fn add_row(&mut self, row: &str, has_reason: bool) -> Option<()> {
         let plan = &self.plan;
         // Only the last column, a reason, may contain a comma.
@@ -371,7 +371,7 @@ impl Results {
         if cell >= plan.cells() {
             return None;
         }
-        // The values of the axes are those of the plan.
+        // The values on the axes must be those of the plan.
         for axis in 0..plan.axes.len() {
             let value: f64 = columns.next()?.parse().ok()?;
             if plan.value(cell, axis) != value {
@@ -428,10 +428,10 @@ fn unquoted(text: &str) -> String {
     }
 }
 
-/// Table of all results of a study, with the words for what is wrong with it.
+/// Table of all results of a study, and messages about errors in it.
 struct MergedTable {
     path: PathBuf,
-    /// Folder of the study as a word of a shell.
+    /// Path of the folder of the study, quoted for a shell.
     study: String,
 }
 

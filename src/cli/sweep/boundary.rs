@@ -1,4 +1,5 @@
-//! `asperity sweep boundary`: finds the boundary of vanishing adhesion without a preload.
+//! `asperity sweep boundary`: finds the value of κ or e_el/γ at which adhesion without a preload
+//! vanishes.
 
 use crate::cli::error::CliError;
 use crate::cli::output::{Origin, OutputArguments, WITHOUT_PICTURE, without_look};

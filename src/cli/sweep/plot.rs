@@ -56,7 +56,7 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
     } = selected;
     // The figure is drawn even if standard error is closed.
     let _ = note.map(|note| writeln!(io::stderr(), "{}", advice::note(&note)));
-    // By request there is one scale alone.
+    // If the user chooses a scale, there is no second chart with another scale.
     let scales = if arguments.selection.scale.is_some() {
         1
     } else {
@@ -70,7 +70,8 @@ pub(super) fn plot(arguments: &PlotArguments, stdout: &mut dyn Write) -> Result<
         }
     }
     let figure = study_figure(&study.plan().title, &grid, charts);
-    // The numbers that vary differ in the first and in the last cell.
+    // A number that varies in the study differs between the first and the last cell, and is not
+    // shown as a common parameter.
     let cells = [0, study.plan().cells() - 1].map(|cell| study.plan().scene_of(cell));
     let scenes: Vec<_> = cells
         .into_iter()

@@ -1,4 +1,4 @@
-//! `asperity sweep PLAN`: computes a study, or its missing records.
+//! `asperity sweep PLAN`: computes a study, or the records that are missing.
 
 use super::merge::write_merged;
 use crate::cli::error::CliError;
@@ -14,7 +14,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Time between two lines of progress if standard error is no terminal.
+/// Time between two lines of progress if standard error is not a terminal.
 const BETWEEN: Duration = Duration::from_secs(10);
 
 #[derive(Args, Debug)]
@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
         set: arguments.overrides.set.clone(),
         lines: arguments.lines,
     };
-    // The parser requires a plan if there is no command.
+    // The argument parser has checked that a plan is given if there is no subcommand.
     let plan = Plan::open(arguments.plan.as_deref().unwrap_or_default(), &changes)?;
     let jobs = threads(arguments.jobs) as u64;
     let text = cost_of(&plan, jobs)?;
@@ -70,7 +70,8 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     if let Some(shard) = arguments.shard {
         let total = computed.progress.total;
         let _ = writeln!(stderr, "all {total} records of shard {shard} exist");
-        // The process that completes the study merges it; of two at the same time both do.
+        // The process that completes the study merges it. If two processes end at the same time,
+        // both do, with the same result.
         if Status::of(&folder)?.missing > 0 {
             return Ok(());
         }
@@ -78,7 +79,7 @@ pub(super) fn run(arguments: &SweepRunArguments, stdout: &mut dyn Write) -> Resu
     write_merged(&folder, &merge(&folder)?, stdout)
 }
 
-/// Returns the number of records of a plan, and the memory that this number of threads needs.
+/// Returns as text the number of records of a plan, and the memory that `jobs` threads need.
 fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
     let profiles = if plan.lines == 1 {
         "profile"
@@ -95,7 +96,7 @@ fn cost_of(plan: &Plan, jobs: u64) -> Result<String, CliError> {
     ))
 }
 
-/// Computes the missing records of a part of a study, and shows the progress.
+/// Computes the missing records of one part of a study, and shows the progress.
 fn compute(folder: &Folder, shard: Shard, threads: usize) -> Result<StudyRun, CliError> {
     let watch = SignalWatch::begin()?;
     let stop = || watch.is_signalled();

@@ -1,10 +1,11 @@
 //! `asperity sweep submit`: submits a study to a Slurm cluster as an array of jobs, one task for
 //! each shard.
 //!
-//! Slurm starts a task at least once: if a node is lost its task is started again, while the lost
-//! one may still be running. That does no harm, as each attempt writes its own file and the merge
-//! counts a record once. Slurm restarts slowly, so the script itself restarts a killed program at
-//! once, which continues where its results end. The task that completes the study merges it.
+//! Slurm starts each task at least once. If a node is lost, its task is started again, while the
+//! lost task may still be running. This does no harm, because each attempt writes its own file and
+//! the merge counts a record only once. Slurm takes long to restart a task. Therefore the script
+//! itself restarts a killed program at once, and the program continues where its results end. The
+//! task that completes the study merges the results.
 
 use crate::cli::error::CliError;
 use crate::cli::scene::Overrides;
@@ -35,7 +36,7 @@ folder; the same line goes on with what has failed:
   seq 8 | parallel --joblog shards.log --resume-failed --retries 3 \\
     asperity sweep my-plan.ron -o study --shard {}/8 --jobs 1";
 
-/// Number of times that a task restarts a killed program.
+/// Number of times that the script of a task restarts a killed program.
 const RETRIES: u32 = 3;
 
 #[derive(Args, Debug)]
@@ -87,8 +88,8 @@ pub(super) fn submit(arguments: &SubmitArguments, stdout: &mut dyn Write) -> Res
     Ok(())
 }
 
-/// The job script, with absolute paths on the nodes. Its directives are defaults: variables
-/// `SBATCH_…` and options of sbatch override them.
+/// Returns the job script, with absolute paths on the nodes. Its directives are defaults that
+/// variables `SBATCH_…` and options of sbatch override.
 fn script(arguments: &SubmitArguments, program: &Path, folder: &Path) -> Result<String, CliError> {
     let program = path_in_script(program)?;
     let folder = path_in_script(folder)?;
@@ -120,7 +121,8 @@ done
     ))
 }
 
-/// Returns a path as text. Slurm ends directives at a backslash and reads double quotes.
+/// Returns a path as text. Paths with a backslash or a double quote are refused, because Slurm
+/// would read a directive with these characters in another way.
 fn path_in_script(path: &Path) -> Result<&str, CliError> {
     match path.to_str() {
         Some(text) if !text.contains(|c| c == '\\' || c == '"' || is_control(c)) => Ok(text),
@@ -143,8 +145,8 @@ fn not_run(error: io::Error) -> String {
     }
 }
 
-/// Submits a script with further options of sbatch; returns the answer of sbatch, or the reason why
-/// it refused.
+/// Submits a script with further options of sbatch. Returns the answer of sbatch, or the reason why
+/// it refused the script.
 fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String> {
     let mut command = Command::new("sbatch");
     command
@@ -154,7 +156,7 @@ fn answer_of_sbatch(script: &str, options: &[OsString]) -> Result<String, String
         .stderr(Stdio::piped());
     let mut sbatch = command.spawn().map_err(not_run)?;
     if let Some(mut stdin) = sbatch.stdin.take() {
-        // sbatch may refuse its options before it reads the script.
+        // Writing may fail, because sbatch may refuse its options before it has read the script.
         let _ = stdin.write_all(script.as_bytes());
     }
     let output = sbatch.wait_with_output().map_err(not_run)?;

@@ -1,5 +1,4 @@
-//! A case of the catalogue of checks, and the adhesive rough bodies that the cases load through the
-//! public interface.
+//! A case of the catalogue of checks, and the adhesive rough bodies of some cases.
 
 use asperity_contact::{Contact, Cycle, Edges, LoadOptions, Modulus, Move, Profile};
 use asperity_scene::{CheckedScene, Document, Outcome, Simulation};
@@ -12,13 +11,13 @@ pub(super) const CLOSED_FORM: &str = "closed form";
 pub(super) const INDEPENDENT: &str = "independent computation";
 pub(super) const SELF_CONSISTENCY: &str = "self-consistency";
 
-/// Subject of a case, with the function that measures its error.
+/// Scene or bodies of a case, with the function that measures its error.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Subject {
-    /// Scene given by its text.
+    /// Scene, given as the text of a scene file.
     Scene(&'static str, fn(&CheckedScene) -> Measured),
     /// Random bodies: self-affine profiles, noise, and profiles with few different heights. The
-    /// largest error counts.
+    /// largest error of all bodies counts.
     Bodies(fn(&Body) -> Measured),
 }
 
@@ -64,7 +63,8 @@ impl Case {
     }
 }
 
-/// Returns bounds for edges at springs and for edges between springs.
+/// Returns the bounds of a case for both rules of edges: edges at springs, and edges between
+/// springs.
 pub(super) const fn both(grid: f64, sub_cell: f64) -> [(Edges, f64); 2] {
     [(Edges::Grid, grid), (Edges::SubCell, sub_cell)]
 }
@@ -92,7 +92,7 @@ pub(super) fn relative_errors<const N: usize>(pairs: [(f64, f64); N]) -> Measure
     largest(pairs.map(|(found, expected)| Ok(relative_error(found, expected))))
 }
 
-/// Returns the largest error; NaN counts as infinite.
+/// Returns the largest error. NaN counts as infinite.
 pub(super) fn largest(errors: impl IntoIterator<Item = Measured>) -> Measured {
     errors.into_iter().try_fold(0.0, |most: f64, error| {
         let error = error?;
@@ -109,8 +109,8 @@ pub type Measured<T = f64> = Result<T, Box<dyn Error>>;
 
 pub const RANDOM: u64 = 48;
 
-/// Effective modulus of random bodies in Pa, their length in m, and their rms height or largest
-/// height in m.
+/// Effective modulus E* of random bodies in Pa. The next constants are their length in m, and their
+/// rms height or largest height in m.
 const MODULUS: f64 = 2.0e6;
 const LENGTH: f64 = 1.0e-4;
 const HEIGHT: f64 = 1.0e-7;
@@ -133,7 +133,8 @@ impl Body {
         let mut numbers = phases(seed, 1).map(|phase| phase / TAU);
         let mut next = || numbers.next().unwrap_or(0.0);
         let points = 20 + (300.0 * next()) as usize;
-        // γ for which the largest stretch of the whole profile is 1e−3 to 3 rms heights.
+        // The work γ is chosen so that the largest stretch of a patch as long as the profile is
+        // 1e−3 to 3 rms heights.
         let reach = HEIGHT * 10.0_f64.powf(-3.0 + 3.5 * next());
         let work = reach * reach * MODULUS / (PI * LENGTH);
         let heights = match seed % 3 {
@@ -179,7 +180,7 @@ impl Body {
         (PI * self.length * self.work / self.modulus).sqrt()
     }
 
-    /// Returns a force in N of the order of the forces that act.
+    /// Returns a force in N of the same order as the forces on the body.
     pub fn force_unit(&self) -> f64 {
         self.modulus * self.length * (self.depth() + self.stretch())
     }

@@ -30,14 +30,14 @@ pub const CASES: &[Case] = &[
         &both(4.0, 4.0), OfScene(ROUGH, far_loads)),
 ];
 
-/// Returns the force on a rough flat face in full contact in N. Cosines have the mean 0, so the
-/// mean gap equals the height of the highest point.
+/// Returns the force in N on a rough flat face in full contact, in closed form. The roughness is a
+/// sum of cosines with the mean 0, so the mean gap equals the height of the highest point.
 fn full_contact(outcome: &Outcome, indentation: f64) -> f64 {
     outcome.governing.effective_modulus * outcome.line.length * (indentation - outcome.line.summit)
 }
 
 fn near_ties(body: &Body) -> Measured {
-    // A few units in the last place of each height.
+    // Each height changes by a few units in the last place, so that equal gaps become nearly equal.
     let jitter =
         |(height, phase): (&f64, f64)| height * (1.0 + f64::EPSILON * (phase - PI).round());
     let near = Body {
@@ -62,7 +62,7 @@ fn near_ties(body: &Body) -> Measured {
 }
 
 fn heights_of_any_size(body: &Body) -> Measured {
-    // A modulus of 1 Pa keeps γ within its range.
+    // With a modulus of 1 Pa the work of adhesion γ remains within its allowed range.
     only_scales(
         &Body {
             modulus: 1.0,
@@ -80,8 +80,8 @@ fn heights_of_any_size(body: &Body) -> Measured {
     )
 }
 
-/// Presses a scene to large indentations and to the forces found there. Returns the largest error
-/// of a force, in units of its change by one rounding of the indentation.
+/// Presses a scene to large indentations, and then to the forces found there. Returns the largest
+/// error of a force, divided by the change of the force by one rounding of the indentation.
 fn far_loads(scene: &CheckedScene) -> Measured {
     let depth = outcome(scene)?.line.deepest;
     let bare = with(scene, "adhesion.work", 0.0)?;

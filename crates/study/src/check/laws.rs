@@ -1,5 +1,5 @@
-//! Cases with laws that hold for every body: reversibility without adhesion, memory, energy,
-//! scaling, and the agreement of both solvers.
+//! Cases with laws that hold for every body: reversible loading without adhesion, memory of turning
+//! points, balance of energy, scaling, and agreement of both solvers.
 
 use super::case::Subject::{Bodies, Scene as OfScene};
 use super::case::{
@@ -36,6 +36,9 @@ pub fn end(leg: &LegRecord) -> CurvePoint {
     leg.curve.last().copied().unwrap_or_default()
 }
 
+/// Loads and unloads a body without adhesion. No energy is released, and the unloading returns
+/// through the same contacts. Returns the largest difference between the forces of loading and
+/// unloading, divided by the largest force.
 fn no_adhesion(body: &Body) -> Measured {
     let cycle = Body {
         work: 0.0,
@@ -89,7 +92,7 @@ fn memory(body: &Body) -> Measured {
     }))
 }
 
-/// Returns the force at the end of a loading in N.
+/// Returns the force in N at the end of a loading.
 fn last_force(cycle: &Cycle) -> f64 {
     match cycle.stages().last() {
         Some(leg) => end(leg).force,
@@ -97,7 +100,7 @@ fn last_force(cycle: &Cycle) -> f64 {
     }
 }
 
-/// Returns the energy that stages release in J.
+/// Returns the energy in J that several stages release.
 fn released(stages: &[LegRecord]) -> f64 {
     stages.iter().map(|leg| leg.released_energy).sum()
 }
@@ -112,8 +115,8 @@ fn energy(body: &Body) -> Measured {
         format!("a loop from {high:e} to {low:e} m gains {:e} J", -of_loop)
     })?;
     let cycle = body.load(&[high, low, high], true, 20_000)?;
-    // A jump may lie anywhere between two points of the curve: the error of the trapezia falls with
-    // their number.
+    // A jump may lie anywhere between two points of the curve. The error of the work by the
+    // trapezoidal rule therefore falls with the number of points.
     let mut done = -0.0;
     for leg in cycle.stages() {
         for pair in leg.curve.windows(2) {
@@ -124,8 +127,9 @@ fn energy(body: &Body) -> Measured {
     Ok((released(cycle.stages()) - done).abs() / scale)
 }
 
-/// Scales lengths along the profile, heights and stresses by these powers of two, which must not
-/// change any bit of a mantissa.
+/// Multiplies lengths along the profile, heights and stresses by powers of two with these
+/// exponents. Results must change by powers of two only, without any change of the bits of a
+/// mantissa.
 pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     let turns: [f64; 6] = body.turns(15);
     let one = body.load(&turns, false, 33)?;
@@ -135,8 +139,9 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
             heights: body.heights.iter().map(|point| height * point).collect(),
             length: length * body.length,
             modulus: stress * body.modulus,
-            // Δl² = π ℓ γ/E* scales with the square of heights, whose own square may overflow or
-            // underflow.
+            // The square of the largest stretch, Δl² = πℓγ/E*, is in proportion to γ, so γ grows
+            // with the square of the heights. The factors are multiplied one by one, because the
+            // square alone may overflow or underflow.
             work: height * (height * body.work) * (stress / length),
             edges: body.edges,
         };
@@ -149,8 +154,8 @@ pub fn only_scales(body: &Body, powers: &[[i32; 3]]) -> Measured {
     Ok(0.0)
 }
 
-/// Returns the bits of points and released energies in other units, and their springs. The sum with
-/// 0 makes −0 the same as 0.
+/// Returns the bits of the points and released energies after division by the units of height and
+/// force, and the number of springs. Adding 0 turns −0 into 0.
 fn bits(cycle: &Cycle, height: f64, force: f64) -> Vec<([u64; 2], u64)> {
     let mut bits = Vec::new();
     for point in cycle.points() {
@@ -179,6 +184,8 @@ fn units(body: &Body) -> Measured {
     )
 }
 
+/// Computes a scene with eight works of adhesion and Hurst exponents by both solvers. Returns the
+/// largest difference between their forces, divided by E* times length times largest gap.
 fn stepwise(scene: &CheckedScene) -> Measured {
     largest(
         [0.0, 1e-8, 1e-7, 1e-6, 5e-6, 2e-5, 1e-4, 1e-3]

@@ -1,8 +1,10 @@
-//! The catalogue of checks of scenes and profiles, computed through the public interface.
+//! The catalogue of checks: scenes and profiles with known results, computed by the public
+//! functions.
 //!
-//! A check computes one number, the error, and compares it with a bound that was set beforehand.
-//! The evidence is a closed form, a law that holds for every body, or the stepwise solver, which
-//! applies the rules without tree and thresholds.
+//! A check computes one number, the error of a result, and compares it with a fixed bound. The
+//! correct result is known from a closed form, from a law that holds for every body, or from the
+//! stepwise solver. The stepwise solver applies the rules of contact directly, without the contact
+//! tree.
 
 pub(crate) mod case;
 pub(crate) mod closed_forms;
@@ -54,7 +56,7 @@ impl Check {
         checks
     }
 
-    /// Computes the case, and the error of the quantity that [`Case::error_of`] names.
+    /// Computes the case and measures the error of the quantity [`Case::error_of`].
     pub fn judge(self) -> Verdict {
         let clock = Instant::now();
         let edges = self.edges;
@@ -94,7 +96,7 @@ pub struct Verdict {
 impl Verdict {
     /// Returns true if the error was measured and is at most [`Check::bound`].
     pub fn passes(&self) -> bool {
-        // NaN is not within any bound.
+        // A comparison with NaN is false, so NaN does not pass.
         self.error
             .as_ref()
             .is_ok_and(|&error| error <= self.check.bound)
