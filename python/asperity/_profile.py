@@ -48,7 +48,7 @@ class Profile:
         return profile
 
     def _take(self, native: _native.Profile, scene: _native.Scene | None) -> None:
-        # A scene with the form and the roughness, and with a modulus that stands for none; None if the heights were given.
+        # A scene with the form and the roughness, and with a placeholder for the modulus; None if the heights were given.
         self._native, self._scene = native, scene
         self._points, self.spacing, self.length = native.size()
 

@@ -3,7 +3,7 @@
 use crate::parallel;
 use std::borrow::Borrow;
 
-/// Settings of a long computation: the number of threads, a function that tells it to stop, and a
+/// Settings of a long computation: the number of threads, a function that stops it, and a
 /// function that receives its progress. With the default settings, the computation uses all cores,
 /// is never stopped and reports no progress.
 ///
@@ -46,7 +46,7 @@ impl<'a, P> Control<'a, P> {
         Control { threads, ..self }
     }
 
-    /// Sets the function that tells the computation to stop. Soon after `stop` returns true, the
+    /// Sets the function that stops the computation. Soon after `stop` returns true, the
     /// computation ends with an error.
     #[must_use]
     pub fn stopped_by(self, stop: &'a (dyn Fn() -> bool + Sync)) -> Self {
@@ -82,7 +82,7 @@ impl<'a, P> Control<'a, P> {
         self.threads
     }
 
-    /// Returns the function that tells the computation to stop.
+    /// Returns the function that stops the computation.
     pub fn stop(&self) -> &'a (dyn Fn() -> bool + Sync) {
         self.stop
     }

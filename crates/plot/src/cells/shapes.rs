@@ -174,7 +174,7 @@ impl CanvasShape for LayerShape<'_> {
 }
 
 /// Returns true if a line with this stroke paints its dot with the number `dot`. The strokes differ
-/// in their gaps, so that lines can be told apart without colours.
+/// in their gaps, so that lines can be distinguished without colours.
 fn paints(stroke: Stroke, dot: usize) -> bool {
     match stroke {
         Stroke::Solid => true,
