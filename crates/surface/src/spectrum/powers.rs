@@ -36,8 +36,9 @@ struct Strip {
 }
 
 impl Powers {
-    /// Computes the power spectra of surfaces. With `quarters` above zero the heights differ by an
-    /// estimate of the error of interpolation, see [`Topography::copied_heights`].
+    /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are changed
+    /// by about as much as interpolation may have falsified them, see
+    /// [`Topography::copied_heights`].
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,

@@ -147,7 +147,7 @@ fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 
 
 /// Returns the standard deviation of the Hurst exponent that results because the last wave number
 /// of the surface may lie between two wave numbers that are tried. The exponent is assumed to be
-/// uniformly distributed between its values for the best assumption and for the next likely
+/// uniformly distributed between its values for the best assumption and for the likeliest other
 /// assumption without a filter. The result is zero if the best assumption is that the surface ends
 /// at the last resolved wave, or that the instrument filters.
 fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {

@@ -212,8 +212,8 @@ impl Measurement {
         })
     }
 
-    /// Fills in distances, units and the scale of heights that the file of the measurement omits,
-    /// from the index.
+    /// Fills in the distances and the scale of heights from the index, if the file of the
+    /// measurement omits them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()
