@@ -40,6 +40,7 @@ mod field {
 
 /// Number of letters of the name of the channel. Each letter has two bytes.
 const NAME_LETTERS: usize = 32;
+/// Number of letters of the unit. Each letter has two bytes.
 const UNIT_LETTERS: usize = 8;
 
 /// Returns true for the directories of a file of Park.
