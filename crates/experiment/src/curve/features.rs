@@ -236,7 +236,8 @@ fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
     (high > low && loaded > 0.0).then_some(difference / loaded)
 }
 
-/// Returns the largest fall of the force in a pause in compression, as a share of the largest force.
+/// Returns the largest fall of the force in a pause in compression, as a share of the largest
+/// force; `None` without such a pause.
 fn fall_in_pause(points: &Points, noise: f64) -> Option<f64> {
     let largest = Extent::of(points.force.iter().copied()).high;
     let near = STILL * Extent::of(points.displacement.iter().copied()).width();

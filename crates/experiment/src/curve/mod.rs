@@ -27,6 +27,8 @@ use std::path::Path;
 /// Largest number of points that a fit uses. If a curve has more points, neighbouring points are
 /// averaged.
 const MOST_POINTS: usize = 4096;
+/// Smallest number of points of a curve: enough for parts without contact and in contact on both
+/// segments.
 const FEWEST_POINTS: usize = 4 * FEWEST;
 /// Noise that is assumed for a curve without noise, such as a computed one, as a share of the range
 /// of the force.
@@ -189,6 +191,9 @@ impl MeasuredCurve {
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
     }
 
+    /// Prepares a curve for fits: finds its segments, averages its points, reverses signs, finds
+    /// the parts without contact, and subtracts drag, zero, drift and tilt. The sentences on these
+    /// steps are collected in the curve.
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
         let left_out = columns.left_out();

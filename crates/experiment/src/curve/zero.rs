@@ -250,6 +250,9 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
+    /// Fits the lines through the points without contact. Returns an error if drift and tilt have
+    /// to be removed but cannot be separated. If the parts without contact are not straight, only a
+    /// large change of the force counts as drift, tilt or step.
     fn fit(
         free: &'a FreeParts,
         points: &Points,

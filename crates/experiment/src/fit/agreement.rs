@@ -90,6 +90,8 @@ pub(crate) struct Comparison {
 }
 
 impl Compared<'_> {
+    /// Computes the agreement over the points in contact. Points at jumps are left out, unless they
+    /// are too many.
     pub fn comparison(&self) -> Comparison {
         let points = self.in_contact.iter().filter(|touches| **touches).count();
         let mut at_jumps = 0;

@@ -60,6 +60,9 @@ impl<'a> Posterior<'a> {
         parameters
     }
 
+    /// Returns a parameter with its errors. The interval is that of the widened samples, and is at
+    /// least as wide as a normal distribution with the standard error, which includes the scatter
+    /// between blocks of the curve.
     fn fitted(&self, coordinate: &Coordinate) -> FittedParameter {
         let parameter = coordinate.parameter;
         let value = self.best[parameter as usize];

@@ -27,6 +27,7 @@ use asperity_data::Remedy;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+/// Seed of the random generator, so that the same curve and scene give the same result.
 const SEED: u64 = 29;
 /// Number of members drawn at first for each free parameter.
 const SCAN: usize = 60;

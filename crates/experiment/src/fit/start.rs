@@ -61,6 +61,9 @@ pub(crate) struct Starts {
 }
 
 impl Starts {
+    /// Estimates the initial values. The modulus follows from the upper half of the loading, and
+    /// the work of adhesion from the pull-off force of a smooth body. The contact point is that of
+    /// the curve, unless the loading extrapolates to a very different one.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,

@@ -69,6 +69,7 @@ struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
+    /// Parses a line of the header; `None` for a line without a positive number.
     fn of(line: &'a str) -> Option<Self> {
         let (key, value) = line
             .rsplit_once(": ")

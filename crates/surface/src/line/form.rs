@@ -453,6 +453,7 @@ const LARGE: f64 = 40.0;
 /// to `LARGE`.
 const NODES: usize = 56;
 
+/// Gauss rule on a quarter circle for the integral of H₀.
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// Computes the Struve function H₀(z) for z ≥ 0.

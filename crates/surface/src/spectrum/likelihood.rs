@@ -4,6 +4,7 @@
 use super::nodes::{End, Nodes, Term, WaveRange};
 use super::observation::Observation;
 
+/// Number of nodes of a spectrum per decade of wave numbers.
 const NODES_PER_DECADE: f64 = 6.0;
 
 /// Distance in ln q of the grid of wave numbers to which [`Model::condensed`] moves the terms.

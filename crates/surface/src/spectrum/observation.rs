@@ -264,6 +264,8 @@ impl Observation {
         terms
     }
 
+    /// Returns the terms for a wave of a map: its own power and the powers of the neighbouring
+    /// waves that the window adds, and the aliases of these waves.
     fn terms_of_plane(&self, nodes: &Nodes, steps: [f64; 2], sampling: [f64; 2]) -> Vec<Term> {
         let mut terms = Vec::new();
         if nodes.end > 0.5 * sampling[0].min(sampling[1]) {

@@ -273,6 +273,7 @@ impl Blocks {
 }
 
 impl Block {
+    /// Sums the powers of the waves of a block from the wave number `first` in rad/m on.
     fn new(waves: &[Wave], first: f64, is_profile: bool) -> Self {
         let mut block = Block {
             octaves: Vec::new(),

@@ -8,6 +8,7 @@ use std::fmt;
 use std::io::Cursor;
 use zip::ZipArchive;
 
+/// First bytes of a ZIP archive.
 pub(super) const ZIP: &[u8] = b"PK\x03\x04";
 
 pub(super) struct Archive<'a> {

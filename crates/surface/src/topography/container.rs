@@ -12,8 +12,10 @@ use serde::Deserialize;
 /// Names of the index, in JSON and in YAML.
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
+/// Largest size of an index in bytes.
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
 
+/// Largest number of measurements in a container.
 const MOST_MEASUREMENTS: usize = 10_000;
 
 #[derive(Deserialize)]
@@ -115,6 +117,8 @@ fn surfaces(index: &str, content: &[u8]) -> Result<Vec<Surface>, SurfaceError> {
     }
 }
 
+/// Returns the measurements of the surface called `name`, or else the measurement called `name`. If
+/// no name is given, returns the measurements of the only surface.
 fn chosen(
     mut surfaces: Vec<Surface>,
     name: Option<&str>,

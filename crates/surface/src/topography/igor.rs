@@ -31,6 +31,7 @@ struct Version {
     note_size: Option<usize>,
 }
 
+/// The versions of the format that can be read.
 const VERSIONS: [Version; 4] = [
     version(1, 8, 110, None),
     version(2, 16, 110, Some(6)),
@@ -222,6 +223,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
+    /// Parses a file of version 5. The numbers are followed by the formula, the note, long units,
+    /// and the names of the elements, whose sizes are in the header of the file.
     fn parse_new(bytes: &'a [u8], layout: &Layout) -> Result<Self, SurfaceError> {
         let start = layout.version.file_header;
         let in_file = |offset: usize| Bytes::from(bytes, layout.order, offset);

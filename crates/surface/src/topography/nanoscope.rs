@@ -223,6 +223,8 @@ impl Image<'_> {
         })
     }
 
+    /// Reads the heights of the channel, and reverses the order of the rows, because the file
+    /// begins with the lowest row.
     fn reading(&self, bytes: &[u8]) -> Result<Reading, SurfaceError> {
         let columns = self.count("Samps/line")?;
         let rows = self.count("Number of lines")?;

@@ -17,6 +17,7 @@ const FORMAT: &str = "NumPy array";
 /// Place of the header for messages: its offset in a file of version 1.
 const HEADER: Place = Place::Byte(10);
 
+/// Reads a profile or a map from an array, see the documentation of this module.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let (header, mut data) = Header::read(bytes)?;
     if header.is_profile() {
@@ -117,6 +118,8 @@ impl Header {
         }
     }
 
+    /// Returns the columns of an array with two axes. The shorter axis counts the columns, so an
+    /// array of two long rows has two columns.
     fn columns_of_axes(
         &self,
         mut data: Bytes<'_>,

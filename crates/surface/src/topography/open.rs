@@ -17,6 +17,7 @@ use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::path::Path;
 
+/// First bytes of a file that is compressed by gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// A binary format that is known by its first bytes.

@@ -124,6 +124,8 @@ struct Bounds {
 }
 
 impl Bounds {
+    /// Computes the bounds that the printed digits of all points set for the first position of a
+    /// grid with the spacing `distance`.
     fn new(points: &[GridPoint], digits: Digits, distance: f64) -> Self {
         let mut bounds = Bounds {
             lower: Bound::unknown(f64::NEG_INFINITY),

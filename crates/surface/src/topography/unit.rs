@@ -18,6 +18,7 @@ const fn known(name: &'static str, per_metre: f64, other_names: &'static str) ->
     }
 }
 
+/// All units of length that can be read.
 const UNITS: [KnownUnit; 7] = [
     known("m", 1.0, "meter metre meters metres"),
     known("cm", 1e2, "centimeter centimetre"),

@@ -19,6 +19,7 @@ const CONDITIONS: usize = TABLE;
 /// Place in the file, in bytes, of the offset of the first of three images of heights.
 const HEIGHTS: usize = TABLE + 6 * 4;
 
+/// Largest number of images of heights in a file.
 const MOST_IMAGES: u32 = 3;
 
 /// Offset in the conditions, in bytes, of three numbers in pm: the distances between points along x

@@ -14,6 +14,7 @@ use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt;
 
+/// Largest size of `main.xml` in bytes.
 const LONGEST_INDEX: usize = 1 << 26;
 
 /// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The time
@@ -21,6 +22,7 @@ const LONGEST_INDEX: usize = 1 << 26;
 /// others of its element, and each declaration with all that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
+/// Name of the index in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
 /// Index of the heights in arrays of coordinates, after x and y.

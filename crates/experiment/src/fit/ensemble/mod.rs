@@ -167,13 +167,14 @@ pub struct Prospect {
     pub half_width: f64,
 }
 
-/// Finds the work of adhesion of a rough body from curves measured at different places of it.
+/// Finds the work of adhesion of a rough body from curves measured at different places on it.
 /// `curves` has pairs of a name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the
 /// effective modulus is found too.
 ///
-/// The curves are compared with curves computed for random profiles that have the roughness of the
-/// scene. `simulation` has the folder of the measured files that the scene names, or the measured
-/// roughness in their place ([`Simulation::with_measured`]). `control` reports the number of curves computed so far, and can stop the search.
+/// The measured curves are compared with curves computed for random profiles that have the
+/// roughness of the scene. `simulation` has the folder of the measured files that the scene names,
+/// or the measured roughness in their place ([`Simulation::with_measured`]). `control` reports the
+/// number of curves computed so far, and can stop the search.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an
@@ -278,6 +279,8 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
+    /// Estimates the parameters with their intervals, and tests whether random profiles describe
+    /// the measured curves.
     fn fit(&self) -> Result<EnsembleFit, ExperimentError> {
         let posterior = self.predictions.posterior();
         let best = posterior.best();

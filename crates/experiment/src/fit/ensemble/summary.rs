@@ -354,6 +354,8 @@ pub(crate) struct Measurement {
 }
 
 impl Measurement {
+    /// Computes the summaries of all measured curves. If the preloads differ only by noise, their
+    /// mean is used for all curves.
     pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {

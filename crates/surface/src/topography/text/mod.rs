@@ -113,6 +113,8 @@ impl Text {
         Ok(())
     }
 
+    /// Reads a line of the header or of the numbers of the present part, or begins a new part.
+    /// `number` is the number of the line from 1.
     fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         self.last_line = number;
         let is_comment = line.starts_with(COMMENT);
