@@ -82,9 +82,9 @@ pub enum ExperimentError {
     /// The force of the approach stays on one straight line.
     #[error("{}", no_contact(*range, *noise))]
     NoContact {
-        /// Change of the force along the line, N.
+        /// Change of the force in N along the line.
         range: f64,
-        /// Deviation of the force from the line, N.
+        /// Deviation in N of the force from the line.
         noise: f64,
     },
     /// The displacement never turns, so there is no retraction.
@@ -100,7 +100,7 @@ pub enum ExperimentError {
         format_quantity(*force, "N")
     )]
     NegativeWherePressed {
-        /// Force at this place, N.
+        /// Force in N at this place.
         force: f64,
         /// Place on the curve, in words.
         place: &'static str,

@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::Path;
 use thiserror::Error;
 
-/// Formats that are read, for messages.
+/// List of the formats that can be read, for messages.
 const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, IBW, JPK, \
                        Park TIFF, Zygo DAT, VK4, or these in gzip; others saved as GWY or X3P in \
                        Gwyddion";

@@ -60,9 +60,9 @@ pub struct DragForce {
 pub(crate) struct Drag {
     /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
-    /// Displacement at first touch, m.
+    /// Displacement in m at first touch.
     touch: f64,
-    /// Force on the retraction minus force on the approach far from contact, N.
+    /// Force on the retraction minus force on the approach, far from contact, in N.
     step: f64,
     /// Coefficient c of the drag on the approach in N m; `pulled` is the coefficient on the
     /// retraction.
@@ -78,7 +78,7 @@ pub(crate) struct Drag {
 struct Side {
     displacements: Vec<f64>,
     forces: Vec<f64>,
-    /// Noise far from contact, N.
+    /// Noise in N far from contact.
     noise: f64,
     /// True if a tilt over the displacement is fitted with the drag.
     has_tilt: bool,
@@ -166,8 +166,8 @@ fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
 
 impl Drag {
     /// Finds the drag of a curve with an approach and a retraction; `None` if its points without
-    /// contact show none. The coefficients of approach and retraction have opposite signs, which
-    /// neither a tilt nor a weak contact has.
+    /// contact show none. The coefficients of approach and retraction have opposite signs, unlike
+    /// those of a tilt or of a weak contact.
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();

@@ -158,7 +158,7 @@ fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool 
 }
 
 /// Reduces the number `free` of forces without contact until the last of these forces do not
-/// deviate from the line through the forces before.
+/// deviate from the straight line through the forces before them.
 fn without_weak_contact(forces: &[f64], mut free: usize, least_noise: f64) -> usize {
     while free > 2 * FEWEST {
         let parts = PARTS.map(|part| (free / part).max(3));

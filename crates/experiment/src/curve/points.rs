@@ -44,12 +44,10 @@ impl Points {
         points
     }
 
-    /// Returns true if the curve begins with an approach.
     pub fn begins_with_approach(&self) -> bool {
         self.segment[0] == 0
     }
 
-    /// Returns the index of the last segment.
     pub fn last_segment(&self) -> usize {
         self.segment[self.segment.len() - 1]
     }

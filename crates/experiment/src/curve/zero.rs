@@ -25,7 +25,7 @@ struct FreePoint {
     time: f64,
     displacement: f64,
     is_after_contact: bool,
-    /// Force, N.
+    /// Force in N.
     force: f64,
 }
 

@@ -108,8 +108,8 @@ impl<'a> Fit<'a> {
         self
     }
 
-    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare
-    /// [`Parameter`] the fit chooses the range.
+    /// Adds a parameter that the fit searches. [`Free::within`] gives the range of the search. If a
+    /// [`Parameter`] is given without a range, the fit chooses the range.
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
@@ -432,8 +432,8 @@ mod tests {
         }
     }
 
-    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it
-    /// within its errors.
+    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds the
+    /// parameters within their errors.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
         let made = random(13, 1024);

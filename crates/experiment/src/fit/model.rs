@@ -52,7 +52,7 @@ struct ContactOfRadius {
 pub(crate) struct Sampling {
     pub stiffness: f64,
     pub points: usize,
-    /// Smallest jump of the force that gets points at both of its ends, N.
+    /// Smallest jump of the force in N that gets points at both of its ends.
     pub least_jump: f64,
 }
 
@@ -65,7 +65,7 @@ struct BodyOnLeg {
 /// Jump of the force of a model over the displacement.
 struct Jump {
     displacement: f64,
-    /// Forces before and after the jump, N.
+    /// Forces in N before and after the jump.
     forces: [f64; 2],
 }
 

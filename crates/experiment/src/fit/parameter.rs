@@ -12,19 +12,19 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Parameter {
-    /// Work of adhesion γ, J/m².
+    /// Work of adhesion γ in J/m².
     Work,
-    /// Work of adhesion on closing γ₁, J/m²: the energy per area gained where the contact grows.
+    /// Work of adhesion on closing γ₁ in J/m²: the energy per area gained where the contact grows.
     ClosingWork,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     Modulus,
-    /// Displacement D₀ that the measured curve has at first touch, m.
+    /// Displacement D₀ in m that the measured curve has at first touch.
     Offset,
-    /// Force F₀ that the measured curve has before contact, N.
+    /// Force F₀ in N that the measured curve has before contact.
     Zero,
-    /// Stiffness of the instrument, N/m.
+    /// Stiffness of the instrument in N/m.
     Stiffness,
-    /// Radius R of the form of the scene, such as a sphere, m.
+    /// Radius R in m of the form of the scene, such as a sphere.
     Radius,
 }
 

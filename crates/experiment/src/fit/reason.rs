@@ -198,7 +198,7 @@ fn in_pause(fall: f64) -> String {
 /// scene if the curve shows adhesion.
 ///
 /// # Errors
-/// A computation fails.
+/// Returns an error if a computation fails.
 pub(crate) fn reason(
     curve: &MeasuredCurve,
     scene: &CheckedScene,
@@ -355,7 +355,7 @@ struct Misfit<'a> {
     model: Model<'a>,
     values: &'a Values,
     free: &'a [Parameter],
-    /// Forces of the model at the points of the curve, N.
+    /// Forces of the model in N at the points of the curve.
     forces: Vec<f64>,
     /// Measured forces minus those of the model in N, after a fit of the zero and the other lines.
     residuals: Vec<f64>,

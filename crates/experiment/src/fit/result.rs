@@ -113,7 +113,7 @@ pub struct FitResult {
     /// How well the model describes the curve.
     #[serde(rename = "description")]
     pub grade: Grade,
-    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is
+    /// Upper end of the 95 % interval of the work of adhesion in J/m²; `None` if this parameter is
     /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,

@@ -109,7 +109,7 @@ pub(crate) struct SearchResult {
     pub without_adhesion: f64,
 }
 
-/// Lower noise of a population, and the weights of its members at this noise.
+/// Next, lower noise of a population, and the weights of its members for this noise.
 struct Cooling {
     noise: f64,
     weights: Vec<f64>,

@@ -27,7 +27,7 @@ const AT_END: f64 = 0.01;
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
-    /// Largest allowed work of adhesion on closing, J/m².
+    /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),

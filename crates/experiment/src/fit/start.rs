@@ -31,20 +31,21 @@ const USUAL_WORK: f64 = 0.05;
 /// Known parameters of the scene of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
-    /// Radius of the form, m.
+    /// Radius of the form in m.
     pub radius: Option<f64>,
-    /// Length of the profile, m.
+    /// Length of the profile in m.
     pub length: f64,
-    /// Effective modulus, Pa; `None` if it is free.
+    /// Effective modulus in Pa; `None` if it is free.
     pub modulus: Option<f64>,
-    /// Stiffness of the instrument, N/m, infinite for a rigid one; `None` if it is free.
+    /// Stiffness of the instrument in N/m, infinite for a rigid one; `None` if it is free.
     pub stiffness: Option<f64>,
 }
 
 /// Initial values of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Starts {
-    /// Work of adhesion, J/m², with which a smooth body would have the pull-off force of the curve.
+    /// Work of adhesion in J/m² with which a smooth body would have the pull-off force of the
+    /// curve.
     pub work: f64,
     /// Work of adhesion in J/m² with which a smooth body would have a pull-off force that the noise
     /// hides.
@@ -52,9 +53,9 @@ pub(crate) struct Starts {
     /// Effective modulus in Pa with which the body without adhesion has the upper half of the
     /// loading of the curve.
     pub modulus: f64,
-    /// Stiffness of the instrument, N/m.
+    /// Stiffness of the instrument in N/m.
     pub stiffness: f64,
-    /// Displacement at first touch, m.
+    /// Displacement in m at first touch.
     pub touch: f64,
     /// Distance in m that the instrument moves from first touch to the largest force.
     pub way: f64,
@@ -116,7 +117,7 @@ impl Starts {
 /// Upper half, by the force, of the loading that reaches the largest force of a curve, or of the
 /// unloading from this force.
 struct Loading {
-    /// Displacement at the largest force, m.
+    /// Displacement in m at the largest force.
     turn: f64,
     /// Displacements of the body in m: those of the instrument minus its deflection, if its
     /// stiffness is known.

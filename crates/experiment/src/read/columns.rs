@@ -56,7 +56,7 @@ pub(crate) struct Stated<'a> {
 }
 
 impl Choice {
-    /// Chooses among columns with these names and units.
+    /// Chooses the columns of displacement, force and segment by their names and units.
     pub fn new(
         columns: &[TextColumn],
         stated: Stated<'_>,
@@ -404,7 +404,7 @@ fn no_force(unit: &str, missing: &str) -> SurfaceError {
 /// Quantity and unit that follow from the name of a column.
 #[derive(Clone, Debug)]
 struct Named {
-    /// [`APPROACH`], [`RETRACTION`] or neither.
+    /// Direction of the column, [`APPROACH`] or [`RETRACTION`]; `None` if the name states neither.
     direction: Option<usize>,
     /// Letters of the words of the name that state neither a direction nor a unit.
     quantity_name: String,

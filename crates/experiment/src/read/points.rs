@@ -55,7 +55,7 @@ pub(crate) struct Columns {
     pub assumed: String,
     /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
-    /// Number of points left out because they repeat the point before.
+    /// Number of points left out because they are equal to the previous point.
     repeated: usize,
     /// Place of the first repeated point.
     first_repeated: Option<Place>,

@@ -14,7 +14,7 @@ use asperity_surface::{Place, SurfaceError};
 /// Largest number of columns.
 const MOST_COLUMNS: usize = 64;
 
-/// Reads the content of a file.
+/// Reads the content of a binary wave.
 pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [points, names, ..] = &wave.dimensions;

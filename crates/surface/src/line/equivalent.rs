@@ -338,7 +338,7 @@ mod tests {
             );
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
-        // Also moments, over the waves common to both scans.
+        // The squares of the moments add too, over the waves that both scans have.
         let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
             assert!(

@@ -300,8 +300,9 @@ impl Form {
                 if x <= rounded {
                     return x * x / radius;
                 }
-                // The published form (x − √(x² − b²))/b, without its cancellation (Popov, Heß and
-                // Willert, Handbook of Contact Mechanics, 2019, cone with a rounded tip).
+                // This term equals the published form (x − √(x² − b²))/b (Popov, Heß and Willert,
+                // Handbook of Contact Mechanics, 2019, cone with a rounded tip), but is written
+                // without the difference of nearly equal numbers.
                 let root = ((x - rounded) * (x + rounded)).sqrt();
                 x * slope * (rounded / (x + root) + (rounded / x).acos())
             }

@@ -205,8 +205,8 @@ const COUNTS: [f64; BLOCK] = {
     counts
 };
 
-/// Separates this use of the random generator from other uses; a change in how phases are drawn
-/// must change this text.
+/// Part of the key of the random generator that separates this use from other uses with the same
+/// seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
 /// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed,

@@ -53,7 +53,7 @@ pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
     /// ln C2D at the nodes.
     pub(super) values: Vec<f64>,
-    /// Information matrix of `values`.
+    /// Cholesky factor of the information matrix, the inverse covariance matrix, of `values`.
     pub(super) information: Cholesky,
     /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
     pub(super) method: [f64; 3],

@@ -38,14 +38,14 @@ pub(super) struct Nodes {
 /// Place of a wave number between a node and the next node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
-    /// Index of the node below.
+    /// Index of the node at or below the wave number.
     pub index: usize,
     /// Distance from this node in ln q, divided by the distance between the nodes.
     pub share: f64,
 }
 
 impl NodePlace {
-    /// Interpolates values at the nodes.
+    /// Interpolates linearly between the values at the two nodes.
     pub fn interpolate(&self, values: &[f64]) -> f64 {
         (1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]
     }

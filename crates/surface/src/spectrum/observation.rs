@@ -425,7 +425,8 @@ mod tests {
             ];
             let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
             for (ratio, expected) in ratios.into_iter().zip(expected) {
-                // The line omits the waves below half the first wave number, 0.1 % of the height.
+                // The line has no waves below half the first wave number, which would add 0.1 % to
+                // the height.
                 assert!(
                     (ratio / expected - 1.0).abs() < 2e-3,
                     "H = {hurst}: {ratios:?}"

@@ -67,8 +67,8 @@ pub(super) struct Spread {
     /// differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
-    /// surface, or among the two halves of a surface that has no four quarters. It is 1 if the
-    /// parts differ by chance.
+    /// surface, or among the two halves of a surface that has no four quarters. The ratio is 1 if
+    /// chance explains the differences.
     pub ratio: f64,
     /// True if chance explains the differences between the parts.
     pub is_chance: bool,
@@ -89,7 +89,7 @@ struct MomentSpread {
 }
 
 impl Spread {
-    /// Returns the spread of parts that differ by chance, or of a single part.
+    /// Returns the spread of parts whose differences chance explains, or of a single part.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,

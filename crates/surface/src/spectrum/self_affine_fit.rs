@@ -101,7 +101,6 @@ pub(super) fn find_power_law(model: &Model<'_>) -> Option<PowerLaw> {
 }
 
 impl PowerLaw {
-    /// Returns the Hurst exponent.
     pub fn hurst(&self) -> f64 {
         self.parameters.hurst
     }

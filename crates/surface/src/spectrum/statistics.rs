@@ -8,8 +8,8 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of measured points of all surfaces together. Points with interpolated heights count
-    /// nowhere in these statistics.
+    /// Number of measured points of all surfaces together. Points with interpolated heights are
+    /// left out of all these statistics.
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
     /// filter.

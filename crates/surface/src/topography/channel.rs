@@ -22,9 +22,7 @@ pub(super) fn names_heights(name: &str) -> bool {
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.
     Heights,
-    /// The channel with this number.
     Number(u32),
-    /// The channel with this name.
     Name(&'a str),
 }
 

@@ -1,5 +1,6 @@
-//! Binary waves of Igor Pro: a header, numbers in up to four dimensions of which the first runs
-//! fastest, a note, and names of the elements of each dimension.
+//! Binary waves of Igor Pro: a header, numbers in up to four dimensions, a note, and names of the
+//! elements of each dimension. Neighbouring numbers in the file are neighbours in the first
+//! dimension.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
@@ -379,7 +380,6 @@ pub(super) mod tests {
         pub numbers: Vec<u8>,
     }
 
-    /// A header under construction.
     struct Header {
         bytes: Vec<u8>,
         order: Order,

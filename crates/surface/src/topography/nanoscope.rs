@@ -16,7 +16,7 @@ pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 /// First bytes of a file of a scan in liquid at a controlled electrode potential.
 pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
 
-/// Last words of the line that follows the header.
+/// Last words of the header.
 const END: &[u8] = b"File list end";
 
 /// Limit of the length of a header in bytes.
@@ -166,7 +166,6 @@ struct HeightRange {
     range: f64,
 }
 
-/// Size of a scan.
 struct ScanSize {
     unit: Unit,
     width: f64,

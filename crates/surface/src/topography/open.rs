@@ -26,7 +26,6 @@ struct BinaryFormat {
     reader: Reader,
 }
 
-/// Reader of a format.
 enum Reader {
     /// Reader of a format whose files hold a single surface without a name.
     Single(fn(&[u8]) -> Result<Reading, SurfaceError>),

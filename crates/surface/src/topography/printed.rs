@@ -294,7 +294,7 @@ mod tests {
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();
         assert_eq!(positions, before);
-        // A point is missing.
+        // If a point is missing, the positions remain unchanged.
         let (before, digits) = printed(&|i| f64::from(i + u32::from(i > 70)), 0);
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();

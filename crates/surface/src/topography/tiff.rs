@@ -358,7 +358,6 @@ pub(super) mod tests {
             ]
         }
 
-        /// Begins a file.
         pub fn begin(&self) -> Vec<u8> {
             let signature = match self.order {
                 Order::Little => SIGNATURES[0],

@@ -82,12 +82,12 @@ pub struct EnsembleOptions {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct EnsembleFit {
-    /// Work of adhesion γ, J/m². Its interval begins at 0 if [`Self::work_at_most`] has a value.
+    /// Work of adhesion γ in J/m². Its interval begins at 0 if [`Self::work_at_most`] has a value.
     pub work: IntervalEstimate,
     /// Upper bound of γ in J/m² if curves without adhesion would have the same summaries; otherwise
     /// `None`.
     pub work_at_most: Option<f64>,
-    /// Effective modulus E*, Pa. A given modulus has an interval of zero width.
+    /// Effective modulus E* in Pa. A given modulus has an interval of zero width.
     pub modulus: IntervalEstimate,
     /// True if the scene gives the effective modulus.
     pub modulus_is_given: bool,
@@ -116,7 +116,7 @@ pub struct EnsembleFit {
     pub lines: u64,
     /// Number of force curves computed on these profiles.
     pub computed: usize,
-    /// Mean preload (largest force) of the measured curves, N.
+    /// Mean preload (largest force) in N of the measured curves.
     pub preload: f64,
     /// Standard deviation of the preloads divided by their mean; `None` if the preloads differ only
     /// by noise.

@@ -138,7 +138,8 @@ impl Polynomials {
             .collect()
     }
 
-    /// Returns 1, the standardised summaries and all their products.
+    /// Returns the terms of a polynomial of second degree: 1, the standardised summaries, and all
+    /// products of two of them.
     fn terms(&self, description: &Description) -> Vec<f64> {
         let mut factors = Vec::with_capacity(self.standards.len() + 1);
         factors.push(1.0);
@@ -229,7 +230,8 @@ impl IntervalEstimate {
         }
     }
 
-    /// Returns the estimate of a parameter that has an upper bound only.
+    /// Returns the estimate of a parameter of which only the upper bound `most` is known. Its
+    /// interval begins at 0.
     pub(crate) fn at_most(self, most: f64) -> Self {
         IntervalEstimate {
             value: self.value.min(most),
@@ -618,18 +620,18 @@ fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
 pub struct CurveOfEnsemble {
     /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
     pub name: String,
-    /// Preload of the curve, which is its largest force, N.
+    /// Preload of the curve in N, which is its largest force.
     pub preload: f64,
-    /// Largest tensile force of the retraction as a positive number, N; `None` if it is at most 5
-    /// times the noise of the force.
+    /// Largest tensile force of the retraction in N, as a positive number; `None` if it is at most
+    /// 5 times the noise of the force.
     pub pull_off_force: Option<f64>,
-    /// Energy dissipated in the loop, J: area between approach and retraction over the displacement
-    /// of the instrument.
+    /// Energy in J that is dissipated in the loop: area between approach and retraction over the
+    /// displacement of the instrument.
     pub loop_area: f64,
-    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change
+    /// Stiffness in N/m at the beginning of the retraction: half the preload, divided by the change
     /// of the displacement while the force falls from the preload to half the preload.
     pub stiffness: f64,
-    /// Work of adhesion found from this single curve, J/m².
+    /// Work of adhesion in J/m² that is found from this single curve.
     pub work: IntervalEstimate,
     /// True if the interval of [`Self::work`] ends where the values end for which curves were
     /// computed. The true interval is then wider.
@@ -767,7 +769,7 @@ impl Predictions {
     }
 }
 
-/// Returns the computed curves of a table, line by line.
+/// Returns the computed curves of a table, profile by profile.
 fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
     let places = table.places();
     let mut examples = Vec::with_capacity(table.lines.len() * places.len());

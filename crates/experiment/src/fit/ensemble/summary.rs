@@ -60,7 +60,7 @@ const ONE_NOISE: f64 = 1.5;
 pub(crate) struct Point {
     /// Displacement minus the displacement at the turning point, in m; at most about 0.
     pub displacement: f64,
-    /// Force, N.
+    /// Force in N.
     pub force: f64,
 }
 
@@ -68,7 +68,7 @@ pub(crate) struct Point {
 pub(crate) struct Branches {
     pub approach: Vec<Point>,
     pub retraction: Vec<Point>,
-    /// Standard deviation of the noise of the force, N.
+    /// Standard deviation of the noise of the force in N.
     pub noise: f64,
     /// Number of points at the beginning of the approach that give the zero and the noise of the
     /// force.
@@ -80,7 +80,8 @@ impl Branches {
     /// force and the noise from the first half of the part before contact.
     ///
     /// # Errors
-    /// The curve lacks an approach or a retraction, or ends before the contact is lost.
+    /// Returns an error if the curve lacks an approach or a retraction, or ends before the contact
+    /// is lost.
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
         let mut approach = branch_of(curve, 0);
         let mut retraction = branch_of(curve, 1);
@@ -257,7 +258,7 @@ fn crossing(from: Point, to: Point, level: f64) -> f64 {
 
 /// Largest tension of a branch.
 struct LargestTension {
-    /// Tension as a positive force, N.
+    /// Tension as a positive force in N.
     force: f64,
     /// Displacement at the largest tension, relative to the turning point, in m.
     displacement: f64,
@@ -291,15 +292,15 @@ fn largest_tension(branch: &[Point]) -> LargestTension {
 
 /// Properties of a measured curve that the computed curves take over.
 pub(crate) struct Protocol {
-    /// Measured force at the turning point, N.
+    /// Measured force in N at the turning point.
     pub preload: f64,
-    /// Standard deviation of the error of the preload, N.
+    /// Standard deviation of the error of the preload in N.
     pub preload_error: f64,
-    /// Standard deviation of the noise of the force, N.
+    /// Standard deviation of the noise of the force in N.
     pub noise: f64,
-    /// Displacements of the approach relative to the turning point, m.
+    /// Displacements of the approach in m, relative to the turning point.
     pub approach: Vec<f64>,
-    /// Displacements of the retraction relative to the turning point, m.
+    /// Displacements of the retraction in m, relative to the turning point.
     pub retraction: Vec<f64>,
     /// Number of points at the beginning of the approach that give the zero of the force.
     pub free: usize,
@@ -345,7 +346,7 @@ impl Description {
 /// Summaries and properties of all measured curves.
 pub(crate) struct Measurement {
     pub protocols: Vec<Protocol>,
-    /// Largest force of each curve, N.
+    /// Largest force in N of each curve.
     pub preloads: Vec<f64>,
     /// Standard deviation of the preloads divided by their mean; `None` if the preloads differ only
     /// by noise.

@@ -18,8 +18,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const SAMPLES: usize = 128;
 /// Smallest jump of the force that gets points at both of its ends, in units of the noise.
 const NOTABLE: f64 = 1.0;
-/// Largest number of points that extend a retraction until contact is lost, divided by the number
-/// of its own points.
+/// Largest number of points that are added to a retraction until contact is lost, divided by the
+/// number of points of the measured retraction.
 const LONGEST: usize = 8;
 /// First seed of the random profiles and of the noise. It is far from the seeds that users write in
 /// scenes, so that no profile of the table is the profile of a scene.
@@ -232,7 +232,7 @@ struct Noise {
     deviation: f64,
     values: Vec<f64>,
     zero: f64,
-    /// Error of the measured preload, N.
+    /// Error in N of the measured preload.
     of_preload: f64,
 }
 
@@ -399,7 +399,7 @@ impl Table {
         })
     }
 
-    /// Adds `count` nodes at an end.
+    /// Adds `count` nodes beyond an end of the table, and computes their curves.
     pub fn extend(
         &mut self,
         workers: &Workers<'_>,

@@ -44,7 +44,7 @@ struct Part {
     table: Option<Table>,
 }
 
-/// Rows of numbers of a part that are a channel.
+/// Rows of numbers of a part that form one channel.
 #[derive(Clone)]
 struct Channel {
     /// Index of the part in the text.

@@ -66,7 +66,7 @@ impl Widths {
     }
 }
 
-/// The first of several rows on consecutive lines.
+/// Run of rows on consecutive lines: the index and the line of its first row.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     row: usize,
@@ -203,8 +203,8 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line without white space around it. The first lines may count the rows and columns
-    /// that follow.
+    /// Reads a line without white space around it. The first lines may state how many rows and
+    /// columns follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if self.may_be_counts() {
             let table = Table::empty(line);
