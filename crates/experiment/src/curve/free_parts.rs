@@ -146,9 +146,9 @@ fn begins_steep(forces: &[f64], free: usize) -> bool {
     slope > STEEP * slope_in_contact && slope * free as f64 > NOTABLE * range_of(forces)
 }
 
-/// Returns true if the first `free` points are a long part of the segment and curved, as the
-/// beginning of a contact is. `squares` is the sum of squared residuals of the straight line
-/// through these points.
+/// Returns true if the first `free` points are a short part of the segment, less than a tenth of
+/// its points, and curved, as the beginning of a contact is. `squares` is the sum of squared
+/// residuals of the straight line through these points.
 fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool {
     if 10 * free >= forces.len() {
         return false;

@@ -534,7 +534,8 @@ fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
 }
 
 /// Returns the index of the last segment that the model computes. If the last used segment is an
-/// approach, the model also computes the retraction after it.
+/// approach, the model also computes the retraction after it, unless a curve of several segments
+/// ends with this approach.
 fn last_turn(points: &Points, options: &CurveOptions) -> usize {
     let last = points.last_segment();
     let chosen = match options.segments.iter().max() {
