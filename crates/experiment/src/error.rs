@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// A curve or a part of it, whose points are counted.
+/// The curve, or the part of it, whose points are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CountedPart {
     /// The whole curve.
@@ -26,7 +26,8 @@ impl fmt::Display for CountedPart {
     }
 }
 
-/// Change of the force over its noise above which a straight line is no free part.
+/// Change of the force along a straight line, divided by the noise, above which the line is too
+/// steep for a part without contact.
 const STEEP_LINE: f64 = 20.0;
 
 /// Reason why a measured force curve cannot be read, or why a scene cannot be fitted to it.
@@ -58,16 +59,16 @@ pub enum ExperimentError {
         /// Smallest number of points that is allowed.
         least: usize,
     },
-    /// The part without contact has too few points, or all of them.
+    /// The part without contact has too few points, or contains all points.
     #[error(
         "no part {part} contact: {found} of {points} points; allowed: at least {least}, found or stated"
     )]
     NoFreePart {
-        /// Which part: `before` or `without`.
+        /// Part that is missing: `before` contact, or `without` contact.
         part: &'static str,
         /// Number of points without contact.
         found: usize,
-        /// Number of points in which they are sought.
+        /// Number of points among which the points without contact are sought.
         points: usize,
         /// Smallest number of points without contact.
         least: usize,
@@ -81,9 +82,9 @@ pub enum ExperimentError {
     /// The force of the approach stays on one straight line.
     #[error("{}", no_contact(*range, *noise))]
     NoContact {
-        /// Change of the force along the line, N.
+        /// Change of the force in N along the line.
         range: f64,
-        /// Deviation of the force from the line, N.
+        /// Deviation in N of the force from the line.
         noise: f64,
     },
     /// The displacement never turns, so there is no retraction.
@@ -99,7 +100,7 @@ pub enum ExperimentError {
         format_quantity(*force, "N")
     )]
     NegativeWherePressed {
-        /// Force at this place, N.
+        /// Force in N at this place.
         force: f64,
         /// Place on the curve, in words.
         place: &'static str,
@@ -110,7 +111,7 @@ pub enum ExperimentError {
         listed(segments)
     )]
     NoSuchSegment {
-        /// Number of the segment that is asked for.
+        /// Number of the segment that the options ask for.
         wanted: usize,
         /// Numbers of the segments of the curve.
         segments: RangeInclusive<usize>,
@@ -131,7 +132,7 @@ pub enum ExperimentError {
     InCurve {
         /// Name of the curve.
         name: String,
-        /// Its fault.
+        /// Fault of this curve.
         error: Box<ExperimentError>,
     },
     /// The computation of force curves for a fit failed, or the [`Control`](asperity_data::Control)
@@ -140,7 +141,8 @@ pub enum ExperimentError {
     Run(#[from] RunError),
 }
 
-/// Returns the words for a force that stays on a straight line.
+/// Returns the message for a force that stays on a straight line. `range` is the change of the
+/// force along the line and `noise` the deviation from the line, both in N.
 fn no_contact(range: f64, noise: f64) -> String {
     if range > STEEP_LINE * noise {
         let range = format_quantity(range, "N");
@@ -189,7 +191,7 @@ impl From<ContactError> for ExperimentError {
     }
 }
 
-/// Error of a curve or a scene that cannot be fitted.
+/// Returns the error of a curve or a scene that cannot be fitted.
 pub(crate) fn refused<T>(
     found: impl Into<String>,
     allowed: impl Into<String>,
@@ -201,7 +203,7 @@ pub(crate) fn refused<T>(
     })
 }
 
-/// Error of a curve or a scene that cannot be fitted, with the steps that help.
+/// Returns the error of a curve or a scene that cannot be fitted, with the steps that help.
 pub(crate) fn refused_with<T>(
     found: impl Into<String>,
     allowed: impl Into<String>,

@@ -19,7 +19,7 @@ mod error;
 mod fit;
 mod read;
 
-// Fixtures of the tests of this crate and of its executables of tests.
+// Fixtures that the unit tests of this crate share with its integration tests.
 #[cfg(test)]
 extern crate self as asperity_experiment;
 #[cfg(test)]

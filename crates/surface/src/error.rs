@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::Path;
 use thiserror::Error;
 
-/// Formats that are read, for messages.
+/// List of the formats that can be read, for messages.
 const FORMATS: &str = "text, SDF, GSF, NumPy array, X3P, GWY, SUR, Nanoscope, NetCDF, IBW, JPK, \
                        Park TIFF, Zygo DAT, VK4, or these in gzip; others saved as GWY or X3P in \
                        Gwyddion";
@@ -30,7 +30,7 @@ pub enum Place {
     /// Field of a scene file, by its path in the scene, such as `roughness.file`.
     Field(&'static str),
     /// Place in one of several measurements in a file: the name of the measurement, and the place
-    /// in it.
+    /// inside the measurement.
     Measurement(String, Box<Place>),
     /// Place in one of several surfaces that are analysed together, with the index of the surface
     /// from 0.
@@ -82,9 +82,9 @@ impl Place {
 /// How one of several surfaces of a file is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChosenBy {
-    /// By the number or the name of a channel.
+    /// The user chooses by the number or the name of a channel.
     ChannelNumber,
-    /// By the name of a surface in a container.
+    /// The user chooses by the name of a surface in a container.
     SurfaceName,
 }
 
@@ -114,17 +114,17 @@ pub enum SurfaceError {
         /// Steps with which the file can be read; none if no option helps.
         remedies: Vec<Remedy>,
     },
-    /// The format of a file is known, but not read.
+    /// The format of a file is known, but this crate has no reader for it.
     #[error("{place}{format} is not read; allowed: {allowed}")]
     UnreadFormat {
         /// The file.
         place: Place,
         /// Name of the format.
         format: &'static str,
-        /// What is read in its place, in words.
+        /// Formats that can be read instead, in words.
         allowed: &'static str,
     },
-    /// Points of a surface have no height.
+    /// Some points of a surface have no height.
     #[error(
         "{place}{missing} of {points} points are missing ({:.2} %), the first here; allowed: points that are filled from their \
          neighbours",
@@ -145,10 +145,10 @@ pub enum SurfaceError {
         place: Place,
         /// Name of the quantity: positions, distances or heights.
         quantity: &'static str,
-        /// Unit that the file states for the positions alone.
+        /// Unit of the positions, if the file states this unit but none for the heights.
         unit_of_positions: Option<String>,
     },
-    /// The file has no channel or surface that is meant, or several of them.
+    /// The file has no channel or surface that fits the options, or several.
     #[error("{place}{fault}: {}; allowed: {allowed}", channels.join(", "))]
     Channel {
         /// The file.
@@ -159,7 +159,7 @@ pub enum SurfaceError {
         channels: Vec<String>,
         /// What is allowed, in words.
         allowed: &'static str,
-        /// How one of them is chosen.
+        /// How the user chooses one of the channels or surfaces.
         chosen_by: ChosenBy,
     },
     /// The operating system cannot read a file.
@@ -198,7 +198,8 @@ impl SurfaceError {
         }
     }
 
-    /// Returns what the outermost place that has it says, such as a line.
+    /// Returns the first result of `said_by` for this place and the places inside it, from the
+    /// outermost to the innermost.
     fn find<T>(&self, said_by: impl Fn(&Place) -> Option<T>) -> Option<T> {
         self.place().all().find_map(said_by)
     }
@@ -239,7 +240,7 @@ impl SurfaceError {
         })
     }
 
-    /// Returns the same error with a further step that helps.
+    /// Returns the same error with a further step with which the file can be read.
     pub fn with(mut self, remedy: Remedy) -> Self {
         if let SurfaceError::Refused { remedies, .. } = &mut self {
             remedies.push(remedy);

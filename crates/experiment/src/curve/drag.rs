@@ -1,7 +1,7 @@
-//! Drag of a fluid on the body and the instrument, from the points without contact. It resists the
-//! motion, so that its sign is that of pressing on the approach and that of tension on the
-//! retraction. Close to the surface the fluid is squeezed out of a narrow gap, and the drag grows as
-//! c/(h + h₀), where h is the distance to first touch.
+//! Drag of a fluid on the body and the instrument, estimated from the points without contact. The
+//! drag resists the motion: it acts like a compression on the approach, and like a tension on the
+//! retraction. Close to the surface the fluid is squeezed out of a narrow gap, and the drag grows
+//! as c/(h + h₀), where h is the distance in m to first touch.
 
 use crate::curve::free_parts::{FEWEST, FreeParts, count_before_steep_part};
 use crate::curve::numerics::{
@@ -11,33 +11,39 @@ use crate::curve::points::Points;
 use crate::read::options::{CurveOptions, Drift, Tilt};
 use serde::Serialize;
 
-/// Number of lengths h₀ that are tried, and the ratio of neighbouring ones.
+/// Number of lengths h₀ that are tried.
 const REACHES: i32 = 24;
+/// Ratio of neighbouring lengths h₀ that are tried.
 const RATIO: f64 = 1.3;
-/// Largest length h₀ as a share of the way before contact. A drag that reaches farther is a line.
+/// Largest length h₀ that is tried, as a share of the way before contact. A drag with a larger h₀
+/// looks like a straight line.
 const FARTHEST: f64 = 0.5;
-/// Number of ends of the part without contact that are tried.
+/// Number of points that are tried as the end of the part without contact.
 const ENDS: usize = 60;
-/// Root mean square residual of many points that a drag describes, in units of the noise, and its
-/// allowance in standard errors for fewer points.
+/// Largest root mean square residual, in units of the noise, with which a drag describes very many
+/// points.
 const DESCRIBED: f64 = 1.05;
+/// Allowance for the root mean square residual of few points, in standard errors.
 const BY_CHANCE: f64 = 3.0;
-/// Mean of the last residuals of such a part, in standard errors.
+/// Largest mean of the last residuals, in standard errors, with which a drag describes a part
+/// without contact up to its end.
 const DEVIATES: f64 = 3.5;
-/// Coefficient of a drag, in standard errors, above which it is found on the approach and on the
-/// retraction.
+/// Smallest coefficients of a drag on the approach and on the retraction, in standard errors, that
+/// count as found.
 const FOUND: [f64; 2] = [5.0, 3.0];
-/// Distance, in units of h₀, beyond which points are far from contact.
+/// Distance from first touch, in units of h₀, beyond which points are far from contact.
 const FAR: f64 = 1.0;
-/// Ratio of the coefficients of far points and of all points up to which both are one drag, on the
-/// approach and on the retraction.
+/// Largest ratios, on the approach and on the retraction, between the coefficient from far points
+/// alone and the coefficient from all points, with which both show the same drag.
 const ALIKE: [f64; 2] = [2.0, 3.0];
-/// Coefficient of the approach by far points alone, in standard errors, above which it is found.
+/// Smallest coefficient of the approach from far points alone, in standard errors, that counts as
+/// found.
 const FOUND_FAR: f64 = 2.5;
-/// Largest ratio of the drags on approach and retraction, which is that of their speeds.
+/// Largest ratio between the drags on approach and retraction. The drag is proportional to the
+/// speed, so this is the largest ratio of the speeds.
 const SPEEDS: f64 = 10.0;
 
-/// Forces of a drag on a body in contact. They were taken off the curve.
+/// Forces of a drag on a body in contact. They were subtracted from the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DragForce {
@@ -45,32 +51,34 @@ pub struct DragForce {
     pub pressed: f64,
     /// Force on the retraction in N, relative to the force far before contact.
     pub pulled: f64,
-    /// Length h₀ in m over which the drag falls to a half; `None` for a drag that does not depend
-    /// on the distance.
+    /// Length h₀ in m: at this distance from first touch, the drag is half of its value in contact.
+    /// `None` for a drag that does not depend on the distance.
     pub reach: Option<f64>,
 }
 
-/// Drag that both parts without contact show.
+/// Drag that the parts before and after contact show.
 pub(crate) struct Drag {
-    /// Displacement in m at which the drag would be infinite, beyond first touch by h₀.
+    /// Displacement in m at which the drag would be infinite. It lies beyond first touch by h₀.
     pole: f64,
-    /// Displacement at first touch, m.
+    /// Displacement in m at first touch.
     touch: f64,
-    /// Force on the retraction minus force on the approach far from contact, N.
+    /// Force on the retraction minus force on the approach, far from contact, in N.
     step: f64,
-    /// Coefficients c on the approach and on the retraction, N m.
+    /// Coefficient c of the drag on the approach in N m; `pulled` is the coefficient on the
+    /// retraction.
     pressed: f64,
     pulled: f64,
-    /// Numbers of points before and after contact that the drag describes.
+    /// Number of points before contact that the drag describes; `after` is the number after
+    /// contact.
     pub before: usize,
     pub after: usize,
 }
 
-/// Points of one segment from far away to the contact.
+/// Points of an approach or a retraction, in the order from far away to the contact.
 struct Side {
     displacements: Vec<f64>,
     forces: Vec<f64>,
-    /// Noise far from contact, N.
+    /// Noise in N far from contact.
     noise: f64,
     /// True if a tilt over the displacement is fitted with the drag.
     has_tilt: bool,
@@ -88,7 +96,7 @@ impl Side {
         }
     }
 
-    /// Returns the residuals of the first `count` points, in N, about a drag with this pole.
+    /// Returns the residuals, in N, of a fit of a drag with this pole to the first `count` points.
     fn residuals(&self, count: usize, pole: f64) -> Vec<f64> {
         let displacements = &self.displacements[..count];
         let mut columns = vec![vec![1.0; count], inverse_distances(displacements, pole)];
@@ -100,7 +108,7 @@ impl Side {
         residuals
     }
 
-    /// Returns the pole that describes the first `count` points best.
+    /// Returns the pole in m with which a drag describes the first `count` points best.
     fn best_pole(&self, count: usize) -> f64 {
         let first = self.displacements[0];
         let last = self.displacements[count - 1];
@@ -122,7 +130,8 @@ impl Side {
         best
     }
 
-    /// Returns true if a drag with this pole describes the first `count` points to their end.
+    /// Returns true if a drag with this pole describes the first `count` points within the noise,
+    /// also the last of them.
     fn is_described(&self, count: usize, pole: f64) -> bool {
         let residuals = self.residuals(count, pole);
         let root_mean_square = (dot(&residuals, &residuals) / count as f64).sqrt();
@@ -137,7 +146,7 @@ impl Side {
         })
     }
 
-    /// Returns numbers of points up to which the side may be without contact, the largest first.
+    /// Returns possible numbers of points without contact, in descending order.
     fn ends(&self, fewest: usize) -> Vec<usize> {
         let count = self.forces.len();
         let most = (count_before_steep_part(&self.forces) + 2).min(count);
@@ -147,7 +156,7 @@ impl Side {
     }
 }
 
-/// Returns 1/(pole − D) for displacements D.
+/// Returns 1/(pole − D) in 1/m for each displacement D in m.
 fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
     displacements
         .iter()
@@ -157,8 +166,8 @@ fn inverse_distances(displacements: &[f64], pole: f64) -> Vec<f64> {
 
 impl Drag {
     /// Finds the drag of a curve with an approach and a retraction; `None` if its points without
-    /// contact show none. The coefficients of approach and retraction have opposite signs, which
-    /// neither a tilt nor a weak contact has.
+    /// contact show none. The coefficients of approach and retraction have opposite signs, unlike
+    /// those of a tilt or of a weak contact.
     pub fn find(points: &Points, free: &FreeParts, options: &CurveOptions) -> Option<Drag> {
         let before = free.before?;
         let last = points.last_segment();
@@ -186,7 +195,7 @@ impl Drag {
         let pole = pole.max(touch + RATIO.powi(-REACHES) * (touch - points.displacement[0]));
         let ends = pulled.ends(free.after);
         let after = ends.into_iter().find(|end| {
-            // The pole is beyond all points without contact.
+            // The pole has to lie beyond all points without contact, where the drag is finite.
             pulled.displacements[..*end].iter().all(|at| *at < pole)
                 && pulled.is_described(*end, pole)
         })?;
@@ -203,7 +212,8 @@ impl Drag {
         (force > pressed.noise && both.reaches_far(&drag)).then_some(drag)
     }
 
-    /// Returns the drag at a point of the approach, or of the retraction, N.
+    /// Returns the drag in N at a displacement in m, on the retraction if `is_pulled` is true and
+    /// otherwise on the approach.
     fn force(&self, displacement: f64, is_pulled: bool) -> f64 {
         let distance = self.distance(displacement);
         if is_pulled {
@@ -213,12 +223,12 @@ impl Drag {
         }
     }
 
-    /// Returns h + h₀ in m. In contact h is 0.
+    /// Returns h + h₀ in m, where h is the distance to first touch. In contact h is 0.
     fn distance(&self, displacement: f64) -> f64 {
         self.pole - displacement.min(self.touch)
     }
 
-    /// Takes the drag off the forces of points.
+    /// Subtracts the drag from the forces of points.
     pub fn subtract(&self, points: &mut Points) {
         for index in 0..points.force.len() {
             let is_pulled = points.segment[index] % 2 == 1;
@@ -226,7 +236,8 @@ impl Drag {
         }
     }
 
-    /// Returns changes of the force at points by small changes of the numbers of the drag.
+    /// Returns the derivatives of the force at each point with respect to the parameters of the
+    /// drag. A fit can so refine these parameters.
     pub fn columns(&self, points: &Points) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); 4];
         for (displacement, segment) in points.displacement.iter().zip(&points.segment) {
@@ -260,8 +271,8 @@ struct BothSides<'a> {
 }
 
 impl BothSides<'_> {
-    /// Returns the columns of zero, step and both coefficients, and of tilt and drift if these are
-    /// removed.
+    /// Returns the columns of a fit for the zero, the step and both coefficients, and for tilt and
+    /// drift if the options remove them.
     fn columns(&self, pole: f64) -> Vec<Vec<f64>> {
         let points = self.points;
         let mut columns = vec![Vec::new(); 6];
@@ -293,7 +304,7 @@ impl BothSides<'_> {
             .collect()
     }
 
-    /// Returns the best pole near `pole`.
+    /// Returns the pole in m near `pole` with which a drag describes all these points best.
     fn best_pole(&self, pole: f64) -> f64 {
         let reach = pole - self.touch;
         let mut least = f64::INFINITY;
@@ -311,8 +322,9 @@ impl BothSides<'_> {
         best
     }
 
-    /// Returns true if far points alone show the same drag. A weak contact of a rough body grows as
-    /// fast, and may be adhesive on the retraction, but it ends at some distance.
+    /// Returns true if points far from contact alone show the same drag. The force of a weak
+    /// contact of a rough body may grow in the same way, and may be adhesive on the retraction, but
+    /// it ends at some distance.
     fn reaches_far(&self, drag: &Drag) -> bool {
         let reach = drag.pole - drag.touch;
         let is_far = |index: &usize| self.touch - self.points.displacement[*index] > FAR * reach;
@@ -336,8 +348,8 @@ impl BothSides<'_> {
             && is_alike(pulled.value, drag.pulled, on_retraction)
     }
 
-    /// Returns the drag with this pole; `None` if its coefficients are not found, or do not have
-    /// the signs of a drag.
+    /// Returns the drag with this pole. Returns `None` if a coefficient is not significant or has
+    /// the wrong sign for a drag.
     fn drag(&self, pole: f64, before: usize, after: usize) -> Option<Drag> {
         let coefficients = least_squares(&self.columns(pole), &self.forces())?;
         let [_, step, pressed, pulled, ..] = coefficients[..] else {

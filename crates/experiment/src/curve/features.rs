@@ -1,5 +1,5 @@
-//! Numbers of a measured curve that need no model: its jumps, its hysteresis in compression, and how
-//! far the force falls in a pause.
+//! Features of a measured curve that need no model: its jumps, its hysteresis in compression, and
+//! the fall of the force in a pause.
 
 use crate::curve::numerics::Extent;
 use crate::curve::points::Points;
@@ -8,24 +8,28 @@ use serde::Serialize;
 
 /// Smallest jump of the force, in units of the noise.
 const BEYOND_NOISE: f64 = 6.0;
-/// Smallest jump of the force, as a share of its range.
+/// Smallest jump of the force, as a share of the range of the force.
 const OF_RANGE: f64 = 0.01;
 /// Largest number of steps between points over which a jump extends.
 const STEPS: usize = 3;
-/// Number of steps before and after a jump with which it is compared.
+/// Number of steps before and after a jump over which the slope of the force is compared with the
+/// jump.
 const AROUND: usize = 4;
-/// Change of the force by a jump, divided by the change over [`STEPS`] steps around it.
+/// Smallest ratio of the change of the force by a jump to the change over [`STEPS`] steps before or
+/// after it.
 const SHARP: f64 = 3.0;
-/// Number of displacements at which both branches are compared.
+/// Number of displacements at which the forces of loading and unloading are compared.
 const COMPARED: usize = 200;
 /// Smallest force at the turning point, in units of the noise, for which a hysteresis is stated.
 const PRESSED: f64 = 10.0;
-/// Share of the range of the displacement within which the points of a pause are compared.
+/// Largest distance of a displacement from the median of a pause, as a share of the range of
+/// displacements, at which a point of the pause is used.
 const STILL: f64 = 0.002;
-/// Share of the points of a pause of which its beginning and its end are means.
+/// Divisor of the number of points of a pause: the forces at its beginning and at its end are means
+/// over 1/20 of the points.
 const END: usize = 20;
 
-/// Numbers of a measured curve by itself, before any fit.
+/// Features of a measured curve that are computed without a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CurveFeatures {
@@ -35,8 +39,9 @@ pub struct CurveFeatures {
     pub jumps: usize,
     /// Largest number of jumps in one motion of the instrument. A sphere has at most one.
     pub jumps_in_one_motion: usize,
-    /// Area between loading and unloading where both are compressive, divided by the area under the
-    /// loading there. `None` if the curve has not both branches in compression.
+    /// Area between the loading and the unloading over the displacements at which both forces are
+    /// compressive, divided by the area under the loading over these displacements. `None` if the
+    /// curve has no loading or no unloading in compression.
     pub hysteresis: Option<f64>,
     /// Largest fall of the force in a pause in contact, divided by the largest force; `None`
     /// without such a pause.
@@ -57,7 +62,7 @@ impl CurveFeatures {
         features
     }
 
-    /// Returns these numbers as a sentence.
+    /// Returns the features in a sentence.
     pub(crate) fn sentence(&self) -> String {
         let jumps = match self.jumps {
             0 => "No jump of the force".to_owned(),
@@ -81,7 +86,8 @@ impl CurveFeatures {
     }
 }
 
-/// Returns a share in percent. A share below a ten-thousandth is rounding.
+/// Returns a share in percent. A share below 0.00005 in magnitude is a rounding error and becomes
+/// 0.
 fn percent(share: f64) -> String {
     let share = if share.abs() < 5e-5 { 0.0 } else { share };
     format!("{} %", format_rounded(100.0 * share, 2, "1"))
@@ -91,7 +97,8 @@ fn percent(share: f64) -> String {
 fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
     let range = Extent::of(points.force.iter().copied()).width();
     let least = (BEYOND_NOISE * noise).max(OF_RANGE * range);
-    // The force of a jump changes against the force of a motion that is continuous.
+    // On loading a jump decreases the force, and on unloading it increases the force, contrary to
+    // the continuous motion. With this sign, a jump is always a rise.
     let sign = if number.is_multiple_of(2) { -1.0 } else { 1.0 };
     let mut forces = Vec::new();
     let mut ways = Vec::new();
@@ -109,18 +116,19 @@ fn jumps_in(points: &Points, number: usize, noise: f64) -> usize {
             place += 1;
             continue;
         };
-        // Where the instrument moves back for a short way, the force changes with it.
+        // If the instrument moves back for a short way, the change of the force is no jump.
         let before = ways[(jump + 1).saturating_sub(STEPS)];
         let after = ways[(jump + STEPS).min(ways.len() - 1)];
         jumps += usize::from(after >= before);
-        // The means before the next places contain points before this jump.
+        // The next places are skipped, because the means before them would contain points before
+        // this jump.
         place = jump + 2 * STEPS;
     }
     jumps
 }
 
-/// Returns the mean of the next forces minus the mean of the forces up to a place. `gap` forces
-/// after the place are left out.
+/// Returns the change of the force at a place: the mean of [`STEPS`] forces after it minus the mean
+/// of [`STEPS`] forces up to it. `gap` forces after the place are left out.
 fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
     let before = &forces[(place + 1).saturating_sub(STEPS)..=place];
     let start = (place + 1 + gap).min(forces.len() - 1);
@@ -128,11 +136,12 @@ fn step_at(forces: &[f64], place: usize, gap: usize) -> f64 {
     mean(&forces[start..end]) - mean(before)
 }
 
-/// Returns the place of a jump at this place or a few steps ahead: the force rises by more than
-/// `least` within [`STEPS`] steps after it, and much faster than around them.
+/// Returns the place of a jump at `place` or a few steps later; `None` if there is none. At a jump
+/// the force rises by more than `least` within [`STEPS`] steps, and much faster than before and
+/// after these steps.
 fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
     let last = forces.len() - 1;
-    // The largest rise close by belongs to the place of the jump.
+    // The place of the jump is the place with the largest rise among the next ones.
     let ahead = (place + 2 * STEPS).min(last - 1);
     let jump = (place..=ahead)
         .max_by(|place, next| step_at(forces, *place, 0).total_cmp(&step_at(forces, *next, 0)))
@@ -159,7 +168,8 @@ fn jump_close_to(forces: &[f64], place: usize, least: f64) -> Option<usize> {
     (rise > SHARP * STEPS as f64 * before.max(after).max(0.0)).then_some(jump)
 }
 
-/// Returns the points of a segment without pauses, with ascending displacements.
+/// Returns the points of a segment without pauses, as pairs of displacement in m and force in N,
+/// with ascending displacements.
 fn branch(points: &Points, number: usize) -> Vec<[f64; 2]> {
     let mut branch: Vec<[f64; 2]> = points
         .range_of(number)
@@ -195,7 +205,8 @@ fn force_at(branch: &[[f64; 2]], displacement: f64) -> f64 {
     }
 }
 
-/// Returns the hysteresis of the loading to the largest force and of the unloading after it.
+/// Returns the hysteresis between the loading to the largest force and the unloading after it, as a
+/// share of the loading; `None` if one of both has too few points in compression.
 fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
     let largest_in =
         |number: usize| Extent::of(points.range_of(number).map(|index| points.force[index])).high;
@@ -225,7 +236,8 @@ fn hysteresis(points: &Points, noise: f64) -> Option<f64> {
     (high > low && loaded > 0.0).then_some(difference / loaded)
 }
 
-/// Returns the largest fall of the force in a pause in compression, as a share of the largest force.
+/// Returns the largest fall of the force in a pause in compression, as a share of the largest
+/// force; `None` without such a pause.
 fn fall_in_pause(points: &Points, noise: f64) -> Option<f64> {
     let largest = Extent::of(points.force.iter().copied()).high;
     let near = STILL * Extent::of(points.displacement.iter().copied()).width();
@@ -266,8 +278,9 @@ mod tests {
             .features
     }
 
-    /// The spring of 2 N/m with drops of these forces, nN, at these displacements, nm, on the
-    /// approach and on the retraction.
+    /// Returns the curve of a spring of 2 N/m whose force drops. Each drop is a pair of the
+    /// displacement in nm and the decrease of the force in nN, on the approach (`pressed`) or on
+    /// the retraction (`pulled`).
     fn with_drops(pressed: &[(f64, f64)], pulled: &[(f64, f64)]) -> Vec<(f64, f64)> {
         let mut points = of_spring(600);
         for (index, (displacement, force)) in points.iter_mut().enumerate() {
@@ -291,7 +304,7 @@ mod tests {
             &[(-20.0, 10.0), (10.0, 8.0)],
         ));
         assert_eq!((twice.jumps, twice.jumps_in_one_motion), (4, 2));
-        // A drop below 1 % of the range of the force, or below the noise, is none.
+        // A drop of less than 1 % of the range of the force is no jump.
         assert_eq!(features(with_drops(&[(0.0, 0.5)], &[(0.0, 0.5)])).jumps, 0);
     }
 
@@ -305,7 +318,8 @@ mod tests {
         assert_eq!(features.jumps, 0, "{features:?}");
     }
 
-    /// The retraction of a spring at nine tenths of the force encloses a tenth of the loading.
+    /// If the forces of the retraction are nine tenths of those of the approach, the hysteresis is
+    /// a tenth of the loading.
     #[test]
     fn hysteresis_is_a_share_of_the_loading() {
         let elastic = features(of_spring(600)).hysteresis.unwrap();

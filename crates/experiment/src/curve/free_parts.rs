@@ -10,24 +10,26 @@ use std::ops::Range;
 pub(crate) const FEWEST: usize = 10;
 /// Smallest number of points in contact.
 const FEWEST_IN_CONTACT: usize = 4;
-/// Least gain by a contact over a straight line. The gain is the number of points times the
-/// decrease of the logarithm of the sum of squared residuals. A smaller gain is attributed to
-/// noise.
+/// Smallest gain of a fit with contact over a single straight line for the segment to have a
+/// contact. The gain is the number of points times the decrease of the logarithm of the sum of
+/// squared residuals. A smaller gain can result from noise.
 const GAIN: f64 = 40.0;
-/// Deviation of the last points from the line before them, in standard errors, above which these
-/// points are in contact.
+/// Deviation of the mean of the last points from the straight line through the points before them,
+/// in standard errors, above which the last points are in contact.
 const DEVIATES: f64 = 4.0;
-/// Noise of a part without contact, divided by the noise between neighbouring points, above which a
-/// contact may have been counted as part without contact.
+/// Noise of a part without contact, divided by the noise from differences of neighbouring points,
+/// above which the part may contain an earlier contact.
 const UNLIKE_NEIGHBOURS: f64 = 3.0;
-/// Share of this noise that must remain without the points of such a contact.
+/// Largest ratio of the noise without the points of such an earlier contact to the noise of the
+/// whole part, for the earlier contact to be accepted.
 const QUIETER: f64 = 0.3;
-/// Values of n: the last n-th of the points without contact is compared with the points before.
+/// Divisors n: the last 1/n of the points without contact is compared with the points before.
 const PARTS: [usize; 3] = [5, 10, 20];
-/// A segment is in contact from its first point if the slope of its beginning exceeds this share of
-/// the slope in contact, and the change of the force before contact is notable.
+/// Share of the mean slope in contact. A segment is in contact from its first point on if the slope
+/// of its beginning exceeds this share, and the force changes by more than [`NOTABLE`] along this
+/// beginning.
 const STEEP: f64 = 0.5;
-/// Share of the range of the force above which a change of the force is notable.
+/// Smallest change of the force that matters for [`STEEP`], as a share of the range of the force.
 const NOTABLE: f64 = 0.05;
 
 /// Reason why a segment has no part without contact.
@@ -44,13 +46,14 @@ pub(crate) enum NoFreePart {
 /// Returns the number of forces before contact at the beginning of a segment. The noise is assumed
 /// to be at least `least_noise`.
 ///
-/// The contact begins where a straight line before it and a parabola after it describe the segment
-/// best. This place lies in the steep part of the contact. Its weak beginning is found by going
-/// back until the last points no longer deviate from the line through the points before.
+/// First the place is found at which a straight line before it and a parabola after it describe the
+/// segment best. This place lies in the steep part of the contact. The weak beginning of the
+/// contact is then found by going back until the last points before the contact no longer deviate
+/// from the straight line through the points before them.
 ///
-/// Where the force has several steep parts, as in a loading by steps, this place may lie in a later
-/// one. The noise before it is then far above the differences of neighbouring points, and the
-/// contact is sought again in the points before.
+/// If the force has several steep parts, as in a loading by steps, the place found may lie in a
+/// later one. The noise before it is then far above the differences of neighbouring points, and the
+/// search is repeated in the points before it.
 pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let mut free = count_before_change(forces, least_noise)?;
     loop {
@@ -69,13 +72,15 @@ pub(crate) fn free_count(forces: &[f64], least_noise: f64) -> Result<usize, NoFr
     }
 }
 
-/// Returns the number of forces before the change that a line and a parabola describe best.
+/// Returns the number of forces before the contact, from the best fit of a straight line and a
+/// parabola.
 fn count_before_change(forces: &[f64], least_noise: f64) -> Result<usize, NoFreePart> {
     let count = forces.len();
     if count < 2 * FEWEST {
         return Err(NoFreePart::Few);
     }
-    // Sums of squares below those of the least noise mean nothing.
+    // The squares of the smallest noise are added to each sum of squares, so that smaller sums make
+    // no difference.
     let floor = count as f64 * least_noise * least_noise;
     let before = growing(forces.iter().copied(), 2);
     let change = steepest_change(forces, &before, floor);
@@ -100,12 +105,13 @@ fn count_before_change(forces: &[f64], least_noise: f64) -> Result<usize, NoFree
 /// Place at which a straight line ends and a parabola begins.
 struct Change {
     place: usize,
-    /// Sum of the squared residuals of both.
+    /// Sum of the squared residuals of the line and the parabola.
     squares: f64,
 }
 
-/// Returns the place at which a line before and a parabola after describe the forces best. `before`
-/// has the sums of squares of lines up to each place, and `floor` is added to all sums.
+/// Returns the place for which a line before it and a parabola after it describe the forces best.
+/// `before` has, for each place, the sum of the squared residuals of a line through the forces up
+/// to there. `floor` is added to each sum.
 fn steepest_change(forces: &[f64], before: &[f64], floor: f64) -> Change {
     let mut after = growing(forces.iter().rev().copied(), 3);
     after.reverse();
@@ -122,8 +128,8 @@ fn steepest_change(forces: &[f64], before: &[f64], floor: f64) -> Change {
     best
 }
 
-/// Returns the number of forces before the steep part of a contact, of which the last may belong to
-/// its weak beginning.
+/// Returns the number of forces before the steep part of a contact. The last of these forces may
+/// belong to the weak beginning of the contact.
 pub(crate) fn count_before_steep_part(forces: &[f64]) -> usize {
     let before = growing(forces.iter().copied(), 2);
     steepest_change(forces, &before, 0.0).place
@@ -133,15 +139,16 @@ fn range_of(forces: &[f64]) -> f64 {
     Extent::of(forces.iter().copied()).width()
 }
 
-/// Returns true if the force changes before contact nearly as fast as in contact.
+/// Returns true if the force changes in the first `free` points nearly as fast as in contact.
 fn begins_steep(forces: &[f64], free: usize) -> bool {
     let slope = Baseline::through(&forces[..free]).slope.abs();
     let slope_in_contact = range_of(&forces[free..]) / (forces.len() - free) as f64;
     slope > STEEP * slope_in_contact && slope * free as f64 > NOTABLE * range_of(forces)
 }
 
-/// Returns true if the part before contact is short and curved, as the beginning of a contact is.
-/// `squares` is the sum of squared residuals of its straight line.
+/// Returns true if the first `free` points are a short part of the segment, less than a tenth of
+/// its points, and curved, as the beginning of a contact is. `squares` is the sum of squared
+/// residuals of the straight line through these points.
 fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool {
     if 10 * free >= forces.len() {
         return false;
@@ -151,7 +158,7 @@ fn begins_curved(forces: &[f64], free: usize, squares: f64, floor: f64) -> bool 
 }
 
 /// Reduces the number `free` of forces without contact until the last of these forces do not
-/// deviate from the line through the forces before.
+/// deviate from the straight line through the forces before them.
 fn without_weak_contact(forces: &[f64], mut free: usize, least_noise: f64) -> usize {
     while free > 2 * FEWEST {
         let parts = PARTS.map(|part| (free / part).max(3));
@@ -167,7 +174,8 @@ fn without_weak_contact(forces: &[f64], mut free: usize, least_noise: f64) -> us
     free
 }
 
-/// Returns true if the mean of the last forces deviates from the line through the forces before.
+/// Returns true if the mean of the last `last` forces deviates from the straight line through the
+/// forces before them.
 fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
     let free = forces.len();
     let line = Baseline::through(&forces[..free - last]);
@@ -175,7 +183,7 @@ fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
     let (before, end) = residuals.split_at(free - last);
     let count = before.len() as f64;
     let mean = end.iter().sum::<f64>() / last as f64;
-    // The error of the line grows beyond its end.
+    // The line is extrapolated, and its error grows with the distance from its points.
     let ahead = 0.5 * free as f64;
     let variance = 1.0 / last as f64 + 1.0 / count + ahead * ahead * 12.0 / count.powi(3);
     let error = line.noise.max(least_noise) * (correlated(before) * variance).sqrt();
@@ -184,18 +192,17 @@ fn end_deviates(forces: &[f64], last: usize, least_noise: f64) -> bool {
 
 /// Points without contact: at the beginning of an approach and at the end of a retraction.
 pub(crate) struct FreeParts {
-    /// Number of points before contact; `None` for a retraction without an approach, or if contact
-    /// is not found in the approach and only other segments are used.
+    /// Number of points before contact. `None` for a retraction without an approach, and if no
+    /// contact is found in the approach but only other segments are used.
     pub before: Option<usize>,
-    /// Number of points after contact at the end; 0 if there are few.
+    /// Number of points after contact at the end of the curve; 0 if no such part is found.
     pub after: usize,
-    /// Time and displacement of each point, as shares of the whole curve.
+    /// Time and displacement of each point, as shares of the whole range, from 0 to 1.
     pub shares: [Vec<f64>; 2],
 }
 
 impl FreeParts {
-    /// Finds the points without contact. `averaged` is the number of points of the file that a
-    /// point averages.
+    /// Finds the points without contact. Each point is the mean of `averaged` points of the file.
     pub fn of(
         points: &Points,
         options: &CurveOptions,
@@ -256,9 +263,9 @@ impl FreeParts {
         }
     }
 
-    /// Returns the displacement in m at which the contact seems to begin, after the part before
-    /// contact. For a retraction without an approach it lies where compression ends, or half way to
-    /// its end.
+    /// Returns an estimate of the displacement in m at which the contact begins: the end of the
+    /// part before contact. For a retraction without an approach it is the displacement at which
+    /// compression ends, or, if the retraction begins in tension, at half of its points in contact.
     pub fn contact_point(&self, points: &Points) -> f64 {
         if let Some(before) = self.before {
             return points.displacement[before];
@@ -289,8 +296,8 @@ fn shares_of_range(displacements: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the number of points after contact at the end of a curve that ends with a retraction; 0
-/// if they cannot be found.
+/// Returns the number of points after contact at the end of a curve. It is 0 if the curve does not
+/// end with a retraction, or if no part without contact is found.
 fn count_after_contact(points: &Points, least_noise: f64) -> usize {
     let last = points.last_segment();
     if last.is_multiple_of(2) {
@@ -304,7 +311,8 @@ fn reversed(forces: &[f64]) -> Vec<f64> {
     forces.iter().rev().copied().collect()
 }
 
-/// Returns true if the forces of a segment end without contact.
+/// Returns true if a segment ends without contact: its end has a part without contact, and its
+/// beginning has none, or one along which the force changes more.
 pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
     let Some(change_at_end) = free_change(&reversed(forces), least_noise) else {
         return false;
@@ -315,13 +323,15 @@ pub(crate) fn ends_free(forces: &[f64], least_noise: f64) -> bool {
     }
 }
 
-/// Returns the change of the force in N over the part before contact, along its straight line.
+/// Returns the change of the force in N along the straight line through the part before contact;
+/// `None` if there is no such part.
 fn free_change(forces: &[f64], least_noise: f64) -> Option<f64> {
     let free = free_count(forces, least_noise).ok()?;
     Some(Baseline::through(&forces[..free]).slope.abs() * free as f64)
 }
 
-/// Returns the error of a curve without a part before contact, according to the reason.
+/// Returns the error for a curve without a part before contact. `reason` is the reason why none was
+/// found.
 fn refuse<T>(
     reason: NoFreePart,
     points: &Points,
@@ -346,7 +356,8 @@ fn refuse<T>(
     }
 }
 
-/// Returns true if the segment that should be an approach ends without contact.
+/// Returns true if the segment that should be an approach ends without contact, so that it is a
+/// retraction.
 fn is_retraction_first(points: &Points, approach: &[f64], least_noise: f64) -> bool {
     points.segment.contains(&1) && free_count(&reversed(approach), least_noise).is_ok()
 }
@@ -356,16 +367,16 @@ mod tests {
     use super::*;
     use crate::curve::numerics::tests::noisy;
 
-    /// The force of a sphere without adhesion, 1 at the end, which touches after this share of the
-    /// points.
+    /// Returns the forces of a sphere without adhesion, which touches after a share `touch` of the
+    /// points. The last force is 1.
     fn hertz(count: usize, touch: f64) -> impl Iterator<Item = f64> {
         let share =
             move |index: usize| (index as f64 / count as f64 - touch).max(0.0) / (1.0 - touch);
         (0..count).map(move |index| share(index).powf(1.5))
     }
 
-    /// Noise of up to 5 % of the largest force hides no contact; the later the contact is found,
-    /// the less of it exceeds the noise.
+    /// The contact is found under noise of up to 5 % of the largest force. The larger the noise,
+    /// the later the contact is found, because its weak beginning is below the noise.
     #[test]
     fn contacts_are_found_under_noise() {
         for (count, seed) in [(200, 1), (200, 2), (200, 3), (500, 4), (500, 5), (500, 6)] {
@@ -400,8 +411,8 @@ mod tests {
         }
     }
 
-    /// In a force without noise, as of a computed curve, the contact begins exactly where the force
-    /// does.
+    /// In a curve without noise, such as a computed one, the contact begins exactly where the force
+    /// begins.
     #[test]
     fn a_contact_without_noise_begins_where_the_force_does() {
         let parabola: Vec<f64> = (0..100)
@@ -411,8 +422,8 @@ mod tests {
         assert!((59..=62).contains(&free), "{free}");
     }
 
-    /// A weak contact, a few times the noise, long before the strong one does not count as part
-    /// without contact.
+    /// A weak contact with forces of a few times the noise, long before the strong contact, is not
+    /// taken for a part without contact.
     #[test]
     fn weak_contact_is_not_part_of_the_noise() {
         for seed in 1..=6 {
@@ -427,7 +438,8 @@ mod tests {
         }
     }
 
-    /// In a loading by steps the first contact is the first step, though a later one is steeper.
+    /// In a loading by steps the contact begins at the first step, although a later step is
+    /// steeper.
     #[test]
     fn the_first_step_of_a_loading_is_the_contact() {
         for seed in 1..=4 {

@@ -1,5 +1,5 @@
-//! A measured force curve: its segments, the zero of its force, its drift and its noise. Pressing
-//! is positive.
+//! A measured force curve: its segments, the zero of its force, its drift and its noise. Forces in
+//! compression and displacements towards the specimen are positive.
 
 pub(crate) mod drag;
 pub(crate) mod features;
@@ -24,15 +24,21 @@ use asperity_data::{Note, Remedy, format_quantity, grouped, mean};
 use asperity_surface::files::content;
 use std::path::Path;
 
-/// Largest number of points that a fit uses; of more points, neighbours are averaged.
+/// Largest number of points that a fit uses. If a curve has more points, neighbouring points are
+/// averaged.
 const MOST_POINTS: usize = 4096;
+/// Smallest number of points of a curve: enough for parts without contact and in contact on both
+/// segments.
 const FEWEST_POINTS: usize = 4 * FEWEST;
-/// Noise that is assumed for a curve without noise, as a share of the range of the force.
+/// Noise that is assumed for a curve without noise, such as a computed one, as a share of the range
+/// of the force.
 const NO_NOISE: f64 = 1e-6;
-/// Force at the end of the approach, in standard deviations of the noise. A force below this value
-/// is a tension, so the sign of the file is in doubt.
+/// Smallest allowed force at the end of the approach, in standard deviations of the noise. A
+/// smaller force is a tension where the body is pressed most, so the sign of the force in the file
+/// is in doubt.
 const PULLS: f64 = -5.0;
-/// Share of the largest tension up to which the end of a retraction is without contact.
+/// Largest force at the end of a retraction, as a share of the largest tension, with which the
+/// retraction counts as ending without contact.
 const STILL_HELD: f64 = 0.3;
 
 /// Measured force curve in SI units. The displacement grows when the body is pressed on. The force
@@ -48,19 +54,19 @@ pub struct MeasuredCurve {
     /// Index, from 0, of the segment of each point. The body is pressed in segments with even
     /// indices, and pulled in segments with odd indices.
     pub segment: Vec<usize>,
-    /// Number of points at the beginning of the curve that lie before contact.
+    /// Number of points at the beginning of the curve that lie before the contact.
     pub(crate) free: usize,
-    /// Number of points at the end of the curve that lie after contact.
+    /// Number of points at the end of the curve that lie after the contact.
     pub(crate) free_at_end: usize,
     /// Displacement in m at which the contact begins, estimated from the force.
     pub touch: f64,
-    /// Standard deviation of the noise of the force, N: from the points before contact, or
+    /// Standard deviation of the noise of the force in N, from the points before contact or from
     /// [`CurveOptions::noise`].
     pub noise: f64,
-    /// Numbers of the curve by itself, such as its jumps.
+    /// Numbers computed from the curve without a model, such as its jumps.
     pub features: CurveFeatures,
-    /// Drag of a fluid that the parts without contact show, and that was taken off; `None` if they
-    /// show none.
+    /// Drag of a fluid that the parts without contact show, and that was subtracted from the force;
+    /// `None` if they show none.
     pub drag: Option<DragForce>,
     /// True if the last retraction ends without contact.
     pub detaches: bool,
@@ -69,33 +75,36 @@ pub struct MeasuredCurve {
     pub points: usize,
     /// Number of points of the file that are left out because displacement or force is missing.
     pub missing: usize,
-    /// Displacement at the end of each segment, in m.
+    /// Displacement at the end of each segment in m.
     pub(crate) turns: Vec<f64>,
-    /// Changes of the force that remain in the curve without contact, in N: over time, over the
-    /// displacement, and from before to after contact. A change that was not found is 0.
+    /// Changes of the force, in N, that remain in the parts of the curve without contact: over
+    /// time, over the displacement, and from before to after the contact. A change that was not
+    /// found is 0.
     pub(crate) remaining: [f64; 3],
-    /// Changes of the force at each point by the lines that were estimated from the points without
-    /// contact and subtracted: the zero, if it was estimated, and drift, tilt and drag.
+    /// Lines that were estimated from the points without contact and subtracted from the force: the
+    /// zero, if it was estimated, and drift, tilt and drag.
     pub(crate) subtracted: SubtractedLines,
     /// Stiffness of the instrument in N/m as the file states it, with its name in the file.
     pub(crate) stiffness: Option<(String, f64)>,
     /// Name of the column of the displacement, if the column excludes the deflection of the
     /// instrument.
     pub(crate) of_body: Option<String>,
-    /// Sentences on the assumptions and changes made when the curve was read, such as the columns
-    /// and units.
+    /// Sentences on the assumptions and changes that were made when the curve was read, such as the
+    /// choice of columns and units.
     pub statements: Vec<Note>,
 }
 
-/// Lines that were estimated from the points without contact and subtracted from a curve.
+/// Contributions to the force, called lines, that were estimated from the points without contact
+/// and subtracted from a curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SubtractedLines {
     /// True if the zero of the force was estimated.
     pub has_zero: bool,
-    /// Values of all other lines at each point of the curve.
+    /// Values of each other line at the points of the curve.
     pub columns: Vec<Vec<f64>>,
-    /// Products of these columns, and first of the zero, summed over the points without contact
-    /// that the curve does not have, because their segment is not used.
+    /// Sums of the products of each pair of these columns, over the points without contact whose
+    /// segment is not used, so that the curve does not contain them. The first row and column are
+    /// for the zero of the force, a constant 1.
     pub elsewhere: Vec<Vec<f64>>,
 }
 
@@ -144,8 +153,8 @@ impl MeasuredCurve {
         MeasuredCurve::prepare(read::parse(name, bytes, options)?, options)
     }
 
-    /// Makes a curve from displacements in m and forces in N, in the order of time. A point with a
-    /// value that is not finite is left out. The options `columns`, `units` and `ramp` have no
+    /// Creates a curve from displacements in m and forces in N, in the order of time. A point with
+    /// a value that is not finite is left out. The options `columns`, `units` and `ramp` have no
     /// effect, because they describe a file.
     ///
     /// # Errors
@@ -182,6 +191,9 @@ impl MeasuredCurve {
         content(path).is_ok_and(|bytes| parse(bytes).is_ok_and(|columns| !columns.force.is_empty()))
     }
 
+    /// Prepares a curve for fits: finds its segments, averages its points, reverses signs, finds
+    /// the parts without contact, and subtracts drag, zero, drift and tilt. The sentences on these
+    /// steps are collected in the curve.
     fn prepare(mut columns: Columns, options: &CurveOptions) -> Result<Self, ExperimentError> {
         check(&columns, options)?;
         let left_out = columns.left_out();
@@ -286,8 +298,8 @@ impl MeasuredCurve {
         (force > PULLS.abs() * self.noise && force.is_finite()).then_some(force)
     }
 
-    /// Returns the curve with about `count` of its points, evenly chosen; `None` if it has fewer
-    /// than twice as many.
+    /// Returns the curve with about `count` of its points, at equal steps of the index; `None` if
+    /// the curve has fewer than 2 × `count` points.
     pub(crate) fn thinned(&self, count: usize) -> Option<MeasuredCurve> {
         let step = self.force.len() / count;
         if step < 2 {
@@ -320,8 +332,9 @@ impl MeasuredCurve {
         })
     }
 
-    /// Returns columns for the zero of the force and the other lines that were estimated from the
-    /// curve. Each model refines the estimates. `has_zero` is true if the zero is a free parameter.
+    /// Returns a column with the values at the points for each line that was estimated and
+    /// subtracted. A model fits the lines again with these columns. The zero has no column if
+    /// `has_zero` is true, because the zero is then a free parameter.
     pub(crate) fn lines(&self, has_zero: bool) -> Vec<Vec<f64>> {
         let mut columns = Vec::new();
         if self.subtracted.has_zero && !has_zero {
@@ -331,7 +344,8 @@ impl MeasuredCurve {
         columns
     }
 
-    /// Returns true for each point that the curve by itself has in contact.
+    /// Returns true for each point between the part before contact and the part after contact,
+    /// which were found without a model.
     pub(crate) fn in_contact(&self) -> Vec<bool> {
         let end = self.force.len() - self.free_at_end;
         (0..self.force.len())
@@ -340,8 +354,8 @@ impl MeasuredCurve {
     }
 }
 
-/// Returns the sums of products of the columns, and first of a constant, over the points without
-/// contact that are not used.
+/// Returns the sums of the products of each pair of columns over the points without contact that
+/// are not used. A constant column 1 precedes `columns`.
 fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) -> Vec<Vec<f64>> {
     let count = free.shares[0].len();
     let before = 0..free.before.unwrap_or(0);
@@ -360,14 +374,14 @@ fn products_elsewhere(columns: &[Vec<f64>], kept: &[usize], free: &FreeParts) ->
         .collect()
 }
 
-/// Returns the number of the points used at the end of the curve that lie after contact.
+/// Returns how many of the used points lie after the contact.
 fn count_at_end(kept: &[usize], points: &Points, free: &FreeParts) -> usize {
     let first = points.force.len() - free.after;
     kept.len() - kept.partition_point(|index| *index < first)
 }
 
-/// Returns true if the last retraction ends without contact: its last forces are far from the
-/// largest tension, and from the force at its beginning.
+/// Returns true if the last retraction ends without contact: the mean of its last forces is small
+/// compared with the largest tension, or not larger than a few standard deviations of the noise.
 fn detaches(points: &Points, noise: f64) -> bool {
     let last = points.last_segment();
     if last.is_multiple_of(2) {
@@ -380,7 +394,7 @@ fn detaches(points: &Points, noise: f64) -> bool {
     end.abs() < (STILL_HELD * tension).max(PULLS.abs() * noise)
 }
 
-/// Returns the forces of a drag on a body in contact that was taken off, if there is one.
+/// Returns the drag in contact that was subtracted from the force; `None` if there is none.
 fn drag_in_contact(drag: Option<&Drag>, subtracted: &Subtracted) -> Option<DragForce> {
     let mut force = match drag {
         Some(drag) => drag.in_contact(),
@@ -395,7 +409,7 @@ fn drag_in_contact(drag: Option<&Drag>, subtracted: &Subtracted) -> Option<DragF
     has_drag.then_some(force)
 }
 
-/// Returns the sentence on a drag that was taken off.
+/// Returns a sentence on a drag that was subtracted from the force.
 fn drag_in_words(drag: &DragForce) -> String {
     let pressed = format_quantity(drag.pressed, "N");
     let pulled = format_quantity(drag.pulled, "N");
@@ -415,7 +429,8 @@ fn drag_in_words(drag: &DragForce) -> String {
     }
 }
 
-/// Returns the number of means in place of the points of the file, if several are averaged.
+/// Returns in words how many means replace the points of the file; `None` if no points are
+/// averaged.
 fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
     if averaged == 1 {
         return None;
@@ -424,7 +439,8 @@ fn means_in_words(points: &Points, averaged: usize) -> Option<String> {
     Some(format!("means of {averaged} points each, {means} of them"))
 }
 
-/// Returns an error for columns or options from which no curve can be made.
+/// Returns an error if no curve can be made from the columns and options: for too few points, a
+/// noise out of range, and points that are not in the order of time.
 fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentError> {
     let count = columns.displacement.len();
     if count < FEWEST_POINTS {
@@ -448,7 +464,7 @@ fn check(columns: &Columns, options: &CurveOptions) -> Result<(), ExperimentErro
     Ok(())
 }
 
-/// Returns the number of points that a mean has, so that not too many means are left.
+/// Returns the number of points in each mean, so that at most [`MOST_POINTS`] means are left.
 fn points_in_mean(segments: &Segments) -> usize {
     let moving = segments
         .is_still
@@ -458,8 +474,9 @@ fn points_in_mean(segments: &Segments) -> usize {
     moving.div_ceil(MOST_POINTS).max(1)
 }
 
-/// Makes a single segment that ends without contact a retraction, and says so in a sentence.
-/// Returns an error for another single segment, unless it alone is chosen.
+/// If the curve has a single segment and this segment ends without contact, makes it a retraction
+/// and returns a sentence on this. Returns an error for another single segment, unless the options
+/// choose it.
 fn recognise_retraction(
     points: &mut Points,
     options: &CurveOptions,
@@ -479,8 +496,9 @@ fn recognise_retraction(
     Err(ExperimentError::OneSegment)
 }
 
-/// Brings approach and retraction into the order of time, and says in words what was done. Columns
-/// side by side may begin at the turning point, and a file may begin with the retraction.
+/// Brings approach and retraction into the order of time, and returns sentences on what was done.
+/// If a file has columns of approach and retraction side by side, both may begin at the turning
+/// point. A file may also begin with the retraction.
 fn put_in_order(
     columns: &mut Columns,
     segments: &mut Segments,
@@ -507,7 +525,7 @@ fn put_in_order(
     Some("the retraction comes first and was put behind the approach")
 }
 
-/// Returns the number of the points used that lie before contact.
+/// Returns how many of the used points lie before the contact.
 fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
     match free.before {
         Some(before) => kept.partition_point(|index| *index < before),
@@ -515,8 +533,9 @@ fn count_before_contact(kept: &[usize], free: &FreeParts) -> usize {
     }
 }
 
-/// Returns the index of the last segment through which the model runs. After the last approach that
-/// is used the body is pulled off.
+/// Returns the index of the last segment that the model computes. If the last used segment is an
+/// approach, the model also computes the retraction after it, unless a curve of several segments
+/// ends with this approach.
 fn last_turn(points: &Points, options: &CurveOptions) -> usize {
     let last = points.last_segment();
     let chosen = match options.segments.iter().max() {
@@ -530,7 +549,7 @@ fn last_turn(points: &Points, options: &CurveOptions) -> usize {
     chosen
 }
 
-/// Returns the sentence on the noise and where it comes from.
+/// Returns a sentence on the noise and its source.
 fn noise_in_words(noise: f64, options: &CurveOptions, free: &FreeParts) -> String {
     let source = if options.noise.is_some() {
         "given"
@@ -542,8 +561,8 @@ fn noise_in_words(noise: f64, options: &CurveOptions, free: &FreeParts) -> Strin
     format!("Noise {}, {source}.", format_quantity(noise, "N"))
 }
 
-/// Returns the indices of the points of the chosen segments without pauses; of all segments if none
-/// is chosen.
+/// Returns the indices of the points of the chosen segments, without the points of pauses. If the
+/// options choose no segment, all segments are used.
 fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, ExperimentError> {
     let numbers = points.segment[0] + 1..=points.last_segment() + 1;
     for number in &options.segments {
@@ -571,8 +590,8 @@ fn kept(points: &Points, options: &CurveOptions) -> Result<Vec<usize>, Experimen
     Ok(kept)
 }
 
-/// Returns the numbers of points that are used, that lie before or after contact, and that belong
-/// to pauses, in words.
+/// Returns in words how many points are used, how many lie before or after contact, and how many
+/// belong to pauses.
 fn counted(
     points: &Points,
     kept: &[usize],
@@ -599,13 +618,14 @@ fn counted(
     words
 }
 
-/// Returns the number of points of the file that these points average.
+/// Returns in words the number of points of the file from which the points at `indices` were
+/// averaged.
 fn points_of_file(points: &Points, indices: impl Iterator<Item = usize>) -> String {
     let count: usize = indices.map(|index| points.counts[index]).sum();
     grouped(count as u64)
 }
 
-/// Returns the number of segments, or the numbers of those that are chosen.
+/// Returns in words the number of segments, or the numbers of the chosen segments.
 fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
     let last = points.last_segment();
     match &options.segments[..] {
@@ -619,8 +639,8 @@ fn segments_in_words(points: &Points, options: &CurveOptions) -> String {
     }
 }
 
-/// Returns the largest of the forces in N at the ends of the approaches, of which the first may be a
-/// partial loading.
+/// Returns the largest force in N at the end of an approach. All approaches are examined, because
+/// the first one may be a partial loading.
 fn force_at_largest_turn(points: &Points) -> f64 {
     let mut largest = f64::NEG_INFINITY;
     for number in (0..=points.last_segment()).step_by(2) {
@@ -686,7 +706,7 @@ mod tests {
             "{:e}",
             curve.force[2000]
         );
-        // Points of the file are counted, not means.
+        // The number of free points counts points of the file, and not means.
         let options = CurveOptions {
             free_points: Some(2700),
             ..CurveOptions::default()
@@ -695,7 +715,8 @@ mod tests {
         assert_eq!((curve.force.len(), curve.free), (3000, 900));
     }
 
-    /// The approach gives zero and contact of a retraction; a retraction alone has both at its end.
+    /// If the file has an approach, it gives the zero of the force and the contact point also for a
+    /// chosen retraction. In a file with a retraction alone, both follow from its end.
     #[test]
     fn chosen_segments_are_used_without_pauses() {
         let read = |points: &[(f64, f64)], segments: &[usize]| {
@@ -758,7 +779,7 @@ mod tests {
             lines(of_spring(600).into_iter().map(|(d, f)| (d, force(d, f))))
         };
         let (all, plain) = (of_spring(600), of(&|_, f| f));
-        // 17 points of an approach.
+        // The approach has only 17 points.
         let few = (0..42_i32).map(|index| {
             if index < 17 {
                 10 * index
@@ -771,7 +792,7 @@ mod tests {
                 of(&|d, _| if (d as i64) % 2 == 0 { 1.0 } else { 1.1 }),
                 "no contact: ",
             ),
-            // A curve that begins in contact: it has no line before a change.
+            // The curve begins in contact, so it has no straight part before a change of slope.
             (
                 of(&|d, f| f + (d + 100.0).powi(2)),
                 "no part before contact: the force",
@@ -848,7 +869,8 @@ mod tests {
         }
     }
 
-    /// A retraction that ends in tension has no pull-off force; with its free end it has one.
+    /// A retraction that ends in tension has no pull-off force. The same retraction with an end
+    /// without contact has one.
     #[test]
     fn a_curve_that_does_not_detach_has_no_pull_off_force() {
         let adheres = |end: f64| {
@@ -871,7 +893,8 @@ mod tests {
         assert!(!held.detaches && held.pull_off_force().is_none());
     }
 
-    /// Short steps of a loading are motions, and a slow creep of a part without a name is a pause.
+    /// Short steps of a loading count as motions. A slow creep in a part of the file without a name
+    /// counts as a pause.
     #[test]
     fn short_steps_are_used() {
         let spring = |d: f64, part: i32| (d, 2.0 * d.max(0.0) + 0.1 * f64::from(part % 2), part);

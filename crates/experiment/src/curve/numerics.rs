@@ -5,10 +5,11 @@ use std::f64::consts::SQRT_2;
 
 /// Standard deviation of a normal distribution divided by the median of its magnitude.
 pub(crate) const MEDIAN_TO_DEVIATION: f64 = 1.4826;
-/// Smallest number of independent ranges that a curve is assumed to have.
+/// Smallest number of independent parts that a curve is assumed to have. It limits the distance
+/// over which residuals are correlated.
 const RANGES: usize = 20;
 
-/// Least-squares line through evenly spaced values.
+/// Straight line through evenly spaced values by least squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Baseline {
     count: f64,
@@ -52,8 +53,8 @@ impl Baseline {
     }
 }
 
-/// Returns the standard deviation of the noise of values by the median difference of neighbours,
-/// which slow changes and single jumps do not increase.
+/// Returns the standard deviation of the noise of values, from the median difference of neighbours.
+/// Slow changes and single jumps do not increase it.
 pub(crate) fn noise_of_neighbours(values: &[f64]) -> f64 {
     let mut differences: Vec<f64> = values
         .windows(2)
@@ -78,15 +79,15 @@ pub(crate) fn growing(values: impl ExactSizeIterator<Item = f64>, terms: usize) 
     sums
 }
 
-/// Triangular matrix of a least-squares polynomial. The last column belongs to the values.
+/// Triangular matrix of the least-squares fit of a polynomial. Its last column is for the values.
 #[derive(Default)]
 struct Triangle {
     rows: [[f64; 4]; 3],
 }
 
 impl Triangle {
-    /// Rotates a row into the triangle of the rows before, and returns what remains of its value
-    /// (Givens rotations).
+    /// Adds a row to the triangle by Givens rotations, and returns the rest of the value of the
+    /// row, whose square is added to the sum of squared residuals.
     fn add(&mut self, mut row: [f64; 4], terms: usize) -> f64 {
         for (term, old_row) in self.rows.iter_mut().enumerate().take(terms) {
             let old = old_row[term];
@@ -116,7 +117,7 @@ pub(crate) fn right_angled(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let whole = dot(column, column).sqrt();
         subtract_all(&mut remainder, &basis);
         let length = dot(&remainder, &remainder).sqrt();
-        // What remains of a column that depends on the others is rounding.
+        // If a column depends on the columns before it, only rounding errors remain of it.
         let is_independent = length > 1e-9 * whole;
         for value in &mut remainder {
             *value = if is_independent { *value / length } else { 0.0 };
@@ -173,15 +174,15 @@ impl Extent {
     }
 }
 
-/// Returns the factor by which correlation of the residuals along the curve increases the variance
-/// of their mean; 1 without correlation.
+/// Returns the factor by which the correlation of neighbouring residuals increases the variance of
+/// their mean; 1 without correlation.
 pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     let square = dot(residuals, residuals);
     let least = 2.0 / (residuals.len() as f64).sqrt();
     let mut sum = 0.0;
     for lag in 1..residuals.len() / RANGES {
         let correlation = dot(residuals, &residuals[lag..]) / square;
-        // Without noise the square is 0, and the correlation is NaN.
+        // If all residuals are 0, the correlation is NaN.
         if correlation.is_nan() || correlation <= least {
             break;
         }
@@ -190,15 +191,15 @@ pub(crate) fn correlated(residuals: &[f64]) -> f64 {
     1.0 + 2.0 * sum
 }
 
-/// Coefficient of a column with its standard error.
+/// Coefficient of a column in a least-squares fit, with its standard error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coefficient {
     pub value: f64,
     pub error: f64,
 }
 
-/// Returns least-squares coefficients of columns for these values; `None` if a column depends on
-/// the columns before it.
+/// Returns the coefficients of columns whose sum fits the values by least squares; `None` if a
+/// column depends on the columns before it.
 pub(crate) fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<Vec<Coefficient>> {
     let basis = right_angled(columns);
     let mut residuals = values.to_vec();
@@ -258,7 +259,7 @@ pub(crate) mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// Values of a curve with normal noise of this standard deviation.
+    /// Returns the values with normally distributed noise of this standard deviation.
     pub(crate) fn noisy(values: impl Iterator<Item = f64>, noise: f64, seed: u64) -> Vec<f64> {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let mut gauss = || (0..12).map(|_| generator.random::<f64>()).sum::<f64>() - 6.0;
@@ -267,11 +268,12 @@ pub(crate) mod tests {
 
     #[test]
     fn correlated_residuals_count_less() {
-        // Sines of 16 points a period, and their values in an order without correlation.
+        // The values are a sine with 16 points in a period, and the same values in an order without
+        // correlation.
         let sine = |index: usize| (std::f64::consts::TAU * index as f64 / 16.0).sin();
         let smooth: Vec<f64> = (0..480).map(sine).collect();
         let factor = correlated(&smooth);
-        // 1 + 2 Σ cos(2πn/16) up to the first that is close to 0.
+        // The factor is 1 + 2 Σ cos(2πn/16), up to the first term that is close to 0.
         let expected: f64 = 1.0
             + 2.0
                 * (1..4)

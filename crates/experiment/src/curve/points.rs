@@ -1,4 +1,5 @@
-//! The points of a curve in the order of time, with signs such that pressing is positive.
+//! The points of a curve in the order of time, with displacements and forces that grow when the
+//! body is pressed.
 
 use crate::curve::numerics::Extent;
 use crate::curve::segments::Segments;
@@ -7,18 +8,19 @@ use crate::read::options::Negate;
 use asperity_data::{Remedy, format_quantity, mean};
 use std::ops::Range;
 
-/// Points in the order of time. If there are many, each is the mean of several points of the file.
+/// Points in the order of time. If a curve has many points, each of these is the mean of several
+/// points of the file.
 pub(crate) struct Points {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub segment: Vec<usize>,
     pub is_still: Vec<bool>,
-    /// Number of points of the file that each point averages.
+    /// For each point, the number of points of the file of which it is the mean.
     pub counts: Vec<usize>,
 }
 
 impl Points {
-    /// Averages up to `count` neighbours each.
+    /// Creates points, each of which is the mean of up to `count` neighbouring points.
     pub fn averaged(
         displacement: &[f64],
         force: &[f64],
@@ -42,12 +44,10 @@ impl Points {
         points
     }
 
-    /// Returns true if the curve begins with an approach.
     pub fn begins_with_approach(&self) -> bool {
         self.segment[0] == 0
     }
 
-    /// Returns the index of the last segment.
     pub fn last_segment(&self) -> usize {
         self.segment[self.segment.len() - 1]
     }
@@ -71,8 +71,9 @@ impl Points {
         range.start..range.end - pause
     }
 
-    /// Reverses displacement and force so that pressing is positive: as `asked`, or else according
-    /// to the first segment.
+    /// Reverses the signs of displacement and force so that both grow when the body is pressed. If
+    /// `asked` is given, these signs are reversed; otherwise the first segment decides. Returns
+    /// which signs were reversed.
     pub fn reverse(&mut self, asked: Option<Negate>) -> Result<Negate, ExperimentError> {
         let first = self.range_of(self.segment[0]);
         let moved = self.displacement[first.end - 1] - self.displacement[0];
@@ -109,7 +110,7 @@ impl Points {
     }
 
     /// Adds the deflection of an instrument of this stiffness in N/m to the displacement of the
-    /// body, which the column `name` contains. Returns a sentence that says so.
+    /// body, which the column `name` contains. Returns a sentence on this conversion.
     pub fn add_deflection(&mut self, name: &str, stiffness: f64) -> String {
         for (displacement, force) in self.displacement.iter_mut().zip(&self.force) {
             *displacement += force / stiffness;
@@ -120,8 +121,8 @@ impl Points {
         )
     }
 
-    /// Returns the displacements in m at which the segments up to number `last` end. A single
-    /// retraction begins at the largest displacement.
+    /// Returns the displacements in m at which the segments up to number `last` end. If the curve
+    /// is a retraction alone, the approach before it ends at the largest displacement.
     pub fn turns(&self, last: usize) -> Vec<f64> {
         let mut turns = Vec::with_capacity(last + 1);
         for number in 0..=last {
@@ -148,8 +149,8 @@ fn reverse_signs(values: &mut [f64]) {
     }
 }
 
-/// Returns index ranges of up to `count` neighbouring points that belong to one segment, and either
-/// all to a pause or none.
+/// Returns index ranges of up to `count` neighbouring points. All points of a range belong to the
+/// same segment, and either all or none of them belong to a pause.
 fn like_neighbours(segments: &Segments, count: usize) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for (index, number) in segments.numbers.iter().enumerate() {

@@ -4,21 +4,24 @@
 use crate::curve::numerics::Extent;
 use crate::read::points::Label;
 
-/// Share of the range by which the displacement comes back after a turning point.
+/// Smallest way back after a turning point, as a share of the range of displacements.
 const TURN: f64 = 0.05;
-/// Share of the points that a smoothed displacement averages.
+/// Number of points over which the displacement is averaged for smoothing, as a share of all
+/// points.
 const SMOOTHING: f64 = 1e-3;
-/// Share of the range of the displacement within which a pause stays.
+/// Largest change of the displacement during a pause at a turning point, as a share of the range of
+/// displacements.
 const STILL: f64 = 0.01;
-/// Share of the range of the displacement above which a part with one label is a motion, if it is
-/// as fast as others.
+/// Smallest change of the displacement, as a share of the range, with which a part with one label
+/// counts as a motion, if it is about as fast as other parts.
 const SHORTEST: f64 = 0.002;
 /// Smallest number of points of a pause.
 const FEWEST: usize = 10;
-/// Least ratio of the points of a pause to the points of a motion over the same way.
+/// Smallest ratio of the number of points of a pause to the number of points of a motion over the
+/// same way.
 const MORE: f64 = 8.0;
-/// Mean step between points, over the range of the displacement, above which the rows are not in
-/// the order of time.
+/// Mean distance between consecutive displacements, as a share of their range, above which the rows
+/// are not in the order of time.
 const SHUFFLED: f64 = 0.2;
 
 pub(crate) struct Segments {
@@ -29,8 +32,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// Finds segments by the labels of a column, or by the turning points of the displacement if
-    /// there are no labels.
+    /// Finds the segments by the labels of the points, or by the turning points of the displacement
+    /// if there are no usable labels.
     pub fn of(displacement: &[f64], labels: &[Label]) -> Self {
         let mut segments = by_labels(labels, displacement).unwrap_or_else(|| Segments {
             numbers: by_turning_points(displacement),
@@ -42,7 +45,7 @@ impl Segments {
         segments
     }
 
-    /// Exchanges the first two segments, of which the first one has `first` points.
+    /// Exchanges the first two segments. The first segment has `first` points.
     pub fn exchange(&mut self, first: usize) {
         self.is_still.rotate_left(first);
         let second = self.numbers.len() - first;
@@ -55,8 +58,8 @@ impl Segments {
         self.numbers.partition_point(|segment| *segment < number)
     }
 
-    /// Marks the points beside each turning point as a pause, if many more points stay there than
-    /// pass by.
+    /// Marks the points near each turning point as a pause, if there are many more of them than in
+    /// a motion over the same way.
     fn find_pauses(&mut self, displacement: &[f64]) {
         let near = STILL * Extent::of(displacement.iter().copied()).width();
         let last_segment = self.numbers.last().copied().unwrap_or(0);
@@ -81,8 +84,8 @@ impl Segments {
     }
 }
 
-/// Returns true if the displacement jumps back and forth from point to point, as it does for rows
-/// in a wrong order.
+/// Returns true if the displacement changes so much from point to point that the rows cannot be in
+/// the order of time.
 pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     let range = Extent::of(displacement.iter().copied());
     let way: f64 = displacement
@@ -92,7 +95,7 @@ pub(crate) fn are_shuffled(displacement: &[f64]) -> bool {
     way > SHUFFLED * range.width() * displacement.len() as f64
 }
 
-/// Returns running means over a share of the points.
+/// Returns the displacements smoothed by running means.
 fn smoothed(displacement: &[f64]) -> Vec<f64> {
     let last = displacement.len() - 1;
     let widest = (0.5 * SMOOTHING * last as f64) as usize;
@@ -106,7 +109,7 @@ fn smoothed(displacement: &[f64]) -> Vec<f64> {
 }
 
 /// Returns the index of the segment of each point. Segments end at turning points of the smoothed
-/// displacement. After a turning point the displacement comes back by a share of its range.
+/// displacement, after which the displacement goes back by at least [`TURN`] of its range.
 fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     let smooth = smoothed(displacement);
     let least = TURN * Extent::of(smooth.iter().copied()).width();
@@ -115,10 +118,10 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
         return numbers;
     }
     let mut number = 0;
-    // Indices of the highest and the lowest value since the last turn.
+    // Indices of the highest and the lowest value since the last turning point.
     let mut highest = 0;
     let mut lowest = 0;
-    // Whether the displacement grows; `None` at the beginning.
+    // True while the displacement grows; `None` before the direction is known.
     let mut grows: Option<bool> = None;
     for (index, &value) in smooth.iter().enumerate() {
         if value > smooth[highest] {
@@ -147,7 +150,7 @@ fn by_turning_points(displacement: &[f64]) -> Vec<usize> {
     numbers
 }
 
-/// Returns the largest way from point to point in m, as a mean over a part with one label.
+/// Returns the mean way from point to point, in m, of the fastest part with one label.
 fn fastest_part(labels: &[Label], displacement: &[f64]) -> f64 {
     let mut fastest = 0.0_f64;
     let mut start = 0;
@@ -160,8 +163,9 @@ fn fastest_part(labels: &[Label], displacement: &[f64]) -> f64 {
     fastest
 }
 
-/// Finds segments by the labels of a file. Neighbouring parts in one direction are one segment, and
-/// parts without motion are pauses. Returns `None` if the labels do not separate the directions.
+/// Finds segments by the labels of a file. Consecutive parts in the same direction form one
+/// segment, and parts without motion are pauses. Returns `None` if a part contains motions in both
+/// directions, or if all parts have the same direction.
 fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
     let range = Extent::of(displacement.iter().copied()).width();
     let least = TURN * range;
@@ -171,7 +175,7 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         is_still: Vec::with_capacity(labels.len()),
     };
     let mut number = 0;
-    // Whether the part before pressed the body; `None` before the first motion.
+    // True if the previous motion pressed the body; `None` before the first motion.
     let mut pressed_before = None;
     for part in labels.chunk_by(|label, next| label == next) {
         let is_pause = part[0].is_pause;
@@ -182,7 +186,8 @@ fn by_labels(labels: &[Label], displacement: &[f64]) -> Option<Segments> {
         if !is_pause && width > 2.0 * moved.abs().max(least) {
             return None;
         }
-        // A short step of a loading by steps moves as fast as its other parts.
+        // A short step of a loading by steps is a motion and not a pause, because it is about as
+        // fast as other parts.
         let is_step = moved.abs() > (SHORTEST * range).max(width - moved.abs())
             && MORE * moved.abs() > fastest * part.len() as f64;
         let stays = is_pause || moved.abs() < least && !is_step;

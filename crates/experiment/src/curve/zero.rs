@@ -9,22 +9,23 @@ use crate::error::{ExperimentError, refused};
 use crate::read::options::{CurveOptions, Drift, Tilt};
 use asperity_data::{Note, Remedy, format_quantity, mean};
 
-/// Drift or tilt, in standard errors, above which it is reported to remain in a curve.
+/// Smallest drift or tilt, in standard errors, that is reported as remaining in the curve.
 const REMAINS: f64 = 5.0;
-/// Residual of the lines of drift, tilt and step, divided by the noise between neighbouring points,
-/// above which the parts without contact are not straight.
+/// Residual of the fit of drift, tilt and step, divided by the noise from differences of
+/// neighbouring points, above which the parts without contact are not straight.
 const CURVED: f64 = 1.5;
-/// Change along a line, divided by the residual of parts that are not straight, above which it
-/// still counts as drift or tilt.
+/// Smallest change of the force by a drift or tilt, divided by the residual, that counts if the
+/// parts without contact are not straight.
 const DOMINATES: f64 = 20.0;
 
 /// Point without contact.
 struct FreePoint {
-    /// Time and displacement, as shares of the whole curve.
+    /// Time as a share of the whole curve, from 0 to 1. `displacement` is a share of the range of
+    /// displacements.
     time: f64,
     displacement: f64,
     is_after_contact: bool,
-    /// Force, N.
+    /// Force in N.
     force: f64,
 }
 
@@ -39,13 +40,13 @@ impl FreePoint {
         }
     }
 
-    /// Returns 1 after contact, 0 before.
+    /// Returns 1 for a point after contact, and 0 for a point before contact.
     fn step(&self) -> f64 {
         f64::from(u8::from(self.is_after_contact))
     }
 }
 
-/// Changes of the force along which points without contact are fitted.
+/// Terms of the force without contact that a fit has in addition to the zero.
 #[derive(Clone, Copy)]
 struct Terms {
     drift: bool,
@@ -55,8 +56,8 @@ struct Terms {
 
 /// Zero, drift, tilt and step of the force without contact in N. The drift is the change from the
 /// first to the last point of the curve. The tilt is the change over the range of the displacement.
-/// The step is the difference of the force after and before contact that neither drift nor tilt
-/// explains. Terms that were not fitted are 0.
+/// The step is the force after contact minus the force before contact, without the part that drift
+/// and tilt explain. Terms that were not fitted are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Slopes {
     zero: f64,
@@ -66,7 +67,8 @@ struct Slopes {
 }
 
 impl Slopes {
-    /// Returns `None` if the points cannot separate the terms.
+    /// Fits the zero and the given terms to points without contact. Returns `None` if the points
+    /// cannot separate the terms.
     fn through(points: &[FreePoint], terms: Terms) -> Option<Slopes> {
         let mut columns = vec![vec![1.0; points.len()]];
         if terms.drift {
@@ -98,10 +100,10 @@ impl Slopes {
     }
 }
 
-/// Deviation of points without contact from drift, tilt and step, N.
+/// Deviation in N of the points without contact from the fit of zero, drift, tilt and step.
 struct Residual {
     root_mean_square: f64,
-    /// Deviation expected from the noise between neighbouring points.
+    /// Deviation that is expected from the differences of neighbouring points.
     noise: f64,
 }
 
@@ -133,13 +135,14 @@ impl Residual {
 
 /// Zero, drift and tilt as they were subtracted from a curve.
 pub(crate) struct Subtracted {
-    /// Drift, tilt and step that remain, N; 0 for each that was not found.
+    /// Drift, tilt and step that remain in the curve, in N; 0 for a term that was not found.
     pub remaining: [f64; 3],
-    /// Step of the force by drag, N, taken off the retractions; 0 if there is none.
+    /// Step of the force by drag in N that was subtracted from the retractions; 0 if there is none.
     pub step_of_retraction: f64,
-    /// Values at each point of the lines that were subtracted, without the zero.
+    /// Values, at each point, of the lines that were subtracted, without the zero. Lines are the
+    /// contributions of drift, tilt and step to the force.
     pub columns: Vec<Vec<f64>>,
-    /// Sentences on all of them.
+    /// Sentences on zero, drift, tilt and step.
     pub statement: Note,
 }
 
@@ -200,8 +203,8 @@ impl FreeParts {
         })
     }
 
-    /// Returns the points without contact. Those after contact count if there are points before
-    /// contact too.
+    /// Returns the points without contact that give the zero ([`Self::base`]). If there are enough
+    /// points before and after contact, those after contact are added.
     fn points(&self, points: &Points) -> Vec<FreePoint> {
         let count = points.force.len();
         let after = if self.has_both() {
@@ -237,16 +240,19 @@ struct Lines<'a> {
     removed: Terms,
     /// Slopes of the terms that are subtracted.
     slopes: Slopes,
-    /// Slopes with a step, if a step is significant.
+    /// Slopes of a fit with a step; `None` if the step is not significant.
     with_step: Option<Slopes>,
-    /// Slopes of all terms that the points can separate, which the statement names.
+    /// Slopes of all terms that the points can separate. The statement names these slopes.
     stated: Slopes,
     is_straight: bool,
-    /// Change of the force in N up to which a slope does not count.
+    /// Largest change of the force in N that does not count as a drift, tilt or step.
     least_change: f64,
 }
 
 impl<'a> Lines<'a> {
+    /// Fits the lines through the points without contact. Returns an error if drift and tilt have
+    /// to be removed but cannot be separated. If the parts without contact are not straight, only a
+    /// large change of the force counts as drift, tilt or step.
     fn fit(
         free: &'a FreeParts,
         points: &Points,
@@ -288,7 +294,8 @@ impl<'a> Lines<'a> {
         Ok(lines)
     }
 
-    /// Returns the slopes with a step, if the force after contact differs from the force before.
+    /// Returns the slopes of a fit with a step, if the force after contact differs significantly
+    /// from the force before contact.
     fn significant_step(&self, points: &[FreePoint]) -> Option<Slopes> {
         let all = Terms {
             drift: true,
@@ -321,13 +328,14 @@ impl<'a> Lines<'a> {
         Slopes::through(points, drift).unwrap_or_default()
     }
 
-    /// Returns true if a slope is too large to be noise.
+    /// Returns true if a term is too large to be an effect of noise.
     fn remains(&self, slope: Coefficient) -> bool {
         slope.value.abs() > self.least_change.max(REMAINS * slope.error)
     }
 
-    /// Returns the step in N by which the zero of a retraction alone differs from the zero of the
-    /// part before contact, because it has the zero of its own end.
+    /// Returns the step in N by which the zero of the force differs from its value before contact,
+    /// if only a retraction is used. The zero of the force is then that at the end of the
+    /// retraction.
     fn step_of_zero(&self) -> f64 {
         let segments = &self.options.segments;
         let is_retraction_alone = !segments.is_empty() && !segments.contains(&1);
@@ -337,8 +345,9 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Returns the step in N that is taken off the retractions, since a drag makes it: the force on
-    /// the retraction is lower. 0 without such a step, or for a retraction with its own zero.
+    /// Returns the step in N that is subtracted from the retractions because it results from drag,
+    /// which makes the force on a retraction lower. Returns 0 if there is no such step, or if only
+    /// a retraction is used, which has a zero of its own.
     fn step_of_retraction(&self) -> f64 {
         match self.with_step {
             Some(slopes) if self.step_of_zero() == 0.0 => slopes.step.value.min(0.0),
@@ -346,17 +355,17 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Returns true for a drift that stays in the curve.
+    /// Returns true if a significant drift remains in the curve.
     fn keeps_drift(&self) -> bool {
         self.remains(self.stated.drift) && !self.removed.drift
     }
 
-    /// Returns true for a tilt that stays in the curve.
+    /// Returns true if a significant tilt remains in the curve.
     fn keeps_tilt(&self) -> bool {
         self.remains(self.stated.tilt) && !self.removed.tilt
     }
 
-    /// Returns drift, tilt and step that remain, N.
+    /// Returns the drift, the tilt and the step that remain in the curve, in N.
     fn remaining(&self) -> [f64; 3] {
         let step = self.stated.step.value - self.step_of_retraction();
         let mut remaining = [0.0, 0.0, step];
@@ -371,7 +380,7 @@ impl<'a> Lines<'a> {
         remaining
     }
 
-    /// Returns sentences on the zero, on all slopes and on those that remain.
+    /// Returns sentences on the zero, on drift and tilt, and on the terms that remain in the curve.
     fn statement(&self, zero: f64) -> Note {
         let mut text = format!("Zero of the force at {}. ", newton(zero));
         text += &self.slopes_in_words();
@@ -403,7 +412,7 @@ impl<'a> Lines<'a> {
         note
     }
 
-    /// Returns the sentences on drift and tilt with their errors, and what was done to them.
+    /// Returns sentences on drift and tilt with their errors, and on whether they were removed.
     fn slopes_in_words(&self) -> String {
         let known_drift = known_drift(self.options);
         let drift = newton(self.stated.drift.value + known_drift.unwrap_or(0.0));
@@ -441,7 +450,7 @@ fn newton(force: f64) -> String {
     format_quantity(force, "N")
 }
 
-/// Returns what was done to a slope, in words.
+/// Returns in words whether a drift or tilt was removed.
 fn treatment(is_removed: bool) -> &'static str {
     if is_removed {
         "it was removed"
@@ -456,7 +465,8 @@ mod tests {
     use crate::common::{from_text, lines, of_spring};
     use crate::curve::MeasuredCurve;
 
-    /// The curve of the spring with a drift, a tilt and a step after contact, all in nN.
+    /// Returns the text of the curve of a spring with a drift, a tilt and a step after contact, all
+    /// in nN.
     fn made(drift: f64, tilt: f64, step: f64) -> String {
         lines(
             of_spring(600)
@@ -493,8 +503,8 @@ mod tests {
         assert!((end(Drift::Known(5.99e-9)) - without).abs() < 2e-10);
     }
 
-    /// A retraction alone touches where compression ends and the force is zero, here at the
-    /// displacement zero.
+    /// For a retraction alone, the contact point is where compression ends and the force is zero,
+    /// here at the displacement 0.
     #[test]
     fn a_retraction_alone_touches_where_it_leaves_compression() {
         let pulled = |at: f64| (at, if at < -50.0 { 0.0 } else { at });
@@ -506,8 +516,9 @@ mod tests {
         assert_eq!(from_text(&text, &options).unwrap().touch, 0.0);
     }
 
-    /// Drift over time and tilt over the displacement are separated by the parts before and after
-    /// contact; a difference of the force before and after contact is neither.
+    /// Drift over time and tilt over the displacement can be separated by the parts before and
+    /// after contact. A difference between the forces before and after contact is neither drift nor
+    /// tilt.
     #[test]
     fn what_remains_without_contact_is_named_with_its_remedy() {
         let keep = |text: &str| {
@@ -520,7 +531,8 @@ mod tests {
         assert_eq!(keep(&made(-3.0, 0.0, 0.0)), [-3.0, 0.0, 0.0]);
         assert_eq!(keep(&made(2.0, -4.0, 0.0)), [2.0, -4.0, 0.0]);
         assert_eq!(keep(&made(0.0, 0.0, 2.0)), [0.0, 0.0, 2.0]);
-        // Waves of the force are neither; a retraction alone has its own zero.
+        // Waves of the force are neither drift nor tilt, and a retraction alone has a zero of its
+        // own.
         let waves = lines(
             of_spring(600)
                 .into_iter()

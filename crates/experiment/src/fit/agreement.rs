@@ -1,4 +1,4 @@
-//! How far a model and a measured curve agree in contact.
+//! Agreement between a model and a measured curve in contact.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::dot;
@@ -9,17 +9,20 @@ use std::fmt;
 
 /// Residual in contact, in units of the noise, above which a model does not describe the curve.
 pub(crate) const MISFIT: f64 = 1.5;
-/// Share of the largest force above which a residual is counted.
+/// Share of the largest force above which a residual is counted in
+/// [`Agreement::beyond_one_percent`].
 const NOTABLE: f64 = 0.01;
-/// Largest shares of the largest force with which a model describes a curve well, and roughly.
+/// Largest residual, as a share of the largest force, with which a model describes a curve well.
 const WELL: f64 = 0.01;
+/// Largest residual, as a share of the largest force, with which a model describes a curve roughly.
 const ROUGHLY: f64 = 0.03;
-/// Largest share of the points in contact that may lie at jumps. If there are more, they count as
-/// all others.
+/// Largest share of the points in contact that may lie at jumps. If there are more, they are
+/// treated like all other points.
 const MOST_AT_JUMPS: f64 = 0.1;
 
-/// Agreement of a model with a measured curve over the points at which the body touches, in the
-/// measurement or in the model. Points on the wrong side of a jump of the model count apart.
+/// Agreement of a model with a measured curve over the points that are in contact in the
+/// measurement or in the model. Points at jumps, which lie on the wrong side of a jump of the
+/// model, are counted separately.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Agreement {
@@ -30,26 +33,26 @@ pub struct Agreement {
     /// [`Self::residual`] divided by the largest magnitude of the force of the curve.
     pub residual_over_largest_force: f64,
     /// Share of the points in contact, from 0 to 1, whose residual exceeds 1 % of the largest
-    /// force; points at jumps do not count.
+    /// force. Points at jumps are left out.
     pub beyond_one_percent: f64,
-    /// Share of the points in contact, from 0 to 1, at jumps.
+    /// Share of the points in contact, from 0 to 1, that lie at jumps.
     pub at_jumps: f64,
     /// Largest distance in m of a point at a jump from the jump of the model; `None` without such
     /// points.
     pub off_at_jumps: Option<f64>,
 }
 
-/// How well a model describes a curve, in grades.
+/// Grade of the description of a curve by a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Grade {
-    /// Within the noise of the force.
+    /// The model describes the curve within the noise of the force.
     WithinNoise,
-    /// Within 1 % of the largest force.
+    /// The residual is at most 1 % of the largest force.
     Well,
-    /// Within 3 % of the largest force.
+    /// The residual is at most 3 % of the largest force.
     Roughly,
-    /// By a residual above 3 % of the largest force.
+    /// The residual is above 3 % of the largest force.
     No,
 }
 
@@ -76,11 +79,11 @@ pub(crate) struct Compared<'a> {
     /// Residuals of all points in units of the noise.
     pub residuals: &'a [f64],
     pub in_contact: &'a [bool],
-    /// Distance from the jump for each point at a jump, m.
+    /// Distance in m from the jump, for each point at a jump; `None` for other points.
     pub distances_from_jumps: &'a [Option<f64>],
 }
 
-/// Agreement, and numbers over the same points in units of the noise.
+/// Agreement, and results for the same points in units of the noise.
 pub(crate) struct Comparison {
     pub agreement: Agreement,
     pub residual_over_noise: f64,
@@ -88,6 +91,8 @@ pub(crate) struct Comparison {
 }
 
 impl Compared<'_> {
+    /// Computes the agreement over the points in contact. Points at jumps are left out, unless they
+    /// are too many.
     pub fn comparison(&self) -> Comparison {
         let points = self.in_contact.iter().filter(|touches| **touches).count();
         let mut at_jumps = 0;
@@ -178,8 +183,8 @@ mod tests {
     use crate::common::{read, rubber};
     use crate::read::options::Drift;
 
-    /// Ten points in contact, of which one lies at a jump and one deviates by 2 % of the largest
-    /// force.
+    /// Ten points are in contact. One of them lies at a jump, and another one deviates by 2 % of
+    /// the largest force.
     #[test]
     fn points_at_jumps_count_apart() {
         let mut curve = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);
@@ -222,7 +227,7 @@ mod tests {
         );
         assert_eq!(agreement.grade(20.0, true), Grade::Well);
         assert_eq!(agreement.grade(1.0, false), Grade::WithinNoise);
-        // Many points at jumps count as all others.
+        // If many points lie at jumps, they are treated like all other points.
         for distance in &mut distances[50..54] {
             *distance = Some(1e-9);
         }

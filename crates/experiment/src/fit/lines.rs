@@ -1,27 +1,32 @@
-//! The straight lines of a curve, such as the zero of its force, which each model refines.
+//! Lines of a curve: contributions to the force, such as its zero and its drift, that were
+//! estimated before the fit, and that are fitted again for each computed model.
 //!
-//! The points without contact determine the lines with the noise of the curve, whatever the
-//! residuals in contact are. A model that deviates in contact cannot gain there by another zero.
+//! In this fit, the points without contact have the weight that follows from the noise of the
+//! curve, however large the residuals in contact are. So a model that deviates from the curve in
+//! contact cannot improve its agreement by a wrong zero.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::dot;
 use crate::fit::population::WRONG_SIDE;
 
-/// Smallest pivot of a matrix, as a share of its diagonal, that is no rounding.
+/// Smallest pivot of a matrix, as a share of its diagonal element, that is not a rounding error.
 const LEAST_PIVOT: f64 = 1e-12;
 
-/// Lines of a curve.
+/// Lines of a curve, with the data for their fit.
 pub(crate) struct Lines {
     columns: Vec<Vec<f64>>,
-    /// True for each point of the curve in contact.
+    /// True for each point of the curve that is in contact.
     in_contact: Vec<bool>,
-    /// Sums of products of the columns over the points without contact, and over the others.
+    /// Sums of the products of each pair of columns over the points without contact. Points without
+    /// contact of segments that are not used are included. `contact_products` has the sums over the
+    /// points in contact.
     free_products: Vec<Vec<f64>>,
     contact_products: Vec<Vec<f64>>,
 }
 
 impl Lines {
-    /// `has_zero` is true if the zero of the force is a free parameter.
+    /// Prepares the fit of the lines of a curve. `has_zero` is true if the zero of the force is a
+    /// free parameter, and therefore no line.
     pub fn new(curve: &MeasuredCurve, has_zero: bool) -> Self {
         let in_contact = curve.in_contact();
         let first = usize::from(has_zero || !curve.subtracted.has_zero);
@@ -65,8 +70,9 @@ impl Lines {
     }
 
     /// Returns the residuals after a fit of the lines. Residuals and `noise` are in units of the
-    /// noise of the curve. Residuals in contact have a standard deviation of `noise` in the fit,
-    /// others of 1; residuals above 5 standard deviations count as 5.
+    /// noise of the curve. In the fit, residuals in contact have the standard deviation `noise`,
+    /// and other residuals the standard deviation 1. Residuals above 5 standard deviations are
+    /// replaced by 5 standard deviations.
     pub fn refined(&self, residuals: &[f64], noise: f64) -> Vec<f64> {
         let mut refined = residuals.to_vec();
         if self.columns.is_empty() {
@@ -104,8 +110,8 @@ impl Lines {
     }
 }
 
-/// Solves a system of equations with a symmetric matrix that has no negative eigenvalue. An unknown
-/// that the equations do not determine becomes 0.
+/// Solves a system of linear equations with a symmetric matrix without negative eigenvalues. An
+/// unknown that the equations do not determine is 0.
 fn solved(mut matrix: Vec<Vec<f64>>, mut values: Vec<f64>) -> Vec<f64> {
     let count = values.len();
     let diagonal: Vec<f64> = (0..count).map(|index| matrix[index][index]).collect();
@@ -157,8 +163,8 @@ mod tests {
         assert_eq!(solved(twice, vec![3.0, 3.0]), [3.0, 0.0]);
     }
 
-    /// Residuals of 100 noises in contact move the zero by no more than its error; at a noise of 1
-    /// the zero is the mean of all residuals.
+    /// With the noise 100, residuals of 100 in contact move the zero by no more than its error.
+    /// With the noise 1, the zero is the mean of all residuals.
     #[test]
     fn the_zero_is_held_by_the_part_without_contact() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);

@@ -35,15 +35,17 @@ use asperity_surface::lines::MeasuredRoughness;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Number of points that are enough for a curve whose residuals are more than noise.
+/// Number of points that a search uses if the residuals exceed the noise. More points would not
+/// reduce the residuals.
 const ENOUGH: usize = 400;
-/// Largest number of times that ranges are made wider.
+/// Largest number of times that the ranges of the parameters are widened.
 const EXTENSIONS: usize = 4;
-/// Noise, in standard deviations, that a bound of the work of adhesion by the pull-off allows for.
+/// Allowance for noise, in standard deviations, in the bound of the work of adhesion that follows
+/// from the pull-off force.
 const ALLOWED_NOISE: f64 = 3.0;
 
-/// Fit that finds free parameters of a scene, such as the work of adhesion, by comparing the
-/// computed force of the scene with a [`MeasuredCurve`].
+/// A fit that finds free parameters of a scene, such as the work of adhesion, by comparison of the
+/// computed force with a [`MeasuredCurve`].
 ///
 /// ```
 /// use asperity_data::Control;
@@ -90,7 +92,7 @@ pub struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// Makes a fit of a scene, so far without free parameters. [`Fit::free`] adds them.
+    /// Creates a fit of a scene without free parameters. [`Fit::free`] adds free parameters.
     pub fn of(document: &'a Document) -> Self {
         Fit {
             document,
@@ -106,8 +108,8 @@ impl<'a> Fit<'a> {
         self
     }
 
-    /// Adds a parameter that the fit searches. [`Free::within`] gives its range; for a bare
-    /// [`Parameter`] the fit chooses the range.
+    /// Adds a parameter that the fit searches. [`Free::within`] gives the range of the search. If a
+    /// [`Parameter`] is given without a range, the fit chooses the range.
     #[must_use]
     pub fn free(mut self, free: impl Into<Free>) -> Self {
         self.free.push(free.into());
@@ -146,8 +148,8 @@ impl<'a> Fit<'a> {
 
 /// Fits parameters of a scene to a curve. `report` receives the number of curves computed so far.
 ///
-/// While the best value lies at the end of a range that was not given, the fit is repeated with a
-/// wider range.
+/// If the best value lies at the end of a range that the user did not give, the fit is repeated
+/// with a wider range, at most [`EXTENSIONS`] times.
 fn find(
     curve: &MeasuredCurve,
     given: &Document,
@@ -179,7 +181,7 @@ fn find(
     }
 }
 
-/// Makes the result of a search in a space.
+/// Creates the result of the fit from the result of a search.
 fn result(
     document: &Document,
     simulation: &mut Simulation,
@@ -206,7 +208,8 @@ fn result(
     }
     let work_at_most = posterior.work_at_most(&parameters);
     let (_, governing) = simulation.contact(scene)?;
-    // Without adhesion the Tabor number is that of the noise.
+    // If the curve shows no adhesion, the best work of adhesion and its Tabor number result from
+    // noise alone.
     let tabor = match work_at_most {
         Some(_) => None,
         None => governing.tabor_number(scene),
@@ -243,9 +246,10 @@ fn result(
     })
 }
 
-/// Returns the largest work of adhesion in J/m² with which a smooth sphere can have the tension of
-/// the curve (Johnson, Kendall and Roberts), with an allowance for noise and for the distance of
-/// points; `None` for another body, and for a curve that does not show the pull-off.
+/// Returns the largest work of adhesion in J/m² that agrees with the largest tension of the curve,
+/// for a smooth sphere (Johnson, Kendall and Roberts). The tension gets an allowance for the noise
+/// and for the difference to the previous point. Returns `None` for another body, and for a curve
+/// that does not show the pull-off.
 fn most_work_by_pull_off(curve: &MeasuredCurve, scene: &CheckedScene) -> Option<f64> {
     let radius = scene.form.as_ref()?.sphere_radius()?;
     if scene.roughness.is_some() || !curve.detaches {
@@ -261,7 +265,8 @@ fn most_work_by_pull_off(curve: &MeasuredCurve, scene: &CheckedScene) -> Option<
     Some(tension / (1.5 * PI * radius))
 }
 
-/// Limits the interval of the work of adhesion by what the pull-off allows.
+/// Limits the interval of the work of adhesion to the largest value `most` that the pull-off
+/// allows.
 fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
     let Some(most) = most else {
         return;
@@ -272,7 +277,7 @@ fn limit_work(work: &mut FittedParameter, most: Option<f64>) {
     }
 }
 
-/// Returns what the fit takes for granted, in sentences.
+/// Returns sentences on the assumptions of the fit.
 fn assumptions(curve: &MeasuredCurve, free: &[Parameter]) -> Vec<Note> {
     let mut assumptions = Vec::new();
     if !free.contains(&Parameter::Offset) {
@@ -281,9 +286,9 @@ fn assumptions(curve: &MeasuredCurve, free: &[Parameter]) -> Vec<Note> {
     assumptions
 }
 
-/// Returns the sentence on the first touch, which a fit takes from the curve if it does not search
-/// the offset. A displacement that is off by half the distance of two points shifts the modulus by
-/// more than its interval if the noise is small.
+/// Returns a sentence on the contact point, which the fit takes from the curve if the offset is not
+/// a free parameter. The user has to know this: if the noise is small, an error of the contact
+/// point by half the distance of two points shifts the modulus by more than its interval.
 fn fixed_contact_point(curve: &MeasuredCurve) -> Note {
     let mut next = f64::INFINITY;
     for displacement in &curve.displacement {
@@ -301,18 +306,19 @@ fn fixed_contact_point(curve: &MeasuredCurve) -> Note {
     Note::new(text).with(Remedy::Free(Parameter::Offset.name().to_owned()))
 }
 
-/// Result of a search, compared with all points of the curve.
+/// Result of a search, and its residuals at all points of the curve.
 struct Searched {
     result: SearchResult,
     /// Residuals of all points of the curve, in units of the noise.
     residuals: Vec<f64>,
-    /// True for each point at which the body touches, in the measurement or in the model.
+    /// True for each point at which the body is in contact in the measurement or in the model.
     in_contact: Vec<bool>,
-    /// Distance from the jump for each point on the wrong side of a jump, m.
+    /// Distance in m from the jump of the model, for each point on the wrong side of a jump; `None`
+    /// for other points.
     distances_from_jumps: Vec<Option<f64>>,
     /// [`FitResult::misfit`] of the residuals.
     misfit: f64,
-    /// Number of curves computed.
+    /// Number of force curves that the search has computed.
     evaluations: usize,
 }
 
@@ -337,8 +343,9 @@ impl Searched {
     }
 }
 
-/// Searches the parameters. If the residuals of a part of the points are more than noise, the
-/// search uses only these points, because further points would not reduce the residuals.
+/// Searches the parameters. A first search uses a part of the points. If its residuals exceed the
+/// noise, the result comes from this part alone, because further points would not reduce the
+/// residuals.
 fn search(
     curve: &MeasuredCurve,
     document: &Document,
@@ -425,8 +432,8 @@ mod tests {
         }
     }
 
-    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds it
-    /// within its errors.
+    /// The fit to the curve of a rough sphere, whose force jumps at many displacements, finds the
+    /// parameters within their errors.
     #[test]
     fn a_rough_sphere_is_found_within_its_errors() {
         let made = random(13, 1024);
@@ -440,7 +447,8 @@ mod tests {
         let curve = measured(&made, 4);
         let fit = fitted(&curve, &made, "work,modulus,offset");
         assert_found(&made, &fit);
-        // The forces of the model, with the zero and drift of the curve, leave the residual.
+        // The difference between the forces of the curve and of the model, which include zero and
+        // drift, is the residual.
         let in_contact = curve.in_contact();
         let squares = curve
             .force
@@ -465,8 +473,8 @@ mod tests {
         );
     }
 
-    /// First touch lies between two points: an offset that is not fitted shifts the modulus beyond
-    /// its interval, which is said.
+    /// The contact point lies between two points. If the offset is not fitted, its error shifts the
+    /// modulus beyond its interval, and a sentence says so.
     #[test]
     fn an_offset_that_is_not_fitted_is_named() {
         let made = random(4, 512);
@@ -496,7 +504,7 @@ mod tests {
     }
 
     /// A point in the middle of the jump at pull-off changes neither the fit nor the number of
-    /// curves computed for it; as far from the model elsewhere, points are a misfit.
+    /// computed curves. Points elsewhere that are as far from the model increase the misfit.
     #[test]
     fn a_point_inside_a_jump_counts_as_described() {
         let made = random(4, 512);
@@ -539,7 +547,7 @@ mod tests {
         assert!(with(&apart).misfit > 1.2 * clean.misfit);
     }
 
-    /// A rough sphere whose pull-off force is 50 times smaller than that of a smooth one.
+    /// The rough sphere has a pull-off force 50 times smaller than that of a smooth sphere.
     #[test]
     fn a_range_that_ends_below_the_work_of_adhesion_is_extended() {
         let made = random(67, 4096);
@@ -580,8 +588,8 @@ mod tests {
         assert_eq!(bounded.parameters[0].range, given[0].range.unwrap());
     }
 
-    /// The profile of a specimen is not the random one of the scene: no interval excludes the
-    /// truth, and the reason says so.
+    /// The profile of the specimen is not the random profile of the scene. Then no interval
+    /// excludes the true value, and the reason of the misfit names the profile.
     #[test]
     fn another_random_profile_has_the_whole_range_as_interval() {
         let mut made = random(13, 1024);
@@ -600,8 +608,8 @@ mod tests {
         }
     }
 
-    /// For any start the upper bound of the work of adhesion is at most a few times the work that
-    /// the noise hides, γ = noise/(1.5 π R) = 1.1 mJ/m².
+    /// For any initial work of adhesion, the upper bound is at most a few times the work of
+    /// adhesion whose pull-off force equals the noise, γ = noise/(1.5 π R) = 1.1 mJ/m².
     #[test]
     fn a_curve_without_adhesion_has_an_upper_bound_of_it() {
         for (seed, work) in [(1, 0.05), (2, 1e-6)] {
@@ -627,9 +635,9 @@ mod tests {
         }
     }
 
-    /// A tension in contact counts as adhesion if a model without adhesion costs more by half the
-    /// square of 1.96, which is 1.9. Such a model costs 2.4 more for a tension of one standard
-    /// deviation of the noise, and 1.5 more for half that tension.
+    /// A tension in contact counts as adhesion if the negative log-likelihood (cost) of a model
+    /// without adhesion is larger by 1.96²/2 = 1.9. The cost is larger by 2.4 for a tension of one
+    /// standard deviation of the noise, and by 1.5 for half this tension.
     #[test]
     fn a_tension_beyond_the_noise_is_adhesion() {
         let bound = |times: f64| {
@@ -653,8 +661,8 @@ mod tests {
         assert!(bound(0.5).is_some() && bound(1.0).is_none());
     }
 
-    /// For a contact that stiffens, with hysteresis, parts of one curve give overlapping intervals,
-    /// and the residual is stated truly.
+    /// The contact stiffens and has a hysteresis, which the model does not describe. Parts of one
+    /// curve nevertheless give overlapping intervals, and the residual is correct.
     #[test]
     fn parts_of_a_curve_that_is_not_described_have_intervals_that_overlap() {
         let points = rubber(1e-9, 3, |indentation, direction| {
@@ -690,8 +698,8 @@ mod tests {
         );
     }
 
-    /// Ranges and starts are those of the curve: values of the scene for free parameters change no
-    /// bit.
+    /// Ranges and initial values follow from the curve, so the values of free parameters in the
+    /// scene do not change a single bit of the result.
     #[test]
     fn a_start_a_thousand_times_off_changes_nothing() {
         let curve = read(rubber(1e-8, 2, |_, _| 1.0).into_iter(), Drift::Keep);
@@ -710,8 +718,8 @@ mod tests {
         assert!((1e6..4e6).contains(&start), "{start:e}");
     }
 
-    /// A model that does not describe a curve of many points is fitted to a part of them, and no
-    /// other population is computed to its end.
+    /// If the model does not describe a curve with many points, it is fitted to a part of the
+    /// points, and the search stops a second population early.
     #[test]
     fn few_curves_are_computed_where_the_model_does_not_describe_the_curve() {
         let stiffens = |indentation: f64, direction: f64| {
@@ -734,7 +742,7 @@ mod tests {
         );
     }
 
-    /// A parameter is undetermined if its interval is wider than a factor e either way.
+    /// A parameter is undetermined if its interval is wider than a factor e on either side.
     #[test]
     fn a_parameter_is_determined_within_a_factor_e() {
         let plain = read(rubber(1e-9, 1, |_, _| 1.0).into_iter(), Drift::Keep);

@@ -11,48 +11,52 @@ use asperity_scene::{CheckedScene, RunError, Simulation};
 use asperity_surface::Form;
 use std::ops::Range;
 
-/// Number of points of the force curve of each segment without the points at jumps.
+/// Number of points of the computed force curve of each segment, without the points at jumps.
 const SAMPLES: usize = 128;
-/// Number of points of a coarse force curve.
+/// Number of points of a force curve that is computed with low accuracy.
 const FEW: usize = 64;
-/// Largest number of extensions of a loading that does not reach its last displacement.
+/// Largest number of times that a loading is extended if it does not reach its last displacement.
 const EXTENSIONS: usize = 8;
-/// Number of halvings of the last extension.
+/// Number of bisections within the last extension.
 const HALVINGS: usize = 5;
-/// Smallest jump of the force, in units of the noise, that the points resolve.
+/// Smallest jump of the force, in units of the noise, that gets points at both of its ends.
 const NOTABLE: f64 = 2.0;
-/// Number of points on each side of a fold, each half as far from the fold as the point before. A
-/// jump needs none, because its ends are points.
+/// Number of further points on each side of a fold, a place at which the displacement of the
+/// instrument turns back over the indentation. Each point is half as far from the fold as the
+/// previous one. A jump of the contact needs no further points, because both of its ends are points
+/// already.
 const FAN: i32 = 8;
 
-/// Computation of a scene at the displacements of a measured curve.
+/// Computation of the forces of a scene at the displacements of a measured curve.
 pub(crate) struct Model<'a> {
     curve: &'a MeasuredCurve,
     scene: CheckedScene,
     simulation: &'a mut Simulation,
     contact: Option<ContactOfRadius>,
-    /// Noise to which the forces are accurate, in units of the noise of the curve and at least 1.
+    /// Accuracy of the forces: a noise, in units of the noise of the curve and at least 1, compared
+    /// with which errors of the forces are small.
     pub noise: f64,
     pub evaluations: usize,
 }
 
-/// Contact of a scene whose form has this radius in m. Springs and tree are reused for all other
-/// parameters.
+/// Contact of a scene whose form has this radius in m. It is kept, because all other parameters can
+/// change without a new computation of the springs and their tree.
 struct ContactOfRadius {
     contact: Contact,
     radius: f64,
 }
 
-/// Instrument, and points at which a curve is computed.
+/// Stiffness of the instrument in N/m, and number and choice of the points at which a curve is
+/// computed.
 #[derive(Clone, Copy)]
 pub(crate) struct Sampling {
     pub stiffness: f64,
     pub points: usize,
-    /// Smallest jump of the force that gets points at both of its ends, N.
+    /// Smallest jump of the force in N that gets points at both of its ends.
     pub least_jump: f64,
 }
 
-/// Leg of a body and its indentation, m, while it touches.
+/// Motion (leg) of a body in contact, and its indentation in m.
 struct BodyOnLeg {
     leg: Leg,
     indentation: f64,
@@ -61,7 +65,7 @@ struct BodyOnLeg {
 /// Jump of the force of a model over the displacement.
 struct Jump {
     displacement: f64,
-    /// Forces before and after the jump, N.
+    /// Forces in N before and after the jump.
     forces: [f64; 2],
 }
 
@@ -98,7 +102,7 @@ impl<'a> Model<'a> {
         Ok(contact.works_of_adhesion(works).build()?)
     }
 
-    /// Makes the contact of the scene with another radius of its form.
+    /// Creates the contact of the scene with another radius of its form.
     fn contact_of_radius(&mut self, radius: f64) -> Result<ContactOfRadius, ExperimentError> {
         let scene = self.scene.with(|scene| {
             if let Some(of_form) = scene.form.as_mut().and_then(Form::radius_mut) {
@@ -124,9 +128,10 @@ impl<'a> Model<'a> {
         Ok(forces)
     }
 
-    /// Returns for each point of the curve the range of the forces in N before and after the
-    /// nearest jump of the model, minus the force of the model at the point. A jump counts if it is
-    /// at least `least` N and no further away than the neighbouring points; otherwise `None`.
+    /// Returns, for each point of the curve, the range of forces that a jump of the model covers,
+    /// relative to the force of the model at the point, in N. Only jumps of at least `least` N
+    /// between the two neighbouring points count. The value is `None` for a point without such a
+    /// jump.
     pub fn jumps(
         &mut self,
         values: &Values,
@@ -158,11 +163,12 @@ impl<'a> Model<'a> {
         Ok(all)
     }
 
-    /// Returns for each point of the curve the distance in m from the nearest jump of the model, if
-    /// the point lies on the wrong side of the jump; otherwise `None`. Such points form a row that
-    /// begins at the jump. Each has a residual above `least` N, and a force inside the jump or nearer
-    /// to the force of its other side than to that of the model. `residuals` are the measured forces
-    /// minus those of the model, N.
+    /// Returns, for each point of the curve, the distance in m from a jump of the model, if the
+    /// point lies on the wrong side of the jump; otherwise `None`. A point lies on the wrong side
+    /// if its residual exceeds `least` N, and its force lies inside the jump or nearer to the force
+    /// of the model beyond the jump than to the force of the model at the point. All points between
+    /// such a point and the jump have to lie on the wrong side too. `residuals` are the measured
+    /// forces minus those of the model, in N.
     pub fn distances_from_jumps(
         &mut self,
         values: &Values,
@@ -201,8 +207,8 @@ impl<'a> Model<'a> {
         Ok(distances)
     }
 
-    /// Computes the curve of each segment. Calls `take` with the curve, the index range of its
-    /// points in the measured curve, and the displacement at first touch.
+    /// Computes the curve of each segment. Calls `take` with this curve, with the index range of
+    /// the measured points in the segment, and with the measured displacement in m at first touch.
     fn each_segment(
         &mut self,
         values: &Values,
@@ -246,15 +252,15 @@ impl<'a> Model<'a> {
 }
 
 impl BodyOnLeg {
-    /// Returns `None` for a body that is separated at the indentation in m.
+    /// Creates a body in contact. Returns `None` if the body is separated at this indentation in m.
     fn new(leg: Leg, indentation: f64) -> Option<Self> {
         let is_apart = leg.direction() == Direction::Unloading && indentation < leg.end();
         (!is_apart).then_some(BodyOnLeg { leg, indentation })
     }
 }
 
-/// Returns the jumps of a segment. Where the body is separated beyond an end of the segment, it
-/// jumps there.
+/// Returns the jumps of a segment. An end of the segment beyond which the body is separated is a
+/// jump too.
 fn jumps_of(segment: &DisplacementCurve) -> Vec<Jump> {
     let mut jumps = Vec::new();
     for ends in segment.jumps() {
@@ -279,8 +285,8 @@ fn jumps_of(segment: &DisplacementCurve) -> Vec<Jump> {
     jumps
 }
 
-/// Returns the point of a segment at a displacement in m, or the end of the segment for a
-/// displacement that lies beyond it by noise.
+/// Returns the point of a segment at a displacement in m. If the displacement lies beyond the
+/// segment, because of noise, returns the nearer end of the segment.
 fn nearest(segment: &DisplacementCurve, displacement: f64) -> Option<DisplacementPoint> {
     if let Some(point) = segment.at(displacement) {
         return Some(point);
@@ -300,8 +306,8 @@ fn force_at(segment: &DisplacementCurve, displacement: f64) -> f64 {
 }
 
 impl Sampling {
-    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at an
-    /// indentation in m, or for `None` at first touch.
+    /// Returns the curve of a loading up to the displacement `to` in m. The loading begins at the
+    /// indentation `from` in m, or at first touch for `None`.
     fn press(
         self,
         leg: &Leg,
@@ -313,8 +319,9 @@ impl Sampling {
         let displacement = |indentation: f64| -> Result<f64, ContactError> {
             Ok(leg.point(indentation)?.displacement(self.stiffness))
         };
-        // The indentation at which the instrument is at its end is close above `low`. It differs
-        // from the displacement, because the instrument takes a part of the way or is pulled on.
+        // The indentation at which the displacement reaches `to` is sought between `low` and
+        // `high`. It differs from the displacement by the deflection of the instrument, which
+        // adhesion may pull further.
         let mut low = from;
         let mut high = to.max(from);
         for _ in 0..EXTENSIONS {
@@ -343,13 +350,15 @@ impl Sampling {
             indentation: end,
             ..CurvePoint::default()
         };
-        // Close to separation the force may fall as the root of the indentation.
+        // The points are dense near separation, where the force may change like the square root of
+        // the distance from it.
         self.over(leg, [end, from], 2, Some(separated))
     }
 
-    /// Returns the curve of a leg, which is one motion of the body, between two indentations over
-    /// the displacement. Its points are dense near the lower end for a high `power`. They include
-    /// both ends of all resolved jumps, and the point `free` without contact.
+    /// Returns the force over the displacement of a leg, which is one motion of the body, between
+    /// two indentations in m. A larger `power` makes the points denser near the lower indentation.
+    /// The points include both ends of all jumps of at least [`Self::least_jump`], and the point
+    /// `free` without contact.
     pub fn over(
         self,
         leg: &Leg,
@@ -374,8 +383,8 @@ impl Sampling {
         ))
     }
 
-    /// Returns the ascending indentations in m between two ends, with both ends of the jumps of the
-    /// contact.
+    /// Returns ascending indentations in m between two ends, including both ends of the jumps of
+    /// the contact.
     fn indentations(self, leg: &Leg, range: [f64; 2], power: i32) -> Vec<f64> {
         let [low, high] = range;
         let mut indentations = Vec::with_capacity(self.points);
@@ -392,8 +401,8 @@ impl Sampling {
     }
 
     /// Returns the ascending indentations in m of further points near folds. At a fold the
-    /// instrument cannot hold the body any more, which may be close before a jump of the contact.
-    /// `points` ascend in indentation.
+    /// displacement turns back, so that the body becomes unstable on the instrument. A fold may be
+    /// close before a jump of the contact. `points` ascend in indentation.
     fn indentations_at_folds(self, points: &[CurvePoint], direction: Direction) -> Vec<f64> {
         let mut in_time = points.to_vec();
         let sign = match direction {
@@ -404,7 +413,7 @@ impl Sampling {
             }
         };
         let mut folds = Vec::new();
-        // Largest displacement before a point, in the direction of the motion.
+        // Largest displacement of all points before `fold`, in the direction of the motion.
         let mut reached = f64::NEG_INFINITY;
         for neighbours in in_time.windows(3) {
             let [before, fold, after] = [neighbours[0], neighbours[1], neighbours[2]];
@@ -421,7 +430,8 @@ impl Sampling {
     }
 }
 
-/// Adds indentations that approach a fold from a neighbouring point.
+/// Adds indentations between a neighbouring point and a fold, each half as far from the fold as the
+/// previous one.
 fn fan_out(fold: f64, neighbour: f64, indentations: &mut Vec<f64>) {
     for power in 1..=FAN {
         let indentation = fold + (neighbour - fold) * 0.5_f64.powi(power);
@@ -439,8 +449,8 @@ mod tests {
     use crate::fit::statistics::scale;
     use crate::read::options::Drift;
 
-    /// Residuals without noise, in units of 1 % of the pull-off force, of exact forces and of
-    /// coarse forces.
+    /// Returns the residuals of a curve without noise, in units of 1 % of the pull-off force: first
+    /// for forces of full accuracy, then for forces of low accuracy.
     fn rests(made: &Made) -> [Vec<f64>; 2] {
         let mut curve = read(force_curve(&made.scene).into_iter(), Drift::Keep);
         curve.noise = made.noise;

@@ -1,5 +1,5 @@
-//! Parameters of a fit: their names, units and ranges, and the coordinates in which they are
-//! searched.
+//! Parameters of a fit: their names, units and ranges, and the coordinates in which a fit searches
+//! their values.
 
 use crate::error::{ExperimentError, refused};
 use asperity_data::parse_quantity;
@@ -12,19 +12,19 @@ use std::str::FromStr;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Parameter {
-    /// Work of adhesion γ, J/m².
+    /// Work of adhesion γ in J/m².
     Work,
-    /// Work of adhesion on closing γ₁, J/m²: the energy per area gained where the contact grows.
+    /// Work of adhesion on closing γ₁ in J/m²: the energy per area gained where the contact grows.
     ClosingWork,
-    /// Effective modulus E*, Pa.
+    /// Effective modulus E* in Pa.
     Modulus,
-    /// Displacement D₀ that the measured curve has at first touch, m.
+    /// Displacement D₀ in m that the measured curve has at first touch.
     Offset,
-    /// Force F₀ that the measured curve has before contact, N.
+    /// Force F₀ in N that the measured curve has before contact.
     Zero,
-    /// Stiffness of the instrument, N/m.
+    /// Stiffness of the instrument in N/m.
     Stiffness,
-    /// Radius R of the form of the scene, such as a sphere, m.
+    /// Radius R in m of the form of the scene, such as a sphere.
     Radius,
 }
 
@@ -95,8 +95,9 @@ impl Parameter {
         matches!(self, Parameter::Offset | Parameter::Zero)
     }
 
-    /// Returns the least and the largest value that a scene may have for the parameter; `None` for a
-    /// parameter without such limits, or one that no search comes close to.
+    /// Returns the smallest and the largest value that a scene allows for the parameter. Returns
+    /// `None` for a parameter without such limits, or with limits far from the values of any
+    /// search.
     pub(crate) fn allowed_by_scenes(self) -> Option<(f64, f64)> {
         let path = match self {
             Parameter::Modulus => "material.youngs_modulus",
@@ -104,7 +105,8 @@ impl Parameter {
             _ => return None,
         };
         let (least, most) = field(path, None)?.range.ends()?;
-        // Young's modulus is at least 3/4 of the effective modulus.
+        // Young's modulus is at least 3/4 of the effective modulus, so the smallest effective
+        // modulus has to be larger by 4/3 for every Poisson ratio to be allowed.
         let factor = if self == Parameter::Modulus {
             4.0 / 3.0
         } else {
@@ -118,7 +120,7 @@ impl Parameter {
         matches!(self, Parameter::Work | Parameter::ClosingWork)
     }
 
-    /// Returns true if the parameter can be searched between these values.
+    /// Returns true if the parameter can be searched in the range from `low` to `high`.
     fn allows(self, low: f64, high: f64) -> bool {
         let is_allowed = self.is_signed() || low > 0.0 || self.is_work() && low == 0.0;
         is_allowed && low < high && low.is_finite() && high.is_finite()
@@ -136,8 +138,8 @@ impl Parameter {
         format!("two values{least}, the first below the second")
     }
 
-    /// Returns in words a further measurement that helps if a fit cannot separate these two
-    /// parameters. If both are the same parameter, the measurement determines this parameter.
+    /// Returns in words a further measurement that helps if a fit cannot separate two parameters.
+    /// If both arguments are the same parameter, the measurement helps to determine this parameter.
     ///
     /// ```
     /// use asperity_experiment::Parameter;
@@ -150,7 +152,7 @@ impl Parameter {
         if first == second {
             return "less noise, a larger preload, or its value from another measurement";
         }
-        // The parameter that comes first in tables comes first here.
+        // The match below has each pair only in the order of [`Parameter::ALL`].
         let is_in_order = (first as usize) < second as usize;
         let pair = if is_in_order {
             (first, second)
@@ -199,18 +201,18 @@ impl Parameter {
 pub struct Free {
     /// Parameter that is searched.
     pub parameter: Parameter,
-    /// Lower and upper end of the range in SI units; `None` for a range around the start.
+    /// Lower and upper end of the range in SI units; `None` for a range around the initial value.
     pub(crate) range: Option<(f64, f64)>,
 }
 
 impl Free {
-    /// Makes a free parameter with the lower and the upper end of its range, in the SI unit of the
-    /// parameter.
+    /// Creates a free parameter with the lower and the upper end of its range, in the SI unit of
+    /// the parameter.
     ///
     /// # Errors
     /// Returns an error if an end is not finite, if the lower end is not below the upper end, or if
-    /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative, and of the
-    /// others only a work of adhesion can be 0.
+    /// the parameter cannot have these values. Only `Offset` and `Zero` can be negative. Of the
+    /// other parameters only a work of adhesion can be 0.
     pub fn within(parameter: Parameter, range: (f64, f64)) -> Result<Self, ExperimentError> {
         if parameter.allows(range.0, range.1) {
             return Ok(Free {
@@ -288,15 +290,17 @@ fn range_of(parameter: Parameter, text: &str) -> Result<(f64, f64), String> {
     }
 }
 
-/// Coordinate in which a free parameter is searched: the value in a unit, the share of the work of
-/// adhesion (for the work on closing), or a logarithm. The coordinate of the work of adhesion is
-/// linear up to its unit, so that it reaches 0.
+/// Coordinate in which a free parameter is searched. For the offset and the zero it is the value in
+/// a unit, for the work of adhesion on closing its share of the work of adhesion, and for other
+/// parameters a logarithm. The coordinate of the work of adhesion is linear up to a unit and
+/// logarithmic above it, so that the work of adhesion can be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coordinate {
     pub parameter: Parameter,
     pub start: f64,
     pub range: (f64, f64),
-    /// Unit for a parameter that may have either sign, and for the work of adhesion.
+    /// Unit of the coordinate in SI units, for a parameter that may have either sign and for the
+    /// work of adhesion.
     pub unit: f64,
 }
 
@@ -342,7 +346,8 @@ impl Coordinate {
         if self.parameter == Parameter::ClosingWork {
             return (0.0, 1.0);
         }
-        // No other coordinate depends on other parameters.
+        // Only the coordinate of the work on closing depends on other parameters, so any values
+        // will do here.
         let values = [1.0; 7];
         (
             self.of(self.range.0, &values),
@@ -389,7 +394,7 @@ mod tests {
             assert!((one.of(value, &values) - at).abs() < 1e-12, "{one:?}");
             assert!((one.value(at, &values) - value).abs() < 1e-12, "{one:?}");
         }
-        // A work on closing is at most that on opening, also where there is none.
+        // The work of adhesion on closing is at most that on opening, also if that is 0.
         let closing = coordinate(Parameter::ClosingWork, (0.0, 10.0));
         assert_eq!(
             (closing.of(9.0, &values), closing.value(1.5, &values)),

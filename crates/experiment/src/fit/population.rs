@@ -1,25 +1,25 @@
 //! The members of a search: values of the parameters, with their residuals and costs.
 
-/// Share of different members below which the extent of a population is meaningless.
+/// Smallest share of different members with which the extent of a population is meaningful.
 const DISTINCT: f64 = 0.5;
-/// Share of different members above which the copies of a step have moved apart.
+/// Share of different members from which on the copies made in a step have moved apart.
 const MOVED: f64 = 0.8;
-/// Residual in units of the noise above which a point counts less, because it is on the wrong side
-/// of a jump.
+/// Residual in units of the noise above which a point has a smaller weight, because it may lie on
+/// the wrong side of a jump.
 pub(crate) const WRONG_SIDE: f64 = 5.0;
 
-/// Place in the space of the coordinates, with the residuals of the curve in units of its noise.
+/// A value of each coordinate, and the residuals of the curve at these values in units of the noise
+/// of the curve.
 #[derive(Clone)]
 pub(crate) struct Member {
     pub place: Vec<f64>,
     pub residuals: Vec<f64>,
-    /// True for each point of the curve at which the body touches, in the measurement or in the
-    /// model.
+    /// True for each point of the curve that is in contact in the measurement or in the model.
     pub in_contact: Vec<bool>,
 }
 
 impl Member {
-    /// Returns those of the residuals that belong to points in contact.
+    /// Returns the residuals of the points in contact.
     pub fn contact_residuals(&self, residuals: &[f64]) -> Vec<f64> {
         let points = residuals.iter().zip(&self.in_contact);
         points
@@ -29,11 +29,11 @@ impl Member {
     }
 }
 
-/// Members with their costs at a noise.
+/// Members of a search, with their costs for a noise.
 pub(crate) struct Population {
     pub members: Vec<Member>,
     pub costs: Vec<f64>,
-    /// Noise in units of the noise of the curve.
+    /// Noise for which the costs are computed, in units of the noise of the curve.
     pub noise: f64,
     /// Best member so far.
     pub best: Member,
@@ -62,7 +62,7 @@ impl Population {
         count
     }
 
-    /// Returns true if most members differ, so that the next step can be taken.
+    /// Returns true if most members differ from each other, so that the next step can follow.
     pub fn has_moved(&self) -> bool {
         self.distinct() as f64 >= MOVED * self.members.len() as f64
     }
@@ -74,9 +74,9 @@ impl Population {
     }
 }
 
-/// Returns the cost of a residual in units of the noise. The cost is half the square. A point on
-/// the wrong side of a jump counts by the logarithm, because measured displacements are not exact
-/// to the edge of a jump.
+/// Returns the cost of a residual in units of the noise: half its square, as for normal noise.
+/// Above [`WRONG_SIDE`] the cost grows only with the logarithm of the residual, because a point may
+/// lie on the wrong side of a jump: measured displacements are not exact.
 pub(crate) fn loss(residual: f64) -> f64 {
     let size = residual.abs();
     if size > WRONG_SIDE {
@@ -86,8 +86,8 @@ pub(crate) fn loss(residual: f64) -> f64 {
     }
 }
 
-/// Draws `count` members in proportion to their weights, at even distances. `share` is the position
-/// of the first one.
+/// Draws `count` members in proportion to their weights, at equal distances along the sum of the
+/// weights. `share`, from 0 to 1, is the place of the first draw in the first of these distances.
 pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f64) -> Vec<Member> {
     let step = weights.iter().sum::<f64>() / count as f64;
     let mut drawn = Vec::with_capacity(count);
@@ -101,7 +101,8 @@ pub(crate) fn drawn(members: &[Member], weights: &[f64], count: usize, share: f6
     drawn
 }
 
-/// Returns point `number`, from 0 to 1, of an evenly scattered sequence (van der Corput).
+/// Returns the element `number` of the van der Corput sequence in this base, whose values are
+/// evenly scattered between 0 and 1.
 pub(crate) fn share_of(number: usize, base: usize) -> f64 {
     if number == 0 {
         return 0.0;

@@ -1,5 +1,5 @@
-//! The distribution of the parameters after a search: their errors, their correlations, and the
-//! parameters that the curve does not determine.
+//! The probability distribution of the parameters after a search: their errors, their correlations,
+//! and the parameters that the curve does not determine.
 
 use crate::curve::numerics::correlated;
 use crate::fit::parameter::{Coordinate, Parameter, Values};
@@ -8,19 +8,20 @@ use crate::fit::search::SearchResult;
 use crate::fit::space::Space;
 use crate::fit::statistics::{Spread, block_error, correlation, spread, widen};
 
-/// Correlation above which parameters are not separated.
+/// Magnitude of the correlation of two parameters above which the curve does not separate them.
 const CORRELATED: f64 = 0.95;
-/// Half-width of the 95 % interval of a logarithm above which a parameter is undetermined.
+/// Half the width of the 95 % interval of the logarithm of a parameter above which the parameter is
+/// undetermined.
 const FLAT: f64 = 1.0;
-/// Half-width of the 95 % interval of a normal distribution, in standard deviations.
+/// Half the width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
 
-/// Distribution of the parameters after a search.
+/// Probability distribution of the parameters after a search.
 pub(crate) struct Posterior<'a> {
     space: &'a Space<'a>,
     result: &'a SearchResult,
-    /// Samples with wider deviations, because residuals that correlate along the curve carry less
-    /// information than independent ones.
+    /// Samples whose deviations from the mean are increased, because residuals that correlate along
+    /// the curve carry less information than independent residuals.
     widened: Vec<Vec<f64>>,
     /// Best value of each parameter.
     pub best: Values,
@@ -59,6 +60,9 @@ impl<'a> Posterior<'a> {
         parameters
     }
 
+    /// Returns a parameter with its errors. The interval is that of the widened samples, and is at
+    /// least as wide as a normal distribution with the standard error, which includes the scatter
+    /// between blocks of the curve.
     fn fitted(&self, coordinate: &Coordinate) -> FittedParameter {
         let parameter = coordinate.parameter;
         let value = self.best[parameter as usize];
@@ -119,7 +123,7 @@ impl<'a> Posterior<'a> {
     }
 
     /// Returns the pairs of parameters that the curve does not separate. A parameter that the curve
-    /// does not determine on its own is a pair with itself.
+    /// does not determine is listed as a pair with itself.
     pub fn not_distinguished(&self) -> Vec<(Parameter, Parameter)> {
         let mut pairs = Vec::new();
         for (first, second, correlation) in self.correlations() {
@@ -139,7 +143,8 @@ impl<'a> Posterior<'a> {
         pairs
     }
 
-    /// Returns false for a coordinate whose samples spread too widely or reach an end of the range.
+    /// Returns true if the curve determines a parameter: its samples do not spread too widely, and
+    /// do not reach an end of the range.
     fn is_determined(&self, index: usize, coordinate: &Coordinate) -> bool {
         if coordinate.parameter == Parameter::Work && self.is_without_adhesion {
             return false;
@@ -154,7 +159,8 @@ impl<'a> Posterior<'a> {
         !is_wide && !is_at_end
     }
 
-    /// Returns the upper bound of the work of adhesion in J/m², if the curve shows no adhesion.
+    /// Returns the upper bound of the work of adhesion in J/m² if the curve shows no adhesion;
+    /// otherwise `None`.
     pub fn work_at_most(&self, parameters: &[FittedParameter]) -> Option<f64> {
         if !self.is_without_adhesion {
             return None;

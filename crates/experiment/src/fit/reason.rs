@@ -13,28 +13,30 @@ use thiserror::Error;
 /// Largest jump of the force between two points on a rigid instrument, divided by the pull-off
 /// force. A sphere on a rigid instrument jumps by 5/9.
 const RIGID: f64 = 0.65;
-/// Share of the squared residuals that a pattern must explain.
+/// Share of the squared residuals that a pattern of the residuals must explain to be a reason.
 const EXPLAINS: f64 = 0.4;
-/// Slope of the force, divided by the stiffness of the instrument, that the instrument does not
-/// allow.
+/// Smallest slope of the force over the displacement, divided by the stiffness of the instrument,
+/// that is impossible with this instrument. The excess over 1 allows for errors.
 const STEEPER: f64 = 1.03;
-/// Shares of the way from first touch to the turning point in which this slope is measured.
+/// Shares of the way between first touch and turning point, next to the turning point, over which
+/// this slope is measured.
 const PRESSED: [f64; 2] = [0.2, 0.5];
 /// Smallest number of points from which this slope is measured.
 const FEWEST: usize = 5;
-/// Hysteresis in compression, as a share of the loading, that a smaller work of adhesion on closing
-/// makes.
+/// Smallest and largest hysteresis in compression, as a share of the loading, that results from a
+/// smaller work of adhesion on closing.
 const OF_ADHESION: (f64, f64) = (0.03, 0.11);
-/// Hysteresis in compression above which a body relaxes, and fall of the force in a pause.
+/// Hysteresis in compression, as a share of the loading, above which the body relaxes.
 const RELAXES: f64 = 0.08;
+/// Fall of the force in a pause, divided by the largest force, above which the body relaxes.
 const FALLS: f64 = 0.02;
-/// Relative step of a numerical derivative.
+/// Relative step of a parameter in a numerical derivative.
 const STEP: f64 = 1e-3;
-/// Change of the force in this step, divided by the range of the force, above which it is a jump
-/// without a derivative.
+/// Change of the force in this step, divided by the range of the force, above which the force jumps
+/// and has no derivative.
 const LEAPS: f64 = 0.02;
-/// Residual in units of the median above which residuals are cut off. Such points are on the wrong
-/// side of a jump.
+/// Largest residual in units of the median magnitude. Larger residuals are reduced to this value,
+/// because such points are on the wrong side of a jump.
 const CUT: f64 = 5.0;
 
 /// Reason why a model does not describe a measured curve. `Display` writes a reason as one
@@ -42,8 +44,8 @@ const CUT: f64 = 5.0;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The contact reaches the ends of the profile, which should be longer. The value is the length
-    /// of the profile in m.
+    /// The contact reaches the ends of the profile, so the profile is too short. The value is its
+    /// length in m.
     #[error("{}", Warning::ContactAtEnds { length: *.0 })]
     ShortProfile(f64),
     /// Too few springs are in contact for an accurate force. The value is the largest number of
@@ -66,8 +68,8 @@ pub enum Reason {
     /// The measured force without contact changes over time and also over the displacement.
     #[error("The force has slopes over time and displacement where nothing touches.")]
     DriftAndTilt,
-    /// The measured force after contact is higher by this value in N than before, which no drag
-    /// makes.
+    /// The measured force after contact is higher by this value in N than before contact. A drag
+    /// makes the force after contact lower.
     #[error(
         "The force is higher by {} after contact than before.",
         format_quantity(*.0, "N")
@@ -90,8 +92,9 @@ pub enum Reason {
          on closing."
     )]
     Branches,
-    /// The measured force rises over the displacement with the first slope in N/m, which is larger
-    /// than the second one, the stiffness of the instrument. No modulus follows from such a curve.
+    /// The measured force rises over the displacement with a slope, the first value in N/m, that is
+    /// larger than the stiffness of the instrument, the second value in N/m. No modulus follows
+    /// from such a curve.
     #[error(
         "The force rises by {} over the displacement, and an instrument of {} allows no more than its stiffness: the stiffness, \
          the sensitivity of the force or the column of the height is wrong, and E* cannot be found.",
@@ -99,24 +102,23 @@ pub enum Reason {
         format_quantity(*.1, "N/m")
     )]
     Stiffness(f64, f64),
-    /// The force of a smooth body jumps more than once in one motion. The value is the number of
-    /// jumps of the curve.
+    /// The force jumps more than once in one motion, which the force of a smooth body does not do.
+    /// The value is the number of jumps of the curve.
     #[error(
         "The curve has {} jumps, and a smooth sphere has one on loading and one on unloading: the body has another form or \
          several contacts, on which γ and E* depend.",
         .0
     )]
     SeveralContacts(usize),
-    /// The hysteresis in compression is that of a body that adheres less on closing. The value is
-    /// its share of the loading.
+    /// The hysteresis in compression is as large as for a body with a smaller work of adhesion on
+    /// closing. The value is the hysteresis as a share of the loading.
     #[error(
         "The hysteresis in compression is {} % of the loading, and an elastic body with one work of adhesion has none. Such \
          curves need a smaller work of adhesion on closing.",
         format_rounded(100.0 * .0, 2, "1")
     )]
     HysteresisOfAdhesion(f64),
-    /// The body relaxes: its hysteresis in compression is large, or its force falls in a pause. The
-    /// values are the shares of the loading and of the largest force.
+    /// The body relaxes: its hysteresis in compression is large, or its force falls in a pause.
     #[error(
         "The hysteresis in compression is {} % of the loading{}: the body relaxes (viscoelasticity). E* by the loading is that of \
          its speed. The retraction alone gives γ.",
@@ -191,12 +193,12 @@ fn in_pause(fall: f64) -> String {
     format!(", and the force falls by {fall} % in a pause")
 }
 
-/// Finds the reason why a scene with these values and free parameters does not describe a curve.
-/// `residuals` are those of the curve in units of its noise, and `tabor` is the Tabor number of the
+/// Finds the reason why a scene with the parameters `values` does not describe a curve. `residuals`
+/// are the residuals at all points in units of the noise, and `tabor` is the Tabor number of the
 /// scene if the curve shows adhesion.
 ///
 /// # Errors
-/// A computation fails.
+/// Returns an error if a computation fails.
 pub(crate) fn reason(
     curve: &MeasuredCurve,
     scene: &CheckedScene,
@@ -247,7 +249,8 @@ pub(crate) fn reason(
     Ok(Reason::Form)
 }
 
-/// Returns the reason that the curve of a smooth body shows by itself.
+/// Returns the reason that follows from the features of the curve alone, for a smooth body; `None`
+/// if the features show none.
 fn of_features(curve: &MeasuredCurve, free: &[Parameter]) -> Option<Reason> {
     let features = curve.features;
     if features.jumps_in_one_motion > 1 {
@@ -268,7 +271,7 @@ fn of_features(curve: &MeasuredCurve, free: &[Parameter]) -> Option<Reason> {
 }
 
 /// Returns the slope of the loading over the displacement in N/m, if it is larger than the
-/// stiffness of the instrument, which is not free.
+/// stiffness of the instrument and this stiffness is not a free parameter; otherwise `None`.
 pub(crate) fn steeper_slope(
     curve: &MeasuredCurve,
     values: &Values,
@@ -294,15 +297,16 @@ pub(crate) fn of_profile(scene: &CheckedScene, simulation: &mut Simulation) -> O
     })
 }
 
-/// Returns a jump of the force in N that a rigid instrument does not allow.
+/// Returns the largest jump of the force in N, if it is too large for a rigid instrument; otherwise
+/// `None`.
 fn jump_of_compliance(curve: &MeasuredCurve) -> Option<f64> {
     let jump = largest_jump(curve);
     let pull_off = curve.pull_off_force()?;
     (jump > RIGID * pull_off).then_some(jump)
 }
 
-/// Returns the largest rise of the force in N between neighbouring points of a retraction. The
-/// force of a retraction rises only where contact is lost.
+/// Returns the largest rise of the force in N between neighbouring points of a retraction. In a
+/// retraction the force rises only where contact is lost, or gradually after the largest tension.
 fn largest_jump(curve: &MeasuredCurve) -> f64 {
     let mut largest = 0.0_f64;
     for (segments, forces) in curve.segment.windows(2).zip(curve.force.windows(2)) {
@@ -313,8 +317,8 @@ fn largest_jump(curve: &MeasuredCurve) -> f64 {
     largest
 }
 
-/// Returns the slope of the force over the displacement in N/m where the body is pressed most, less
-/// what the noise may add; 0 for few points.
+/// Returns a lower bound of the slope of the force over the displacement in N/m where the body is
+/// pressed most: the slope minus three standard errors; 0 for few points.
 fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
     PRESSED
         .into_iter()
@@ -322,8 +326,8 @@ fn slope_when_pressed(curve: &MeasuredCurve) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns this slope in the last share of the first approach or in the first share of a
-/// retraction.
+/// Returns the lower bound of the slope in N/m over a share of the way next to the turning point.
+/// The points are those of the first segment: an approach, or a retraction alone.
 fn slope_in_last(curve: &MeasuredCurve, share: f64) -> f64 {
     let turn = curve.turns[0];
     let least = turn - share * (turn - curve.touch);
@@ -351,9 +355,9 @@ struct Misfit<'a> {
     model: Model<'a>,
     values: &'a Values,
     free: &'a [Parameter],
-    /// Forces of the model at the points of the curve, N.
+    /// Forces of the model in N at the points of the curve.
     forces: Vec<f64>,
-    /// Measured forces minus those of the model after a fit of the lines, N.
+    /// Measured forces minus those of the model in N, after a fit of the zero and the other lines.
     residuals: Vec<f64>,
     lines: Vec<Vec<f64>>,
 }
@@ -385,7 +389,8 @@ impl<'a> Misfit<'a> {
         })
     }
 
-    /// Returns the reason if a change of the force without contact exceeds the residual.
+    /// Returns the reason if a drift, tilt or step of the force without contact is larger than the
+    /// residual; otherwise `None`.
     fn change_without_contact(&self) -> Option<Reason> {
         let squares = dot(&self.residuals, &self.residuals);
         let residual = (squares / self.residuals.len() as f64).sqrt();
@@ -404,9 +409,9 @@ impl<'a> Misfit<'a> {
         (has_step && has_two_directions(self.curve)).then_some(Reason::Step(step))
     }
 
-    /// Returns true if another modulus or work of adhesion on the retractions explains most of the
-    /// residuals, together with small changes of the free parameters. All effects are taken as
-    /// linear.
+    /// Returns true if most of the residuals can be explained by a modulus or a work of adhesion
+    /// that is different on the retractions, together with small changes of the free parameters.
+    /// All effects are assumed to be linear.
     fn branches_differ(&mut self) -> Result<bool, ExperimentError> {
         let mut columns = self.lines.clone();
         for parameter in self.free {
@@ -436,8 +441,8 @@ impl<'a> Misfit<'a> {
         Ok(false)
     }
 
-    /// Returns the residuals, of which a point on the wrong side of a jump counts no more than
-    /// others.
+    /// Returns the residuals after reduction of very large ones, so that points on the wrong side
+    /// of a jump have no more influence than others.
     fn residuals_without_jumps(&self) -> Vec<f64> {
         let in_contact = &self.residuals[self.curve.free..];
         let mut sizes: Vec<f64> = in_contact.iter().map(|residual| residual.abs()).collect();
@@ -500,9 +505,9 @@ mod tests {
             .unwrap()
     }
 
-    /// Force, N, of a sphere of 7.5 µm without adhesion at a displacement, m, of an instrument of 3
-    /// N/m, by bisection of d
-    /// + F/k.
+    /// Returns the force in N on a sphere of 7.5 µm without adhesion, for a displacement in m of an
+    /// instrument of the stiffness k = 3 N/m. The indentation d solves d + F(d)/k = displacement,
+    /// and is found by bisection.
     fn hertz(modulus: f64, at: f64) -> f64 {
         let force = |d: f64| 4.0 / 3.0 * modulus * (7.5e-6 * d.powi(3)).sqrt();
         let (mut low, mut high) = (0.0, at.max(0.0));
@@ -517,8 +522,8 @@ mod tests {
         force(low)
     }
 
-    /// The reason found for a curve of these points (displacement in µm from first touch, force in
-    /// µN, noise of 1 nN) and a scene.
+    /// Returns the reason that is found for a curve and a scene. The points are pairs of the
+    /// displacement in µm from first touch and the force in µN, with a noise of 1 nN.
     fn found(points: impl Iterator<Item = (f64, f64)>, changes: &[(&str, &str)]) -> Reason {
         let mut text = "displacement [um],force [uN]\n".to_owned();
         for (index, (at, force)) in points.enumerate() {
@@ -562,8 +567,8 @@ mod tests {
         .unwrap()
     }
 
-    /// Points of an approach and a retraction between −1 and 1 µm, with these forces, N, as
-    /// functions of displacement, m, and time from 0 to 1.
+    /// Returns the points of an approach and a retraction between −1 and 1 µm. The forces in N are
+    /// functions of the displacement in m and of the time from 0 to 1.
     fn curve(
         approach: impl Fn(f64, f64) -> f64,
         retraction: impl Fn(f64, f64) -> f64,
@@ -594,7 +599,7 @@ mod tests {
     #[test]
     fn each_pattern_has_its_reason() {
         let both = || curve(elastic, elastic).into_iter();
-        // A sphere of another modulus is a change by a free parameter.
+        // A sphere with another modulus differs only by a free parameter.
         assert_eq!(
             found(both(), &[("material", "(effective_modulus: 1.9e6)")]),
             Reason::StiffnessOrForm
@@ -633,7 +638,7 @@ mod tests {
         assert!(
             matches!(found(pushed.into_iter(), &[]), Reason::Step(step) if (step - 1e-7).abs() < 1e-9)
         );
-        // A force that resists the motion is a drag, which was taken off.
+        // A force that resists the motion is a drag, and was subtracted.
         let dragged = curve(elastic, |at, time| elastic(at, time) - 1e-7);
         assert_eq!(found(dragged.into_iter(), &[]), Reason::StiffnessOrForm);
         assert!(

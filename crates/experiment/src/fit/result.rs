@@ -1,5 +1,5 @@
 //! Result of a fit: each parameter with its errors, how well the model describes the curve, and the
-//! scene that was found.
+//! scene with the fitted values.
 
 use crate::fit::agreement::{Agreement, Grade, MISFIT};
 use crate::fit::parameter::Parameter;
@@ -17,16 +17,17 @@ pub struct FittedParameter {
     pub parameter: Parameter,
     /// Value with which the scene describes the curve best.
     pub value: f64,
-    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, they
-    /// are the ends of [`Self::range`], unless the parameter is the offset or the zero.
+    /// Lower and upper end of the 95 % interval. If [`FitResult::has_other_profile`] is true, the
+    /// interval is [`Self::range`], unless the parameter is the offset or the zero.
     #[serde(flatten, serialize_with = "low_and_high")]
     pub interval: (f64, f64),
     /// Standard error of the value due to the noise of the force. If the model does not describe
-    /// the curve, it is at least the scatter of the value between parts of the curve (jackknife).
+    /// the curve, the standard error is at least the scatter of the value between parts of the
+    /// curve (jackknife).
     pub noise_error: f64,
-    /// Value before the fit: an estimate from the curve, but 0 for the force F₀ and the value in
-    /// the scene for the radius. If this value lies outside of [`Self::range`], it is the nearer
-    /// end of the range.
+    /// Value with which the fit begins. It is an estimate from the curve; for the force F₀ it is 0,
+    /// and for the radius the value in the scene. A value outside [`Self::range`] is replaced by
+    /// the nearer end of the range.
     pub start: f64,
     /// Lower and upper end of the range in which the value was searched.
     pub range: (f64, f64),
@@ -39,9 +40,9 @@ pub struct FittedParameter {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RangeEnd {
-    /// Lower end: the value is at most that of the end.
+    /// Lower end of the range: the true value is at most this end.
     Low,
-    /// Upper end: the value is at least that of the end.
+    /// Upper end of the range: the true value is at least this end.
     High,
 }
 
@@ -53,15 +54,16 @@ fn low_and_high<S: Serializer>((low, high): &(f64, f64), serializer: S) -> Resul
 }
 
 impl FittedParameter {
-    /// States that the curve gives no more than a bound.
+    /// Marks the value as a bound: it lies at this end of the range, and the interval is the whole
+    /// range.
     pub(crate) fn set_at_end(&mut self, end: RangeEnd) {
         self.at_end = Some(end);
         self.interval = self.range;
         self.noise_error = self.range.1 - self.range.0;
     }
 
-    /// Returns the bound that a value at the end of its range is, such as `≥ 3 GPa`; `None` for a
-    /// value inside its range.
+    /// Returns the value as a bound, such as `≥ 3 GPa`, if it lies at an end of its range; `None`
+    /// for a value inside its range.
     pub fn bound(&self) -> Option<String> {
         let sign = match self.at_end? {
             RangeEnd::Low => "≤",
@@ -75,7 +77,7 @@ impl FittedParameter {
     /// the [`Self::interval`], the more digits the text has.
     pub fn text(&self, value: f64) -> String {
         let unit = self.parameter.row().unit;
-        // An interval that is the whole range says nothing about the digits.
+        // If the interval is the whole range, its width gives no number of digits.
         if self.interval == self.range {
             return format_within(value, 0.0, unit);
         }
@@ -92,31 +94,32 @@ pub struct FitResult {
     /// Free parameters of the fit with their errors.
     #[serde(serialize_with = "by_name")]
     pub parameters: Vec<FittedParameter>,
-    /// Root mean square of the residuals in contact without the points at jumps, in N; see
-    /// [`Agreement`]. The residuals of the points that are in contact neither in the measurement
-    /// nor in the model are noise, and do not count.
+    /// Root mean square, in N, of the residuals of the points that are in contact in the
+    /// measurement or in the model. Points at jumps do not count, see [`Agreement`]. Points without
+    /// contact do not count either, because their residuals are only noise.
     pub residual: f64,
     /// [`Self::residual`] divided by the [noise](crate::MeasuredCurve::noise) of the force.
     pub residual_over_noise: f64,
-    /// Share of these points, from 0 to 1, whose residual exceeds 5 times this noise in magnitude.
+    /// Share of the points in [`Self::residual`], from 0 to 1, whose residual exceeds 5 times the
+    /// noise in magnitude.
     pub beyond_five_sigma: f64,
-    /// Robust root mean square of the residuals in contact divided by the noise. Points near a jump
-    /// of the force and outliers count less. The model describes the curve within its noise if the
-    /// value is at most 1.5.
+    /// Robust root mean square of the residuals in contact, divided by the noise. Points near a
+    /// jump of the force and outliers have a smaller weight. The model describes the curve within
+    /// its noise if the value is at most 1.5.
     pub misfit: f64,
     /// Agreement of the model with the curve in contact, as shares of the largest force.
     pub agreement: Agreement,
     /// How well the model describes the curve.
     #[serde(rename = "description")]
     pub grade: Grade,
-    /// Upper end of the 95 % interval of the work of adhesion, J/m²; `None` if this parameter is
+    /// Upper end of the 95 % interval of the work of adhesion in J/m²; `None` if this parameter is
     /// not free, or if the curve excludes a scene without adhesion at the level of 5 %.
     #[serde(skip)]
     pub work_at_most: Option<f64>,
-    /// Tabor number of the scene with the fitted values; `None` if the curve shows no adhesion, or
-    /// without a radius of curvature, as for a cone.
+    /// Tabor number of the scene with the fitted values. `None` if the curve shows no adhesion, or
+    /// if the form has no radius of curvature, such as a cone.
     pub tabor: Option<f64>,
-    /// Reason why the model does not describe the curve within its noise; `None` if it does.
+    /// Reason why the model does not describe the curve within its noise; `None` if the model does.
     pub reason: Option<Reason>,
     /// Premises of the model that the scene with the found values does not meet.
     pub warnings: Vec<Warning>,
@@ -164,8 +167,8 @@ impl FitResult {
     }
 
     /// Returns true if the model does not describe the curve and the profile of the scene is
-    /// random. The specimen then has another profile than the scene, and the fitted values are
-    /// meaningless.
+    /// random. The profile of the specimen then differs from the profile of the scene, and the
+    /// fitted values are meaningless.
     pub fn has_other_profile(&self) -> bool {
         !self.describes() && self.document.scene().seed().is_some()
     }

@@ -1,5 +1,5 @@
-//! The scene of a fit: the values at which a search begins, and the document with the fitted
-//! values.
+//! Conversion between a scene and the parameters of a fit: the values in the scene, and the
+//! document with the fitted values.
 
 use crate::curve::MeasuredCurve;
 use crate::error::ExperimentError;
@@ -8,18 +8,19 @@ use asperity_data::{format_quantity, round_to};
 use asperity_scene::text::ron_float;
 use asperity_scene::{Adhesion, Document, Governing, Scene, SceneErrors};
 
-/// Relative difference of two stiffnesses of one instrument above which the difference is reported.
+/// Relative difference between the stiffness in the scene and the stiffness in the file above which
+/// a sentence reports the difference.
 const OTHER: f64 = 0.01;
 
-/// A change of a field: its path and its value in RON.
+/// A change of a field of the scene: the path of the field, and its new value in RON.
 type Change = (String, String);
 
 fn change(path: &str, value: f64) -> Change {
     (path.to_owned(), ron_float(value))
 }
 
-/// Returns the parameters of a fit as the scene states them. `governing` contains the works of
-/// adhesion.
+/// Returns the values of the parameters of a fit in the scene. `governing` has the work of adhesion
+/// of the scene.
 pub(crate) fn values_of(scene: &Scene, governing: &Governing) -> Values {
     let work = governing.work_of_adhesion.unwrap_or(0.0);
     let mut values = [0.0; 7];
@@ -67,7 +68,7 @@ pub(crate) fn written_out(
     })
 }
 
-/// Returns the document with the fitted values, loaded as the body was in the measurement.
+/// Returns the document with the fitted values, and with the loading of the measurement.
 pub(crate) fn with_values(
     document: &Document,
     values: &Values,
@@ -80,7 +81,7 @@ pub(crate) fn with_values(
     if is_free(Parameter::Work) {
         changes.push(change("adhesion.work", value(Parameter::Work)));
     }
-    // A work on closing that the scene states follows the work of adhesion.
+    // The work on closing in the scene changes with the work of adhesion.
     let has_closing_work = scene
         .adhesion
         .is_some_and(|adhesion| adhesion.closing_work().is_some());
@@ -101,7 +102,8 @@ pub(crate) fn with_values(
     document.set_all(&changes).map_err(wrong)
 }
 
-/// Returns the change of the modulus, in the way in which the scene states the material.
+/// Returns the change of the modulus. It is a change of Young's modulus or of the effective
+/// modulus, whichever the scene states.
 fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
     match scene.material.poisson_ratio {
         Some(ratio) => {
@@ -114,9 +116,9 @@ fn modulus_change(scene: &Scene, effective_modulus: f64) -> Change {
 
 impl MeasuredCurve {
     /// Returns the scene with the stiffness of the instrument: the `loading_stiffness` of the
-    /// scene, or else the stiffness in the file of the curve. For a measured displacement of the
-    /// body the instrument becomes rigid. The second value is a sentence about this choice; `None`
-    /// if scene and file do not differ.
+    /// scene, or else the stiffness in the file of the curve. If the measured displacement is that
+    /// of the body, the instrument becomes rigid. The second value is a sentence about this choice;
+    /// it is `None` if there was no choice, because scene and file agree.
     ///
     /// # Errors
     /// Returns an error if the scene does not allow this stiffness.
@@ -191,7 +193,7 @@ fn as_body_displacement(
     Ok((document, Some(text)))
 }
 
-/// Converts the first error of a scene with other values to an error of the fit.
+/// Converts the first of the errors of a scene with changed values to an error of the fit.
 pub(crate) fn wrong(errors: SceneErrors) -> ExperimentError {
     let error = errors.first();
     let found = format!("{} = {}", error.field, error.value);
@@ -228,7 +230,7 @@ mod tests {
             (radius_of(scene), most_on_closing(scene)),
             (Some(6e-6), 0.03)
         );
-        // Those that are not free stay.
+        // Parameters that are not free remain unchanged.
         let none = with_values(&document, &values, |_| false, &curve).unwrap();
         let scene = none.scene();
         assert_eq!(
@@ -245,7 +247,7 @@ mod tests {
             (radius_of(scene), most_on_closing(scene)),
             (Some(7.5e-6), f64::INFINITY)
         );
-        // The modulus of a material by Young's modulus and Poisson's ratio.
+        // The material may be given by Young's modulus and Poisson's ratio.
         let plane = [(
             "material".to_owned(),
             "(youngs_modulus: 1e6, poisson_ratio: 0.5)".to_owned(),
@@ -253,7 +255,7 @@ mod tests {
         let plane = document.set_all(&plane).unwrap();
         let found = with_values(&plane, &values, |one| one == Parameter::Modulus, &curve).unwrap();
         assert!((found.scene().material.effective_modulus() / 3e6 - 1.0).abs() < 1e-12);
-        // A work on closing that the scene has follows the work of adhesion.
+        // The work on closing in the scene changes with the work of adhesion.
         let closing = document
             .set_all(&[("adhesion.closing_work".to_owned(), "1e-4".to_owned())])
             .unwrap();

@@ -2,14 +2,17 @@
 //! probability of the parameters (sequential Monte Carlo; Del Moral, Doucet, Jasra, J. R. Stat.
 //! Soc. B 68, 411, 2006).
 //!
-//! The forces jump with the parameters. Neither derivatives nor a linearised fit can therefore show
-//! how well a curve determines the parameters, but a population can. Its members are drawn from the
-//! ranges and weighted as if the noise were large, so that jumps count little. The noise is then
-//! lowered step by step to the noise of the curve. At each step likely members are copied and
-//! unlikely members are dropped. Each member then moves by the difference of two others, which has
-//! the extent and direction of the population. Some moves are random steps of any size, so that
-//! copies separate again. In the end the members are distributed as the noise allows. The start is
-//! no member, because a start close to the result would be copied to the whole population.
+//! The computed force is not a continuous function of the parameters, because the contact has
+//! jumps. So neither derivatives nor a linearised fit can show how well a curve determines the
+//! parameters. A population can: a set of members, each of which has a value for each parameter.
+//! The members are drawn from the ranges of the parameters. At first they are weighted as if the
+//! noise were so large that jumps have little influence. The noise is then lowered step by step to
+//! the noise of the curve. At each step likely members are copied and unlikely members are dropped.
+//! Each member then moves by the difference between two other members, so that the moves have the
+//! extent and direction of the population. Some moves are random steps of any size, so that copies
+//! separate again. At the end the distribution of the members is the probability distribution of
+//! the parameters. The initial values are not made a member, because a member close to the result
+//! would be copied to the whole population.
 
 use crate::curve::numerics::{Extent, dot};
 use crate::error::{ExperimentError, refused_with};
@@ -25,67 +28,78 @@ use asperity_data::Remedy;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+/// Seed of the random generator, so that the same curve and scene give the same result.
 const SEED: u64 = 29;
 /// Number of members drawn at first for each free parameter.
 const SCAN: usize = 60;
-/// Number of members of a population, without those for each free parameter.
+/// Number of members of a population, to which [`FOR_EACH`] members for each free parameter are
+/// added.
 const MEMBERS: usize = 24;
 /// Number of further members for each free parameter.
 const FOR_EACH: usize = 8;
-/// Share of the members that still count after a step of the noise.
+/// Smallest effective number of members after a step of the noise, as a share of all members.
 const EFFECTIVE: f64 = 0.3;
 /// Largest number of moves of the population at each step.
 const MOVES: usize = 5;
-/// Number of moves at the end, each of which adds all members to the samples.
+/// Number of moves of the population at the end. After each move all members are added to the
+/// samples.
 const LAST_MOVES: usize = 16;
-/// Share of the moves that are random steps.
+/// Share of the moves that are random steps along one parameter.
 const RANDOM: f64 = 0.02;
-/// Number of decades below the whole range over which the lengths of random steps extend.
+/// Number of decades over which the lengths of random steps extend, from the whole range of a
+/// parameter downwards.
 const DECADES: f64 = 6.0;
-/// Noise, divided by the noise of the curve, above which forces are computed coarsely.
+/// Noise, divided by the noise of the curve, above which forces are computed with low accuracy to
+/// save time.
 const COARSE: f64 = 10.0;
-/// Factor of the number of members while forces are coarse.
+/// Factor by which the number of members is larger while the forces have low accuracy.
 const MORE: usize = 2;
-/// Divisor of the residual of the best member. The noise is lowered to this part of the residual,
-/// if the residual exceeds the noise of the curve.
+/// If the residual of the best member exceeds the noise of the curve, the noise is lowered only to
+/// the residual divided by this number.
 const DEEPER: f64 = 3.0;
-/// Residual in contact, in units of the noise, above which a population belongs to a model that
-/// does not describe the curve.
+/// Residual in contact, in units of the noise, above which the model does not describe the curve,
+/// so that a further population is stopped early.
 const SYSTEMATIC: f64 = 5.0;
-/// Share of this residual below which another population is better.
+/// Share of the residual of the first population that another population must fall below to count
+/// as better.
 const BETTER: f64 = 0.9;
-/// Mean square residual, in units of the noise, beyond which another population is made.
+/// Mean square residual, in units of the squared noise, above which another population is drawn.
 const EXPECTED: f64 = 1.2;
-/// Standard deviations by which the cost of few points may exceed the expected one by chance.
+/// Number of standard deviations by which the cost may exceed its expected value by chance. This
+/// limit replaces [`EXPECTED`] for curves with few points.
 const CHANCE: f64 = 3.0;
 /// Largest number of populations.
 const ATTEMPTS: usize = 3;
-/// Difference of costs by which a start must be better than a population to count as missed.
+/// Smallest difference by which the cost of the initial values must be below that of a population,
+/// for the population to have missed the minimum.
 const MISSED: f64 = 3.0;
-/// Largest noise divided by the noise of the curve.
+/// Largest noise in the search, divided by the noise of the curve.
 const LARGE: f64 = 1e6;
-/// Number of halvings to determine a step of the logarithm of the noise.
+/// Number of bisections that determine the next noise, on a logarithmic scale.
 const HALVINGS: usize = 12;
-/// Factor of the noise in a step where no smaller factor leaves enough members.
+/// Factor by which the noise is lowered in a step if no smaller factor leaves enough effective
+/// members.
 const SLOWEST: f64 = 0.99;
-/// Coordinate of the work of adhesion below which a scene without adhesion is tried. It is a few
-/// times the work that the noise hides.
+/// Coordinate of the work of adhesion in the search. If a sample lies below it, a scene without
+/// adhesion is tried too. The value corresponds to a few times the work of adhesion whose pull-off
+/// force equals the noise.
 const CLOSE: f64 = 2.5;
 /// Residual, in units of the noise, that replaces a force that is not finite.
 const FAR: f64 = 1e12;
-/// Bases of the sequences of evenly scattered points, one for each coordinate.
+/// Bases of the sequences of evenly scattered points (Halton sequences), one for each coordinate.
 const PRIMES: [usize; 7] = [2, 3, 5, 7, 11, 13, 17];
 
 /// Result of a search.
 pub(crate) struct SearchResult {
     /// The member with the smallest residuals.
     pub best: Member,
-    /// Residuals of the best member in contact after a fit of the lines, in units of the noise.
+    /// Residuals of the best member in contact, in units of the noise, after a fit of the zero, the
+    /// drift and the other lines.
     pub residuals: Vec<f64>,
-    /// Noise of the distribution of the samples, divided by the noise of the curve. It is above 1
-    /// where the residual is.
+    /// Noise for which the samples are distributed, divided by the noise of the curve. The noise is
+    /// above 1 if the residual of the best member exceeds the noise of the curve.
     pub noise: f64,
-    /// Coordinates, distributed as the noise allows.
+    /// Coordinates of the samples, which follow the probability distribution of the parameters.
     pub samples: Vec<Vec<f64>>,
     /// Costs of each sample for each block of the curve; empty if the model describes the curve.
     pub blocks: Vec<Vec<f64>>,
@@ -94,7 +108,7 @@ pub(crate) struct SearchResult {
     pub without_adhesion: f64,
 }
 
-/// Lower noise of a population, and the weights of its members at this noise.
+/// Next, lower noise of a population, and the weights of its members for this noise.
 struct Cooling {
     noise: f64,
     weights: Vec<f64>,
@@ -105,7 +119,7 @@ pub(crate) struct Search<'a> {
     pub space: &'a Space<'a>,
     pub model: Model<'a>,
     pub lines: Lines,
-    /// Receives the number of curves computed so far.
+    /// Function that receives the number of curves computed so far.
     pub report: &'a mut dyn FnMut(usize),
 }
 
@@ -124,7 +138,8 @@ impl Search<'_> {
         for (index, force) in forces.iter().enumerate() {
             let residual = (curve.force[index] - force) / curve.noise;
             residuals.push(if residual.is_finite() { residual } else { FAR });
-            // The model of a separated body has exactly the force before contact.
+            // The model gives a body without contact exactly the force before contact, so any other
+            // force means contact.
             in_contact[index] |= *force != zero;
         }
         Ok(Member {
@@ -134,15 +149,15 @@ impl Search<'_> {
         })
     }
 
-    /// Computes the member at a place, with exact forces.
+    /// Computes the member with the coordinates `place`, with forces of full accuracy.
     pub fn exact(&mut self, place: &[f64]) -> Result<Member, ExperimentError> {
         self.model.noise = 1.0;
         self.member(place.to_vec())
     }
 
-    /// Returns residuals in which points inside a jump count as described. A residual above
-    /// [`WRONG_SIDE`] becomes the distance from the forces of a jump of the model, if the jump is
-    /// within one point.
+    /// Returns residuals in which a point inside a jump of the model counts as described. If a
+    /// residual exceeds [`WRONG_SIDE`] and the model jumps at most one point away, the residual
+    /// becomes the distance of the force from the range of forces of the jump.
     pub fn beyond_jumps(
         &mut self,
         place: &[f64],
@@ -170,8 +185,9 @@ impl Search<'_> {
         scale(&member.contact_residuals(&residuals), WRONG_SIDE)
     }
 
-    /// Returns the residual without contact, in units of the noise of the curve, if a drift or a
-    /// tilt remains there; otherwise 0. It is as large in contact, where other parameters hide it.
+    /// Returns the residual of the points without contact, in units of the noise of the curve, if a
+    /// drift or a tilt remains in them; otherwise 0. The same drift or tilt is present in contact,
+    /// where changes of the parameters can hide it.
     fn remaining_line(&self, member: &Member) -> f64 {
         let curve = self.space.curve;
         if curve.remaining[..2] == [0.0; 2] {
@@ -190,8 +206,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the cost of a member at this noise, in units of the noise of the curve: the sum of
-    /// the [`loss`] of all points.
+    /// Returns the cost of a member, a negative log-likelihood, for a noise in units of the noise
+    /// of the curve. The cost is the sum of the [`loss`] of all points.
     fn cost(&self, member: &Member, noise: f64) -> f64 {
         self.lines
             .refined(&member.residuals, noise)
@@ -211,7 +227,8 @@ impl Search<'_> {
         costs
     }
 
-    /// Returns points evenly scattered over the ranges, different ones in each attempt.
+    /// Returns members that are evenly scattered over the ranges of the parameters. Each attempt
+    /// has other members.
     fn scattered(&mut self, attempt: usize) -> Result<Vec<Member>, ExperimentError> {
         let coordinates = &self.space.coordinates;
         let start = self.space.start();
@@ -229,9 +246,10 @@ impl Search<'_> {
     }
 
     /// Finds the member with the smallest residuals, and samples of the coordinates. Another
-    /// population is drawn in three cases. The residuals exceed the noise, as one population in
-    /// thirty ends in another minimum and one in 200 twice. The population has missed a better
-    /// start, which then becomes a member of the next one. The population has not spread.
+    /// population is drawn in three cases. First, the residuals exceed the noise: one population in
+    /// thirty ends in a wrong minimum, and one in 200 does so twice. Second, the initial values
+    /// have a lower cost than the population; they then become a member of the next population.
+    /// Third, the members of the population have not spread.
     pub fn find(&mut self) -> Result<SearchResult, ExperimentError> {
         let (population, generator) = self.first()?;
         self.find_from(population, generator)
@@ -244,12 +262,13 @@ impl Search<'_> {
         Ok((population, generator))
     }
 
-    /// Returns true for a population whose residuals are no noise.
+    /// Returns true for a population whose residuals are so large that the model does not describe
+    /// the curve.
     pub fn is_systematic(&self, population: &Population) -> bool {
         self.misfit(&population.best, population.noise) > SYSTEMATIC
     }
 
-    /// Does the same as [`Search::find`] from the first population.
+    /// Continues the search of [`Search::find`] after the first population.
     pub fn find_from(
         &mut self,
         mut population: Population,
@@ -264,8 +283,8 @@ impl Search<'_> {
             if has_spread && !has_missed && !is_poor {
                 break;
             }
-            // If the residuals are no noise, another population that comes to the same residuals
-            // ends there.
+            // If the model does not describe the curve, a further population is stopped as soon as
+            // it has about the same residuals.
             let misfit = self.misfit(&population.best, population.noise);
             let is_rival = has_spread && !has_missed && misfit > SYSTEMATIC;
             let rival = if is_rival { BETTER * misfit } else { 0.0 };
@@ -289,12 +308,14 @@ impl Search<'_> {
         let residuals = self.beyond_jumps(&member.place, &residuals)?;
         let residuals = member.contact_residuals(&residuals);
         let cost: f64 = residuals.iter().map(|residual| loss(*residual)).sum();
-        // The cost of noise is half the number of points, with a standard deviation of the root of it.
+        // The cost of n points with normal noise has the expected value n/2 and about the standard
+        // deviation √(n/2).
         let expected = 0.5 * residuals.len() as f64;
         Ok(cost > (EXPECTED * expected).max(expected + CHANCE * expected.sqrt()))
     }
 
-    /// Samples the coordinates at the noise of the curve, or at the residual if it is larger.
+    /// Samples the coordinates with the noise of the curve, or with the residual of the best member
+    /// if it is larger.
     fn sample(
         &mut self,
         mut population: Population,
@@ -364,9 +385,9 @@ impl Search<'_> {
     }
 
     /// Returns a population whose noise was lowered to the noise of the curve, or to a part of the
-    /// residual. While the noise is large the population has more members and coarse forces. It
-    /// ends early if its residual is above the residual `rival` at the noise of the rival. `start`
-    /// becomes one of the first members.
+    /// residual. While the noise is large, the population has more members and forces of low
+    /// accuracy. The search ends early if the noise has reached the residual `rival` of an earlier
+    /// population and the residual is still larger. `start` becomes one of the first members.
     fn anneal(
         &mut self,
         attempt: usize,
@@ -403,7 +424,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns a population of scattered members and a start, at an infinite noise.
+    /// Returns a population of scattered members and `start`, if given, with an infinite noise.
     fn first_members(
         &mut self,
         attempt: usize,
@@ -426,7 +447,7 @@ impl Search<'_> {
         })
     }
 
-    /// Recomputes a population exactly if its forces are coarse.
+    /// Computes the forces of a population again with full accuracy, if they have low accuracy.
     fn refine(&mut self, population: &mut Population) -> Result<(), ExperimentError> {
         if self.model.noise > 1.0 {
             self.model.noise = 1.0;
@@ -477,7 +498,7 @@ impl Search<'_> {
                 low = middle;
             }
         }
-        // The noise falls in each step, so that the search ends.
+        // The noise has to decrease in each step, so that the search ends.
         let noise = if high < population.noise {
             high
         } else {
@@ -489,8 +510,8 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the weights of the members if the noise of a population falls to this noise; the
-    /// largest is 1.
+    /// Returns the weights of the members for a step of the population from its present noise to
+    /// `noise`. The largest weight is 1.
     fn weights(&self, population: &Population, noise: f64) -> Vec<f64> {
         let members = population.members.iter().zip(&population.costs);
         let changes: Vec<f64> = members
@@ -503,7 +524,7 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Proposes a move for each member; rejected moves leave it where it is.
+    /// Proposes a move for each member. A member remains unchanged if its move is rejected.
     fn move_all(
         &mut self,
         population: &mut Population,
@@ -526,8 +547,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Returns a new place for a member: moved by the difference of two others (ter Braak, Stat.
-    /// Comput. 16, 239, 2006) or by a random step along one coordinate.
+    /// Returns new coordinates for a member. The member moves by the difference between two other
+    /// members (ter Braak, Stat. Comput. 16, 239, 2006), or by a random step along one coordinate.
     fn proposal(
         &self,
         population: &Population,
@@ -554,11 +575,12 @@ impl Search<'_> {
     }
 }
 
-/// Returns a coordinate of an evenly scattered point, for a share of its range from 0 to 1.
+/// Returns a coordinate of a scattered member. `share`, from 0 to 1, is its place in the range.
 fn scattered_coordinate(coordinate: &Coordinate, start: f64, share: f64) -> f64 {
     let (low, high) = coordinate.ends();
     match coordinate.parameter {
-        // Rough bodies touch before the force exceeds the noise.
+        // The offset is mostly smaller than the start, because a rough body touches before the
+        // force exceeds the noise.
         Parameter::Offset => (start + 8.0 * share - 6.5).clamp(low, high),
         Parameter::Zero => start + 0.1 * (share - 0.5),
         _ => low + share * (high - low),

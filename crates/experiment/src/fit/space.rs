@@ -1,4 +1,5 @@
-//! The coordinates in which a scene is fitted, and their ranges and starts from the curve.
+//! The coordinates in which a scene is fitted, with their ranges and initial values, which follow
+//! from the curve.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::Extent;
@@ -12,11 +13,13 @@ use crate::fit::statistics::PARTS;
 use asperity_data::format_quantity;
 use asperity_scene::{Document, Governing, Scene, Simulation, Solver};
 
-/// Ratio between the start and the ends of a range that is not given.
+/// Ratio between the initial value and each end of a range that the user does not give.
 const FACTOR: f64 = 30.0;
-/// Smallest ratio of the ends of a range that the limits of a scene leave.
+/// Smallest ratio of the upper to the lower end of a range, after the limits of scenes have been
+/// applied.
 const NARROWEST: f64 = 2.0;
-/// Share of a range within which a value counts as lying at the end of the range.
+/// Largest distance of a value from an end of its range, as a share of the range, at which the
+/// value counts as lying at the end.
 const AT_END: f64 = 0.01;
 
 /// The coordinates in which a scene is fitted, with the values of all other parameters.
@@ -24,13 +27,13 @@ const AT_END: f64 = 0.01;
 pub(crate) struct Space<'a> {
     pub base: Values,
     pub coordinates: Vec<Coordinate>,
-    /// Largest allowed work of adhesion on closing, J/m².
+    /// Largest allowed work of adhesion on closing in J/m².
     pub most_on_closing: f64,
     pub curve: &'a MeasuredCurve,
     pub stop: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// Returns an error unless there is a free parameter, and none is given twice.
+/// Returns an error if there is no free parameter, or if a parameter is given twice.
 fn check_free(free: &[Free]) -> Result<(), ExperimentError> {
     if free.is_empty() {
         let names = Parameter::ALL.map(Parameter::name).join(", ");
@@ -74,7 +77,7 @@ fn check_turn(curve: &MeasuredCurve) -> Result<(), ExperimentError> {
     Ok(())
 }
 
-/// Returns what is known of a scene apart from its free parameters.
+/// Returns the values of a scene that are not free parameters.
 fn known(scene: &Scene, governing: &Governing, free: &[Free]) -> Known {
     let unless_free = |parameter, value| (!is_free(free, parameter)).then_some(value);
     let stiffness = scene.loading_stiffness.unwrap_or(f64::INFINITY);
@@ -91,12 +94,13 @@ struct Ranges<'a> {
     curve: &'a MeasuredCurve,
     free: &'a [Free],
     starts: Starts,
-    /// Range of the force, N, at least its noise.
+    /// Range of the force in N, at least the noise of the force.
     extent_of_force: f64,
 }
 
 impl Ranges<'_> {
-    /// Returns the values before the fit of all parameters, for those of the scene.
+    /// Returns the initial values of all parameters. Estimates from the curve replace the values of
+    /// the scene for free parameters.
     fn start_values(&self, mut values: Values) -> Values {
         for (parameter, start) in [
             (Parameter::Work, self.starts.work),
@@ -114,7 +118,8 @@ impl Ranges<'_> {
         values
     }
 
-    /// Returns the coordinates of the free parameters. Moves values into their ranges.
+    /// Returns the coordinates of the free parameters. An initial value outside its range is moved
+    /// to the nearer end.
     fn coordinates(&self, values: &mut Values) -> Result<Vec<Coordinate>, ExperimentError> {
         let mut coordinates = Vec::new();
         let mut most_work = values[Parameter::Work as usize];
@@ -135,7 +140,8 @@ impl Ranges<'_> {
             }
             let start = values[parameter as usize].clamp(range.0, range.1);
             values[parameter as usize] = start;
-            // The work on opening comes first, so that it limits the work on closing.
+            // The work of adhesion precedes the work on closing in the loop, so its largest value
+            // limits the work on closing.
             if parameter == Parameter::Work {
                 most_work = range.1;
             }
@@ -149,8 +155,8 @@ impl Ranges<'_> {
         Ok(coordinates)
     }
 
-    /// Returns the range in which a parameter is searched if none is given. `values` contains its
-    /// start.
+    /// Returns the range in which a parameter is searched if the user gives none. `values` contains
+    /// the initial value.
     fn range_of(&self, parameter: Parameter, values: &Values) -> (f64, f64) {
         let start = values[parameter as usize];
         let work = values[Parameter::Work as usize];
@@ -167,7 +173,9 @@ impl Ranges<'_> {
         }
     }
 
-    /// Returns the unit of a coordinate: a tenth of the largest change that the parameter makes.
+    /// Returns the unit of a coordinate in SI units: for the zero a tenth of the range of the
+    /// force, for the offset a tenth of the way in contact, and for the work of adhesion the value
+    /// that the noise hides.
     fn unit_of(&self, parameter: Parameter) -> f64 {
         match parameter {
             Parameter::Work => self.starts.least_work,
@@ -178,8 +186,8 @@ impl Ranges<'_> {
 }
 
 impl<'a> Space<'a> {
-    /// Checks parameters and scene. Returns the document with works of adhesion in place of κ, and
-    /// the coordinates of the fit.
+    /// Checks the free parameters and the scene. Returns the document, in which works of adhesion
+    /// replace κ, and the coordinates of the fit.
     pub fn of(
         curve: &'a MeasuredCurve,
         document: &Document,
@@ -233,7 +241,8 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns the values of all parameters at a place.
+    /// Returns the values of all parameters at a place, which has one coordinate for each free
+    /// parameter.
     pub fn values(&self, place: &[f64]) -> Values {
         let mut values = self.base;
         for (coordinate, &position) in self.coordinates.iter().zip(place) {
@@ -258,10 +267,11 @@ impl<'a> Space<'a> {
     }
 
     /// Returns the free parameters with larger ranges, if a place lies at the end of a range that
-    /// was not given; `None` if it does not, or if the scene allows no larger range. Rough bodies
-    /// may be pulled off by a small part of the force of smooth bodies, and curves with a drag or a
-    /// drift may have another modulus than their start. `given` are the free parameters as they
-    /// were asked for, and `free` those of the search.
+    /// the user did not give. Returns `None` if the place does not, or if scenes allow no larger
+    /// range. Larger ranges may be needed because the pull-off force of rough bodies may be a small
+    /// part of that of smooth bodies, and because a drag or a drift may falsify the initial
+    /// modulus. `given` are the free parameters as the user gave them, and `free` those of the
+    /// search.
     pub fn extended(&self, place: &[f64], given: &[Free], free: &[Free]) -> Option<Vec<Free>> {
         let mut wider = free.to_vec();
         let mut is_wider = false;
@@ -290,9 +300,9 @@ impl<'a> Space<'a> {
         is_wider.then_some(wider)
     }
 
-    /// Returns the end of the range of a coordinate at which a place lies; `None` if it lies inside
-    /// or at an end that a parameter may have: no work of adhesion, or a work on closing of that on
-    /// opening.
+    /// Returns the end of the range of a coordinate at which a place lies. Returns `None` if the
+    /// place lies inside the range, or at an end that is a possible value: a work of adhesion of 0,
+    /// or a work on closing equal to that on opening.
     pub fn end_at(&self, index: usize, place: &[f64]) -> Option<RangeEnd> {
         let coordinate = self.coordinates[index];
         let (low, high) = coordinate.ends();
@@ -314,8 +324,8 @@ impl<'a> Space<'a> {
             .collect()
     }
 
-    /// Returns consecutive parts of the points of each segment that are in contact. Parts depend on
-    /// each other less than points do.
+    /// Divides the points in contact of each segment into consecutive parts. The residuals of
+    /// different parts depend on each other less than those of neighbouring points.
     pub fn blocks(&self, in_contact: &[bool]) -> Vec<Vec<usize>> {
         let mut blocks = Vec::new();
         let mut start = 0;
@@ -332,14 +342,15 @@ impl<'a> Space<'a> {
         blocks
     }
 
-    /// Returns the lines of the curve that each model refines.
+    /// Returns the lines, such as the zero of the force, that are fitted again for each computed
+    /// model.
     pub fn lines(&self) -> Lines {
         let is_zero = |coordinate: &Coordinate| coordinate.parameter == Parameter::Zero;
         Lines::new(self.curve, self.coordinates.iter().any(is_zero))
     }
 }
 
-/// Returns the part of a range that a scene may have.
+/// Returns the part of a range that scenes allow.
 fn within_scene(parameter: Parameter, range: (f64, f64)) -> (f64, f64) {
     let Some((least, most)) = parameter.allowed_by_scenes() else {
         return range;
@@ -355,8 +366,9 @@ mod tests {
     use crate::read::options::Drift;
     use std::f64::consts::PI;
 
-    /// The search begins with the work of adhesion of a smooth body: F/(1.5 π R) for a sphere (JKR)
-    /// and F²/(π E* L³) for a punch as long as the profile (Kendall).
+    /// The search begins with the work of adhesion with which a smooth body has the pull-off force
+    /// F of the curve: F/(1.5 π R) for a sphere (JKR), and F²/(π E* L³) for a punch with the length
+    /// L of the profile (Kendall).
     #[test]
     fn a_fit_begins_with_the_work_of_a_smooth_body() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);
@@ -387,8 +399,8 @@ mod tests {
         }
     }
 
-    /// A range that was not given is made wider at the end at which a place lies, up to the values
-    /// that scenes allow.
+    /// A range that the user does not give is widened at the end at which a place lies, up to the
+    /// values that scenes allow.
     #[test]
     fn ranges_are_reopened_up_to_what_scenes_allow() {
         let curve = read(rubber(4e-8, 1, |_, _| 1.0).into_iter(), Drift::Keep);

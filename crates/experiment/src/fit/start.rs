@@ -1,5 +1,5 @@
-//! Values at which a fit begins. They follow from the curve and the known parameters; the values of
-//! the scene for free parameters have no effect.
+//! Initial values of a fit. They follow from the curve and the known parameters. The values in the
+//! scene for free parameters have no effect on them.
 
 use crate::curve::MeasuredCurve;
 use crate::curve::numerics::{Extent, dot};
@@ -10,52 +10,61 @@ use asperity_data::mean;
 use std::f64::consts::PI;
 
 /// Pull-off force of a smooth body, divided by the pull-off force of the curve, up to which the
-/// coordinate of the work of adhesion is linear. The limit is larger if the noise hides more.
+/// coordinate of the work of adhesion is linear. If the noise is larger than this force, the
+/// coordinate is linear up to the noise.
 const LINEAR: f64 = 0.01;
-/// Smallest share of the way from first touch to the turning point that indents the body. The
-/// deflection of the instrument takes the rest.
+/// Smallest indentation, as a share of the way from first touch to the turning point. The rest of
+/// the way is the deflection of the instrument.
 const LEAST: f64 = 0.05;
-/// Share of the largest force above which a loading determines the modulus.
+/// Share of the largest force above which the points of a loading are used to determine the
+/// modulus.
 const HALF: f64 = 0.5;
-/// Smallest number of points of such a loading.
+/// Smallest number of points that determine the modulus.
 const FEWEST: usize = 5;
-/// Stiffness of an instrument divided by the mean slope of the force.
+/// Initial stiffness of the instrument, divided by the mean slope of the force over the
+/// displacement.
 const STIFFER: f64 = 10.0;
 
-/// Work of adhesion, J/m², where the curve says nothing about it.
+/// Initial work of adhesion in J/m², if none follows from the curve.
 const USUAL_WORK: f64 = 0.05;
 
 /// Known parameters of the scene of a fit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
-    /// Radius of the form, m.
+    /// Radius of the form in m.
     pub radius: Option<f64>,
-    /// Length of the profile, m.
+    /// Length of the profile in m.
     pub length: f64,
-    /// Effective modulus, Pa; `None` if it is free.
+    /// Effective modulus in Pa; `None` if it is free.
     pub modulus: Option<f64>,
-    /// Stiffness of the instrument, N/m, infinite for a rigid one; `None` if it is free.
+    /// Stiffness of the instrument in N/m, infinite for a rigid one; `None` if it is free.
     pub stiffness: Option<f64>,
 }
 
-/// Values at which a fit begins.
+/// Initial values of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Starts {
-    /// Work of adhesion, J/m², with which a smooth body would have the pull-off force of the curve.
+    /// Work of adhesion in J/m² with which a smooth body would have the pull-off force of the
+    /// curve.
     pub work: f64,
-    /// Work of adhesion that the noise hides, J/m².
+    /// Work of adhesion in J/m² with which a smooth body would have a pull-off force that the noise
+    /// hides.
     pub least_work: f64,
-    /// Effective modulus, Pa, by the upper half of a loading of the body without adhesion.
+    /// Effective modulus in Pa with which the body without adhesion has the upper half of the
+    /// loading of the curve.
     pub modulus: f64,
-    /// Stiffness of the instrument, N/m.
+    /// Stiffness of the instrument in N/m.
     pub stiffness: f64,
-    /// Displacement at first touch, m.
+    /// Displacement in m at first touch.
     pub touch: f64,
-    /// Way of the instrument from first touch to the largest force, m.
+    /// Distance in m that the instrument moves from first touch to the largest force.
     pub way: f64,
 }
 
 impl Starts {
+    /// Estimates the initial values. The modulus follows from the upper half of the loading, and
+    /// the work of adhesion from the pull-off force of a smooth body. The contact point is that of
+    /// the curve, unless the loading extrapolates to a very different one.
     pub fn of(
         curve: &MeasuredCurve,
         contact: &Contact,
@@ -64,7 +73,8 @@ impl Starts {
         let force = Extent::of(curve.force.iter().copied());
         let pull_off = curve.noise.max(-force.low);
         let preload = force.high.max(curve.noise);
-        // A tension acts on the body like a further compression; see JKR theory at a large force.
+        // By JKR theory, adhesion acts at large forces like a further compression of twice the
+        // pull-off force.
         let carried = preload + 2.0 * pull_off;
         let loading = Loading::of(curve, known.stiffness, 2.0 * pull_off);
         let mut whole_way = loading.turn - curve.touch;
@@ -104,19 +114,21 @@ impl Starts {
     }
 }
 
-/// Upper half of the loading that reaches the largest force of a curve, or of the unloading from
-/// it.
+/// Upper half, by the force, of the loading that reaches the largest force of a curve, or of the
+/// unloading from this force.
 struct Loading {
-    /// Displacement at the largest force, m.
+    /// Displacement in m at the largest force.
     turn: f64,
-    /// Displacements of the body, m, which are without the deflection of a known instrument.
+    /// Displacements of the body in m: those of the instrument minus its deflection, if its
+    /// stiffness is known.
     indentations: Vec<f64>,
-    /// Forces, N, with a tension added.
+    /// Forces in N, to which a constant is added that allows for adhesion.
     forces: Vec<f64>,
 }
 
 impl Loading {
-    /// `tension` is added to the forces, in N. Unknown stiffnesses count as infinite.
+    /// Selects the points of the loading. `tension` in N is added to the forces. An unknown
+    /// stiffness counts as infinite.
     fn of(curve: &MeasuredCurve, stiffness: Option<f64>, tension: f64) -> Self {
         let points = curve.force.iter().enumerate();
         let highest = points.max_by(|(_, force), (_, next)| force.total_cmp(next));
@@ -153,9 +165,9 @@ impl Loading {
         Extent::of(self.indentations.iter().copied()).high
     }
 
-    /// Returns the indentation in m at the largest force, by a straight line of F^(1/n) over the
-    /// displacement of the body; `None` if the points determine no rising line. The line needs no
-    /// first touch.
+    /// Returns the indentation in m at the largest force, from a straight line through F^(1/n) over
+    /// the displacement of the body, where n is the exponent; `None` if the points determine no
+    /// rising line. The contact point need not be known for this.
     fn indentation(&self, exponent: f64) -> Option<f64> {
         if self.forces.len() < FEWEST {
             return None;
@@ -173,7 +185,8 @@ impl Loading {
     }
 }
 
-/// Returns the exponent n of F ~ dⁿ for the body without adhesion about an indentation in m.
+/// Returns the exponent n of the force F ~ dⁿ of the body without adhesion, for indentations d near
+/// `indentation` in m.
 fn exponent(contact: &Contact, indentation: f64) -> Result<f64, ExperimentError> {
     let once = force_of_unit_modulus(contact, indentation)?;
     let twice = force_of_unit_modulus(contact, 2.0 * indentation)?;
@@ -193,8 +206,9 @@ fn force_of_unit_modulus(contact: &Contact, indentation: f64) -> Result<f64, Exp
 }
 
 impl Known {
-    /// Returns the work of adhesion in J/m² with which a smooth body has this pull-off force in N:
-    /// a sphere (JKR), or a flat body as long as the profile (Kendall).
+    /// Returns the work of adhesion in J/m² with which a smooth body has this pull-off force in N.
+    /// The body is a sphere (JKR) if the form has a radius, and otherwise a flat body as long as
+    /// the profile (Kendall).
     fn work_of_smooth_body(self, pull_off: f64, modulus: f64) -> f64 {
         if let Some(radius) = self.radius {
             let work = pull_off / (1.5 * PI * radius);

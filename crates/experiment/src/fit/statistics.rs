@@ -3,12 +3,13 @@
 use crate::curve::numerics::dot;
 use asperity_data::{mean, quantile, standard_deviation};
 
-/// Number of parts into which each segment is divided as blocks of the curve.
+/// Number of parts into which the points in contact of each segment are divided. These parts are
+/// the blocks of the curve.
 pub(crate) const PARTS: usize = 4;
 
-/// Returns a robust root mean square of residuals. Residuals above `cut` times this scale count as
-/// `cut` times the scale (Huber, Robust Statistics, proposal 2), so that single points on the wrong
-/// side of a jump count little.
+/// Returns a robust root mean square of residuals, the scale. A residual above `cut` times the
+/// scale is replaced by `cut` times the scale (Huber, Robust Statistics, proposal 2), so that
+/// single points on the wrong side of a jump have little influence.
 pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
     let mut squares: Vec<f64> = residuals
         .iter()
@@ -22,7 +23,9 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
         if !is_beyond {
             break;
         }
-        // With one residual less it is (sum + beyond · cut² · scale²)/count = scale².
+        // If n of all residuals are beyond the limit and `sum` is the sum of the squares of the
+        // others, the scale solves (sum + n · cut² · scale²)/total = scale². So each residual
+        // beyond the limit reduces the divisor of `sum` by cut².
         sum = squares.iter().sum();
         count -= cut * cut;
     }
@@ -31,9 +34,9 @@ pub(crate) fn scale(residuals: &[f64], cut: f64) -> f64 {
 
 /// Returns the standard error of a value from its scatter over blocks of the curve (infinitesimal
 /// jackknife; Giordano and Broderick, arXiv 2305.06466). `blocks` has the costs of each sample for
-/// each block. Where a model does not describe a curve, its residuals are no independent noise, and
-/// each block would give another value. Blocks are joined, up to whole segments, and the largest
-/// error counts.
+/// each block. If a model does not describe a curve, its residuals are not independent noise, and
+/// each block alone would give another value. The error is also computed for several neighbouring
+/// blocks joined, up to whole segments, and the largest error is returned.
 pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     let count = values.len() as f64;
     let average = mean(values);
@@ -54,7 +57,8 @@ pub(crate) fn block_error(values: &[f64], blocks: &[Vec<f64>]) -> f64 {
     largest
 }
 
-/// Returns the error from the influences of blocks, of which `joined` neighbours count as one.
+/// Returns the standard error from the influences of blocks, with `joined` neighbouring blocks
+/// taken together.
 fn error_of_joined(influences: &[f64], joined: usize) -> f64 {
     let sums: Vec<f64> = influences
         .chunks(joined)
@@ -79,16 +83,16 @@ pub(crate) fn widen(samples: &mut [Vec<f64>], factor: f64) {
     }
 }
 
-/// Spread of a sample.
+/// Spread of the values of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
     pub standard_deviation: f64,
-    /// Quantiles of 2.5 and 97.5 %.
+    /// Quantiles at 2.5 % and 97.5 %.
     pub interval: (f64, f64),
 }
 
 impl Spread {
-    /// The spread of a single value.
+    /// Returns the spread of a single value.
     pub(crate) fn at(value: f64) -> Self {
         Spread {
             standard_deviation: 0.0,
@@ -141,11 +145,12 @@ mod tests {
 
     #[test]
     fn single_residuals_beyond_the_scale_count_little() {
-        // 98 of 1, and two that count as 5 times the scale: scale² = (98 + 2 · 25 scale²)/100.
+        // 98 residuals are 1, and two are replaced by 5 times the scale: scale² = (98 + 2 · 25
+        // scale²)/100.
         let mut residuals = vec![1.0; 98];
         residuals.extend([-1000.0, 1e12]);
         assert!(is_close(scale(&residuals, 5.0), (98.0_f64 / 50.0).sqrt()));
-        // Where all are large they are what the scale is, and the lesser ones count as they are.
+        // If all residuals are large, the scale is as large, and no residual is replaced.
         assert!(is_close(scale(&[350.0, -350.0, 350.0], 5.0), 350.0));
         assert!(is_close(scale(&[3.0, 4.0, 0.0, 0.0], 5.0), 2.5));
         assert_eq!(scale(&[0.0; 30], 5.0), 0.0);
@@ -153,8 +158,8 @@ mod tests {
 
     #[test]
     fn the_error_by_blocks_is_that_of_their_influence() {
-        // Values ±1 and costs of slope ±2 over them: influences of 2 and -2 that alternate over 8
-        // blocks.
+        // The values are ±1, and the costs change with them by the slopes ±2, so the influences of
+        // the 8 blocks are alternately 2 and −2.
         let values: Vec<f64> = (0..64).map(|index| [-1.0, 1.0][index % 2]).collect();
         let costs = |slope: &dyn Fn(usize) -> f64| -> Vec<Vec<f64>> {
             values
@@ -164,11 +169,12 @@ mod tests {
         };
         let alternating = block_error(&values, &costs(&|block| [2.0, -2.0][block % 2]));
         assert!(is_close(alternating, 32.0_f64.sqrt()), "{alternating}");
-        // Approach against retraction: joined to two segments, of influences of 8 and -8.
+        // Approach and retraction differ: if the blocks are joined to two segments, their
+        // influences are 8 and −8.
         let branches = block_error(&values, &costs(&|block| if block < 4 { 2.0 } else { -2.0 }));
         assert!(is_close(branches, 128.0_f64.sqrt()), "{branches}");
-        // One block has no scatter, and a mean influence, which a population aside of the minimum
-        // has, is no scatter.
+        // A single block has no scatter. An influence that is equal in all blocks, as for a
+        // population beside the minimum, is no scatter either.
         let error = block_error(&values, &costs(&|_| 2.0));
         assert!(error.abs() < 1e-9, "{error}");
         assert_eq!(

@@ -12,15 +12,16 @@ use asperity_data::{Remedy, format_quantity, parse_quantity, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// Displacement per row in m, used before the rows have displacements.
+/// Displacement in m for each row, used before displacements are known in a file with forces only.
 const OF_ROW: f64 = 1e-9;
-/// What is allowed if the columns are not recognised.
+/// Text of errors that says what is allowed if the columns are not recognised.
 const COLUMNS: &str = "displacement and force by names or numbers of their columns, or four where a retraction is beside its \
     approach";
-/// What a file without names and units needs in addition.
+/// Text that errors add for a file without names and units.
 const UNITS: &str = ", with their units, since the file states none";
 
-/// Indices of the columns of displacement and force, and the SI values of 1 in these columns.
+/// A column of displacements and a column of forces: their indices, and the SI values that the
+/// number 1 in these columns means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub places: [usize; 2],
@@ -30,22 +31,23 @@ pub(crate) struct Pair {
 /// The columns of a file that are used.
 #[derive(Debug)]
 pub(crate) struct Choice {
-    /// One pair, or two pairs: one for an approach, one for the retraction beside it.
+    /// One pair of columns, or two pairs: one for the approach, and one for the retraction in
+    /// columns beside it.
     pub pairs: Vec<Pair>,
     pub segment: Option<usize>,
-    /// Travel of the piezo in m, over which forces without a column of displacements are evenly
-    /// spaced.
+    /// Travel of the piezo in m, for forces without a column of displacements, which are evenly
+    /// spaced over this travel.
     pub ramp: Option<f64>,
     /// Name of the column of the displacement, if the column excludes the deflection of the
     /// instrument.
     pub of_body: Option<String>,
-    /// The columns with their units, in words.
+    /// Description of the chosen columns and their units.
     pub assumed: String,
     /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
 }
 
-/// Metadata that the file states in its header.
+/// Properties of the file that its header states.
 #[derive(Clone, Copy)]
 pub(crate) struct Stated<'a> {
     pub metadata: &'a Metadata,
@@ -54,7 +56,7 @@ pub(crate) struct Stated<'a> {
 }
 
 impl Choice {
-    /// Chooses among columns with these names and units.
+    /// Chooses the columns of displacement, force and segment by their names and units.
     pub fn new(
         columns: &[TextColumn],
         stated: Stated<'_>,
@@ -106,8 +108,8 @@ impl Choice {
     }
 }
 
-/// Columns of displacement and force, once or for approach and retraction apart, and the column of
-/// the segments.
+/// Columns by their roles: displacement and force, once or for approach and retraction separately,
+/// and the column of the segments.
 struct Roles {
     places: Vec<[usize; 2]>,
     segment: Option<usize>,
@@ -115,10 +117,10 @@ struct Roles {
 
 /// Unit of a column.
 struct Unit {
-    /// SI value of 1 in the column.
+    /// SI value that the number 1 in the column means.
     value: f64,
     description: String,
-    /// Sentence on the unit of the file, if an option replaces it.
+    /// Sentence on the unit in the file, if an option replaces this unit.
     statement: Option<String>,
 }
 
@@ -140,7 +142,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns the travel of the piezo for a file with forces only.
+    /// Returns the travel of the piezo in m for a file with forces only; `None` for a file with
+    /// several columns.
     fn ramp(&self) -> Result<Option<f64>, SurfaceError> {
         if self.columns.len() != 1 {
             return Ok(None);
@@ -155,7 +158,8 @@ impl<'a> Table<'a> {
         Ok(ramp)
     }
 
-    /// Returns the roles of the columns: as `--columns` states them, or by their names.
+    /// Returns the roles of the columns: those that the options state, or else those that follow
+    /// from the names of the columns.
     fn roles(&self, ramp: Option<f64>) -> Result<Roles, SurfaceError> {
         if ramp.is_some() {
             return Ok(self.with_named_segment(vec![[0, 0]]));
@@ -188,8 +192,8 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Returns roles with the column whose name means the segment. Approach and retraction in
-    /// columns of their own need no such column.
+    /// Returns the roles with the column whose name means the segment, if there is one. If approach
+    /// and retraction have separate columns, no column of segments is needed.
     fn with_named_segment(&self, places: Vec<[usize; 2]>) -> Roles {
         let mut segment = None;
         if places.len() == 1 {
@@ -200,8 +204,8 @@ impl<'a> Table<'a> {
         Roles { places, segment }
     }
 
-    /// Returns true for two columns that are displacement and force in this order, because their
-    /// names say nothing else.
+    /// Returns true for two columns that can be taken for displacement and force in this order,
+    /// because their names do not contradict it.
     fn is_pair_in_order(&self) -> bool {
         if self.columns.len() != 2 {
             return false;
@@ -225,7 +229,7 @@ impl<'a> Table<'a> {
         true
     }
 
-    /// Returns the index of the column with a name or a number from 1.
+    /// Returns the index of the column that `wanted` names, or whose number from 1 it is.
     fn place(&self, wanted: &str) -> Result<usize, SurfaceError> {
         let wanted_letters = letters(wanted);
         if !wanted_letters.is_empty() {
@@ -264,7 +268,8 @@ impl<'a> Table<'a> {
         format!("{count} columns {}", names.join(", "))
     }
 
-    /// Returns the sentence on columns that the options choose against their names.
+    /// Returns a sentence on columns that the options choose although their names mean something
+    /// else; `None` if there are none.
     fn overruled_names(&self, places: &[[usize; 2]]) -> Option<String> {
         if self.options.columns.is_empty() {
             return None;
@@ -279,8 +284,9 @@ impl<'a> Table<'a> {
         ))
     }
 
-    /// Returns the name of the column of the displacement if it excludes the deflection of the
-    /// instrument. A number in place of the name overrules what the name says.
+    /// Returns the name of the column of the displacement, if the name means a displacement without
+    /// the deflection of the instrument. If the options choose the column by its number, the
+    /// meaning of its name is ignored, and the result is `None`.
     fn displacement_of_body(&self, place: usize) -> Option<String> {
         if let Some(typed) = self.options.columns.first()
             && typed.parse::<usize>().is_ok()
@@ -290,7 +296,7 @@ impl<'a> Table<'a> {
         is_one_of(&self.named[place].quantity_name, OF_BODY).then(|| self.name(place))
     }
 
-    /// Returns the error of columns that are not recognised.
+    /// Returns the error for columns that are not recognised.
     fn wrong(&self, found: String) -> SurfaceError {
         let has_units = !self.options.units.is_empty()
             || self.columns.iter().any(|column| column.unit.is_some());
@@ -301,8 +307,9 @@ impl<'a> Table<'a> {
         refused(Place::File, found, COLUMNS).with(Remedy::Columns)
     }
 
-    /// Returns the unit of a column of a quantity. The options have precedence over the file. A
-    /// deflection becomes a force by the stiffness that the file states.
+    /// Returns the unit of a column of a quantity. A unit in the options has precedence over the
+    /// unit in the file. A deflection is converted to a force by the stiffness that the file
+    /// states.
     fn unit(&self, quantity: usize, place: usize) -> Result<Unit, SurfaceError> {
         let Quantity {
             term,
@@ -351,7 +358,8 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Returns the SI value of 1 in a column. An option may state a multiple of a unit, such as 3.01nN.
+/// Returns the SI value that the number 1 means in the unit `text`; `None` for a unit of another
+/// quantity. If the unit comes from an option, it may be a multiple of a unit, such as 3.01nN.
 fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
     if is_option && text.starts_with(|first: char| first.is_ascii_digit()) {
         let value = parse_quantity(text, si_unit).ok()?;
@@ -360,8 +368,8 @@ fn unit_value(text: &str, si_unit: &str, is_option: bool) -> Option<f64> {
     unit(text, si_unit)
 }
 
-/// Returns the unit of a column of a deflection, which is a length or a voltage. It is the force in
-/// N of a deflection of 1. Returns `None` for another unit.
+/// Returns the unit of a column of deflections in a unit of length or voltage. The value of the
+/// result is the force in N that a deflection of 1 means. Returns `None` for another unit.
 fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, SurfaceError>> {
     let mut factors = String::new();
     let deflection = match unit(text, "m") {
@@ -386,7 +394,7 @@ fn of_deflection(text: &str, metadata: &Metadata) -> Option<Result<Unit, Surface
     }))
 }
 
-/// Returns the error of a deflection from which no force follows.
+/// Returns the error for a deflection that cannot be converted to a force.
 fn no_force(unit: &str, missing: &str) -> SurfaceError {
     let unit = shown(unit);
     let found = format!("the force is a deflection in {unit}, and the file states no {missing}");
@@ -396,11 +404,11 @@ fn no_force(unit: &str, missing: &str) -> SurfaceError {
 /// Quantity and unit that follow from the name of a column.
 #[derive(Clone, Debug)]
 struct Named {
-    /// [`APPROACH`], [`RETRACTION`] or neither.
+    /// Direction of the column, [`APPROACH`] or [`RETRACTION`]; `None` if the name states neither.
     direction: Option<usize>,
-    /// Letters of the words that state neither direction nor unit.
+    /// Letters of the words of the name that state neither a direction nor a unit.
     quantity_name: String,
-    /// Unit among the words, as in `Defl_pN_Ex`.
+    /// Unit among the words of the name, as in `Defl_pN_Ex`.
     unit: Option<String>,
 }
 
@@ -408,7 +416,7 @@ impl Named {
     fn of(column: &TextColumn) -> Named {
         let words = column.name.split(|c: char| !c.is_alphanumeric());
         let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-        // The first word is the quantity, even if it looks like a unit.
+        // The first word names the quantity, even if the word looks like a unit.
         let unit_of_name = words.iter().skip(1).copied().find(|word| names_unit(word));
 
         let mut direction_of_column = None;
@@ -427,7 +435,8 @@ impl Named {
         }
     }
 
-    /// Rank of the unit: 0 for a force, 1 for a deflection, 2 for any other unit.
+    /// Returns the rank of the unit of a column of forces; smaller is better. It is 0 for a unit of
+    /// force or no unit, 1 for a deflection, and 2 for any other unit.
     fn rank(&self) -> usize {
         match self.unit.as_deref() {
             None => 0,
@@ -438,9 +447,9 @@ impl Named {
     }
 }
 
-/// Returns the indices of the columns of displacement and force that names identify, twice if
-/// approach and retraction are side by side. The error is the name of the quantity that no column
-/// names.
+/// Returns the indices of the columns of displacement and force that follow from the names. If
+/// approach and retraction have separate columns, there are two pairs. The error is the name of the
+/// quantity for which no column is found.
 fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     if let Some(approach) = pair_of_direction(named, APPROACH)
         && let Some(retraction) = pair_of_direction(named, RETRACTION)
@@ -451,7 +460,7 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     let force = find_column(named, FORCE, None);
     match (displacement, force) {
         (Some(displacement), Some(force)) => Ok(vec![[displacement, force]]),
-        // Of two columns the other one.
+        // If one of two columns is known, the other column is the missing quantity.
         (Some(displacement), None) if named.len() == 2 => {
             Ok(vec![[displacement, 1 - displacement]])
         }
@@ -461,8 +470,8 @@ fn known(named: &[Named]) -> Result<Vec<[usize; 2]>, &'static str> {
     }
 }
 
-/// Returns the columns of displacement and force of a direction. Both directions may share the
-/// column of displacements, and the name of a column of forces may be its direction alone.
+/// Returns the columns of displacement and force of a direction. Approach and retraction may have
+/// the same column of displacements. The name of a column of forces may be only the direction.
 fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
     let direction = Some(direction);
     let displacement = find_column(named, DISPLACEMENT, direction)
@@ -472,7 +481,8 @@ fn pair_of_direction(named: &[Named], direction: usize) -> Option<[usize; 2]> {
     Some([displacement, force])
 }
 
-/// Returns the column that is named as a quantity, by the most preferred name.
+/// Returns the column of a quantity and direction. If several columns have names of the quantity,
+/// the name that comes first in its list is preferred.
 fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Option<usize> {
     for name in QUANTITIES[quantity].names.split(' ') {
         if let Some(place) = best_column(named, quantity, direction, name) {
@@ -482,7 +492,8 @@ fn find_column(named: &[Named], quantity: usize, direction: Option<usize>) -> Op
     None
 }
 
-/// Returns the first column with a name and a direction. Among forces the best unit comes first.
+/// Returns the first column with this name and direction. Among several columns of forces, the
+/// column with the best rank of its unit is returned.
 fn best_column(
     named: &[Named],
     quantity: usize,

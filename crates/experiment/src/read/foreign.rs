@@ -1,4 +1,5 @@
-//! Binary files of instruments, which are refused with the way to a text.
+//! Recognition of binary files of instruments. They are refused with an error that says how to
+//! export a text.
 
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
@@ -6,12 +7,12 @@ use std::path::Path;
 
 /// Binary format of an instrument or a program.
 struct Format {
-    /// Ends of the names of its files.
+    /// Extensions of the names of the files of this format.
     extensions: &'static [&'static str],
-    /// First bytes of its files; empty if they are not known.
+    /// First bytes of the files of this format; empty if they are unknown.
     signature: &'static [u8],
     name: &'static str,
-    /// Way to a text file.
+    /// Instruction for the export of a text, for the error.
     way: &'static str,
 }
 
@@ -90,7 +91,8 @@ const FORMATS: [Format; 12] = [
     },
 ];
 
-/// Returns an error for a binary file. The error names the format and the way to a text file.
+/// Returns an error for a binary file. The error names the format, if it is known, and says how to
+/// export a text.
 pub(crate) fn check_is_text(path: &Path, bytes: &[u8]) -> Result<(), SurfaceError> {
     let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     if is_utf16 || !bytes.contains(&0) {

@@ -1,10 +1,10 @@
-//! What the lines above the numbers of a curve say about the instrument.
+//! Properties of the instrument, from the lines above the numbers of a curve.
 
 use crate::read::names::{letters, unit};
 use asperity_data::parse_quantity;
 use asperity_data::text_table::{Decimal, Separator, TextCell};
 
-/// Names of the stiffness of the instrument, as letters.
+/// Names of the stiffness of the instrument, reduced by [`letters`].
 const STIFFNESS: [&str; 6] = [
     "springconstant",
     "forceconstant",
@@ -13,7 +13,7 @@ const STIFFNESS: [&str; 6] = [
     "springk",
     "k",
 ];
-/// Names of the deflection for 1 V, as letters.
+/// Names of the deflection for 1 V, reduced by [`letters`].
 const SENSITIVITY: [&str; 5] = [
     "sensitivity",
     "deflectionsensitivity",
@@ -21,23 +21,23 @@ const SENSITIVITY: [&str; 5] = [
     "sensdeflection",
     "lightlevergain",
 ];
-/// Names of the travel of the piezo, as letters.
+/// Names of the travel of the piezo, reduced by [`letters`].
 const RAMP: [&str; 3] = ["rampsize", "ramplength", "zscansize"];
 
 /// Stiffness and sensitivity of the instrument, and the travel of its piezo.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Metadata {
-    /// Name in the file and value of the stiffness of the instrument, N/m.
+    /// Name of the stiffness of the instrument in the file, and its value in N/m.
     pub stiffness: Option<(String, f64)>,
-    /// Deflection for 1 V, m/V.
+    /// Deflection for 1 V in m/V.
     pub sensitivity: Option<f64>,
-    /// Travel of the piezo, m.
+    /// Travel of the piezo in m.
     pub ramp: Option<f64>,
 }
 
 impl Metadata {
-    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit is after
-    /// the key or the value; without a unit the value is in SI units.
+    /// Reads a line `key: value`, `key = value`, or `key`, a tab and `value`. The unit follows the
+    /// key or the value. A value without a unit is in SI units.
     pub fn take(&mut self, line: &str) {
         let Some(entry) = Entry::of(line) else {
             return;
@@ -64,18 +64,19 @@ impl Metadata {
 struct Entry<'a> {
     name: &'a str,
     number: f64,
-    /// Empty if none is stated.
+    /// Unit of the number; empty if the header states none.
     unit: &'a str,
 }
 
 impl<'a> Entry<'a> {
+    /// Parses a line of the header; `None` for a line without a positive number.
     fn of(line: &'a str) -> Option<Self> {
         let (key, value) = line
             .rsplit_once(": ")
             .or_else(|| line.split_once([':', '=', '\t']))?;
         let (name, unit_of_key) = key.split_once(['(', '[', ',']).unwrap_or((key, ""));
         let value = value.trim_matches(|c: char| !(c.is_alphanumeric() || "+-./".contains(c)));
-        // Instruments write `V 65.3 nm/V` for a value that depends on a voltage.
+        // Some instruments write `V 65.3 nm/V` for a value that is related to a voltage.
         let value = value.strip_prefix("V ").unwrap_or(value).trim();
         let end = value
             .find(|c: char| !(c.is_ascii_digit() || ".,+-eE".contains(c)))
@@ -98,9 +99,11 @@ impl<'a> Entry<'a> {
         })
     }
 
-    /// Returns the deflection for 1 V in m/V, also from a voltage for 1 m.
+    /// Returns the deflection for 1 V in m/V. It also follows from an inverse value, a voltage for
+    /// a deflection of 1 m.
     fn sensitivity(&self) -> Option<f64> {
-        // A gain of 1 mV/nm is that of an instrument without calibration.
+        // A value of exactly 1, such as 1 mV/nm, is the default of an instrument without
+        // calibration, and is not used.
         if !self.unit.is_empty()
             && self.number != 1.0
             && let Some(unit) = ratio(self.unit, "V", "m")
@@ -115,7 +118,8 @@ fn only_unit(text: &str) -> &str {
     text.trim_matches(|c: char| !(c.is_alphabetic() || c == '/'))
 }
 
-/// Returns the SI value of 1 in a unit that is a ratio, such as nN/nm; 1 without a unit.
+/// Returns the SI value that the number 1 means in a unit that is a ratio, such as nN/nm. Returns 1
+/// if there is no unit.
 fn ratio(text: &str, over: &str, under: &str) -> Option<f64> {
     if text.is_empty() {
         return Some(1.0);

@@ -24,8 +24,8 @@ use asperity_surface::files::{columns as npy_columns, is_igor_wave, unpacked};
 use asperity_surface::{Place, SurfaceError};
 use std::path::Path;
 
-/// Reads the content of a file, which may be compressed by gzip. The name identifies binary
-/// formats, which are refused.
+/// Reads the content of a file, which may be compressed by gzip. The name of the file serves to
+/// recognise binary formats of instruments, which are refused.
 pub(crate) fn parse(
     name: &Path,
     bytes: &[u8],
@@ -51,7 +51,8 @@ pub(crate) fn parse(
 /// Reads the content of a NumPy file.
 fn of_array(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let (names, values) = npy_columns(bytes)?;
-    // A force curve or a fit of this program, in SI units.
+    // Columns with these names are from a force curve or a fit that this program has written in SI
+    // units.
     let is_si = names
         .iter()
         .any(|name| name == "contact_length" || name == "residual");
@@ -108,7 +109,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Lines of the spring with this header, each point in this form.
+    /// Returns a text with the curve of the spring. It has this header, and `form` writes each
+    /// point.
     fn text(header: &str, form: impl Fn(f64, f64) -> String) -> String {
         text_of_spring(header, 600, form)
     }
@@ -125,7 +127,7 @@ pub(crate) mod tests {
         };
         let plain = CurveOptions::default;
         let expected = spring();
-        // Both points at the turn have one displacement.
+        // The two points at the turning point have the same displacement.
         assert_eq!(
             (
                 expected.segment[298],
@@ -146,7 +148,7 @@ pub(crate) mod tests {
             expected.force[300]
         );
         assert_eq!(expected.turns.len(), 2);
-        // Thousands of pN, separated by this mark.
+        // Writes a force in pN with this mark between thousands.
         let thousands = |force: f64, mark: &str| {
             let text = format!("{:.9}", 1e3 * force);
             let at = text.find('.').unwrap_or(text.len()).saturating_sub(3);
@@ -230,7 +232,7 @@ pub(crate) mod tests {
             &mut all.iter().flat_map(|&(d, f)| [d, f]),
             columns(&["1", "2"]),
         );
-        // Any number that changes with the segment.
+        // The column of the segment may have any numbers that change with the segment.
         let labelled = all
             .iter()
             .zip(&expected.segment)
@@ -262,7 +264,8 @@ pub(crate) mod tests {
 
     #[test]
     fn units_of_the_command_line_overrule_those_of_the_file() {
-        // A divisor that is a whole number, and a factor.
+        // The first unit can be converted by a division by a whole number, and the second only by a
+        // multiplication.
         for unit in [4.0, 3.0] {
             let text = text("Piezo [nm],Deflection [nm]\n", |d, f| {
                 format!("{},{}", d / 1e3, f / unit)
@@ -349,7 +352,8 @@ pub(crate) mod tests {
                 error.starts_with(said) && error.contains("allowed: "),
                 "{said}: {error}"
             );
-            // A file without names and units needs both options.
+            // Only a file without names and units needs both options, and only then the message
+            // names the units.
             assert!(
                 error.contains(", with their units") == error.contains("without names"),
                 "{error}"

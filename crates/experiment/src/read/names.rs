@@ -3,20 +3,23 @@
 use asperity_data::parse_quantity;
 use asperity_data::text_table::is_one_of;
 
-/// Quantity of a column.
+/// Quantity that a column may have.
 pub(crate) struct Quantity {
     pub term: &'static str,
     pub si_unit: &'static str,
     pub unit_example: &'static str,
-    /// Known names of the column as letters. Preferred names come first.
+    /// Known names of columns of this quantity, reduced by [`letters`] and separated by spaces.
+    /// Preferred names come first.
     pub names: &'static str,
 }
 
-/// Indices of the quantities in [`QUANTITIES`].
+/// Index of the displacement in [`QUANTITIES`].
 pub(crate) const DISPLACEMENT: usize = 0;
+/// Index of the force in [`QUANTITIES`].
 pub(crate) const FORCE: usize = 1;
-/// Displacement and force. The displacement of the instrument is preferred to the displacement of
-/// the body, which lacks the deflection of the instrument. A force is preferred to a deflection.
+/// Displacement and force. Among the names, the displacement of the instrument is preferred to that
+/// of the body, which lacks the deflection of the instrument, and a force is preferred to a
+/// deflection.
 pub(crate) const QUANTITIES: [Quantity; 2] = [
     Quantity {
         term: "displacement",
@@ -37,10 +40,11 @@ pub(crate) const QUANTITIES: [Quantity; 2] = [
 ];
 /// Names of columns with the displacement of the body, without the deflection of the instrument.
 pub(crate) const OF_BODY: &str = "indentation tipposition verticaltipposition separation tipsampleseparation tipsampledistance depth";
-/// Names of a column of segments.
+/// Names of a column with the segment of each point.
 pub(crate) const SEGMENT: &str = "segment segmentname segmenttype phase direction";
-/// Indices of the directions in [`DIRECTIONS`].
+/// Index of the approach in [`DIRECTIONS`].
 pub(crate) const APPROACH: usize = 0;
+/// Index of the retraction in [`DIRECTIONS`].
 pub(crate) const RETRACTION: usize = 1;
 /// Words for approach and for retraction in the names of columns side by side.
 const DIRECTIONS: [&str; 2] = [
@@ -50,7 +54,8 @@ const DIRECTIONS: [&str; 2] = [
 /// Words for a pause in the names of segments.
 const PAUSES: &str = "pause hold dwell delay wait";
 
-/// The letters of a name in lower case, so that `Z-Sense` and `z_sense` are the same.
+/// Returns the letters and digits of a name in lower case, so that `Z-Sense` and `z_sense` are
+/// equal.
 pub(crate) fn letters(name: &str) -> String {
     name.chars()
         .filter(|c| c.is_alphanumeric())
@@ -58,7 +63,8 @@ pub(crate) fn letters(name: &str) -> String {
         .collect()
 }
 
-/// Returns the direction that a word states: [`APPROACH`] or [`RETRACTION`].
+/// Returns the direction that a word states, [`APPROACH`] or [`RETRACTION`]; `None` for another
+/// word.
 pub(crate) fn direction(word: &str) -> Option<usize> {
     let word = letters(word);
     DIRECTIONS.iter().position(|words| is_one_of(&word, words))
@@ -86,7 +92,7 @@ pub(crate) fn is_unit(text: &str) -> bool {
 }
 
 /// Returns true for a word in the name of a column that is a unit of length, force or voltage. A
-/// single letter is a symbol, except V.
+/// single letter counts as a symbol and not as a unit, except V.
 pub(crate) fn names_unit(word: &str) -> bool {
     if word.chars().count() > 1 {
         return is_unit(word) || unit(word, "V").is_some();
@@ -94,7 +100,8 @@ pub(crate) fn names_unit(word: &str) -> bool {
     word == "V"
 }
 
-/// Returns the SI value of 1 in a unit, such as 1e-9 for nm; `None` for a unit of another quantity.
+/// Returns the SI value that the number 1 means in a unit, such as 1e-9 for nm; `None` for a unit
+/// of another quantity.
 pub(crate) fn unit(text: &str, si_unit: &str) -> Option<f64> {
     let value = parse_quantity(&format!("1 {text}"), si_unit).ok()?;
     text.ends_with(si_unit).then_some(value)

@@ -12,21 +12,21 @@ use std::borrow::Cow;
 
 /// Largest magnitude of a displacement in m, and of a force in N, that a file may contain.
 const LARGEST: [f64; 2] = [1e3, 1e6];
-/// Distance from the central nine tenths of the displacements, in units of their range, beyond
-/// which a few displacements are errors of the file.
+/// Distance from the range of the central nine tenths of all displacements, in units of this range,
+/// beyond which a few displacements count as errors of the file.
 const WILD: f64 = 10.0;
 
-/// Label of the points in a part of a file.
+/// Label that a file gives to the points in a part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Number of the part. Another name begins another part.
+    /// Number of the part. A new part begins where the name of the segment changes.
     pub part: usize,
-    /// True if the name of the part means a pause.
+    /// True if the name of the part means a pause of the instrument.
     pub is_pause: bool,
 }
 
 impl Label {
-    /// Makes the label of an approach or a retraction.
+    /// Creates the label of an approach or a retraction.
     pub fn of_part(part: usize) -> Label {
         Label {
             part,
@@ -40,7 +40,7 @@ impl Label {
 pub(crate) struct Columns {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
-    /// Label of the segment of each point; empty if the file names none.
+    /// Label of the segment of each point; empty if the file has no names of segments.
     pub labels: Vec<Label>,
     /// True if the approach and the retraction have their own columns.
     pub is_beside: bool,
@@ -51,11 +51,11 @@ pub(crate) struct Columns {
     /// Name of the column of the displacement, if the column excludes the deflection of the
     /// instrument.
     pub of_body: Option<String>,
-    /// Columns and their units in words.
+    /// Description of the columns and their units.
     pub assumed: String,
     /// Sentences on names and units of the file that the options replace.
     pub statements: Vec<String>,
-    /// Number of points left out because they repeat the point before.
+    /// Number of points left out because they are equal to the previous point.
     repeated: usize,
     /// Place of the first repeated point.
     first_repeated: Option<Place>,
@@ -64,8 +64,8 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    /// Takes displacements in m and forces in N. A point with a value that is not finite is left
-    /// out.
+    /// Creates columns from displacements in m and forces in N. A point with a value that is not
+    /// finite is left out.
     pub fn of_arrays(displacement: &[f64], force: &[f64]) -> Result<Self, ExperimentError> {
         if displacement.len() != force.len() {
             let found = format!(
@@ -90,7 +90,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// Returns the numbers of points left out, in words; empty if there are none.
+    /// Returns in words how many points were left out, and why; empty if none were.
     pub fn left_out(&self) -> Vec<String> {
         let mut sentences = Vec::new();
         if self.missing > 0 {
@@ -108,7 +108,7 @@ impl Columns {
         sentences
     }
 
-    /// Joins an approach with the retraction beside it.
+    /// Joins the points of an approach and of a retraction that were in columns side by side.
     pub fn joined(parts: Vec<Columns>) -> Columns {
         let mut parts = parts.into_iter();
         let mut joined = parts.next().unwrap_or_default();
@@ -118,8 +118,8 @@ impl Columns {
         joined
     }
 
-    /// Adds the retraction to an approach. It begins at its end that is nearer to the end of the
-    /// approach.
+    /// Adds the retraction to an approach. If the last point of the retraction is nearer to the end
+    /// of the approach than its first point, its order is reversed.
     fn append_retraction(&mut self, mut retraction: Columns) {
         if let Some(turn) = self.displacement.last()
             && let Some(first) = retraction.displacement.first()
@@ -169,7 +169,8 @@ impl Columns {
     }
 
     /// Returns an error if a few displacements are far from all others. Such errors of a file would
-    /// determine the range. `place` makes the place in the file of a line or point with a number.
+    /// determine the range of displacements, and thereby the segments. `place` returns the place in
+    /// the file from the number of a line or a point.
     pub fn check_displacements(&self, place: fn(usize) -> Place) -> Result<(), SurfaceError> {
         let mut sorted = self.displacement.clone();
         sorted.sort_by(f64::total_cmp);
@@ -205,8 +206,8 @@ impl Columns {
     }
 }
 
-/// Returns a value in SI units. A division by a whole number rounds once, while the unit itself,
-/// such as 1e-9, is rounded too.
+/// Returns a value in SI units. If 1/`unit` is a whole number, the value is divided by it, because
+/// the unit itself, such as 1e-9, is rounded and a multiplication would round twice.
 fn in_si(value: f64, unit: f64) -> f64 {
     let divisor = (1.0 / unit).round();
     if (divisor * unit - 1.0).abs() < 1e-12 {
@@ -229,13 +230,13 @@ fn check_magnitude(value: f64, quantity: usize, place: &Place) -> Result<(), Sur
     Err(refused(place.clone(), found, allowed))
 }
 
-/// Rows of a file, from whose chosen columns the points are collected.
+/// Collector of the points from the chosen columns of the rows of a file.
 pub(crate) struct Rows {
     pub choice: Choice,
-    /// One set of columns, or two: one for an approach, one for the retraction beside it.
+    /// One set of columns, or two sets for approach and retraction in columns side by side.
     pub parts: Vec<Columns>,
     label: Label,
-    /// Name of the present segment; empty before the first one.
+    /// Name of the present segment; empty before the first segment.
     name: String,
     /// Number of rows so far.
     count: usize,
@@ -262,7 +263,7 @@ impl Rows {
         })
     }
 
-    /// Begins another segment if the name differs from the present one.
+    /// Begins another segment if the name differs from that of the present segment.
     pub fn begin_segment(&mut self, name: &str) {
         if self.name != name {
             self.label = Label {
@@ -273,8 +274,8 @@ impl Rows {
         }
     }
 
-    /// Adds the points of a row. `value` returns the number in a column, NaN if it is missing, and
-    /// `text` returns its text.
+    /// Adds the points of a row. `value` returns the number in a column, or NaN if it is missing.
+    /// `text` returns the text of a cell.
     pub fn take<'a>(
         &mut self,
         place: &Place,
@@ -288,12 +289,12 @@ impl Rows {
         let is_labelled = !self.name.is_empty();
         for (part, pair) in self.parts.iter_mut().zip(&self.choice.pairs) {
             let force = value(pair.places[FORCE])?;
-            // Without a column of displacements the rows count.
+            // Without a column of displacements, the number of the row replaces the displacement.
             let displacement = match self.choice.ramp {
                 Some(_) => self.count as f64,
                 None => value(pair.places[DISPLACEMENT])?,
             };
-            // One of two segments side by side may be longer.
+            // If approach and retraction are side by side, one of them may have fewer rows.
             if is_beside && pair.places.iter().all(|place| text(*place).is_empty()) {
                 continue;
             }
@@ -314,8 +315,8 @@ impl Rows {
         self.parts
     }
 
-    /// Gives forces without a displacement displacements that are evenly spaced over the travel of
-    /// the piezo in m, there and back.
+    /// Sets the displacements of a file with forces only: the first half of the points is evenly
+    /// spaced over the travel `ramp` of the piezo in m, and the second half over the same way back.
     fn spread_over_ramp(&mut self, ramp: f64) {
         let Some(columns) = self.parts.first_mut() else {
             return;

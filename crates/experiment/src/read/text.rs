@@ -1,4 +1,5 @@
-//! The points of a text: where they begin, what the lines above them say, and their rows.
+//! Reader of the points of a text: the place where the points begin, the information in the lines
+//! above them, and the rows of points.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
@@ -12,12 +13,14 @@ use asperity_data::{PROVENANCE, shown};
 use asperity_surface::files::refused;
 use asperity_surface::{Place, SurfaceError};
 
-/// Number of like rows of numbers that make them points. Lines of metadata with numbers are fewer.
+/// Number of consecutive rows of numbers with the same form from which on they count as points.
+/// Metadata have fewer such lines.
 const RUN: usize = 5;
-/// Header line of tables that PyJibe and afmformats write, whose columns are in SI units.
+/// Header line of tables that the programs PyJibe and afmformats write. Their columns are in SI
+/// units.
 const OF_AFMFORMATS: &str = "END METADATA";
 
-/// Form of a row of numbers: separator, number of cells, and which cells are words.
+/// Form of a row of numbers: the separator, the number of cells, and which cells are words.
 #[derive(Clone, Debug, PartialEq)]
 struct Shape {
     pub separator: Separator,
@@ -64,15 +67,16 @@ impl Shape {
     }
 }
 
-/// Beginning of the points of a text.
+/// Place where the points of a text begin, and form of the first row.
 struct Beginning {
     /// Number of the line, from 1.
     pub line: usize,
     pub shape: Shape,
 }
 
-/// Returns where the points of a text begin. The first few like rows decide, or else the first row.
-/// Returns `None` if there is no row of numbers.
+/// Returns where the points of a text begin: at the first [`RUN`] consecutive rows with the same
+/// form, or, if there are none, at the first row of numbers. Returns `None` if there is no row of
+/// numbers.
 fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     for least in [2, 1] {
         let mut runs = Runs::default();
@@ -88,19 +92,20 @@ fn beginning(bytes: &[u8]) -> Result<Option<Beginning>, TextFault> {
     Ok(None)
 }
 
-/// Runs of like rows of numbers.
+/// Runs of consecutive rows of numbers with the same form.
 #[derive(Default)]
 struct Runs {
-    /// First row of all.
+    /// First row of numbers in the text.
     first: Option<Beginning>,
-    /// First row of the present run.
+    /// First row of the run that is being read.
     run: Option<Beginning>,
-    /// Number of rows of the present run.
+    /// Number of rows of the run that is being read.
     length: usize,
 }
 
 impl Runs {
-    /// Reads a line, unless a run is already long enough. A row of numbers has `least` values.
+    /// Reads a line, unless a run has already [`RUN`] rows. A row of numbers has at least `least`
+    /// values.
     fn take(&mut self, number: usize, line: &str, least: usize) {
         if self.is_long() || line.is_empty() || is_comment(line) {
             return;
@@ -148,12 +153,13 @@ fn segment_of(comment: &str) -> Option<&str> {
     is_segment.then_some(name.trim())
 }
 
-/// Lines above the points.
+/// Information from the lines above the points.
 #[derive(Default)]
 struct Above {
     header: HeadLines,
     pub metadata: Metadata,
-    /// Names of columns followed by the first numbers, from a file without a line end between them.
+    /// Names of columns from a line that also has the first numbers, because the file lacks a line
+    /// end between them.
     merged: Option<String>,
 }
 
@@ -174,12 +180,13 @@ impl Above {
         columns_of(&header, shape)
     }
 
-    /// Returns true if the names of the columns hide the first row.
+    /// Returns true if the first row of numbers is in the line with the names of the columns, so
+    /// that it is lost.
     pub fn has_merged(&self) -> bool {
         self.merged.is_some()
     }
 
-    /// Returns true for a table in SI units.
+    /// Returns true for a table of PyJibe or afmformats, whose columns are in SI units.
     pub fn is_of_afmformats(&self) -> bool {
         self.header.has_line(OF_AFMFORMATS)
     }
@@ -189,8 +196,8 @@ fn columns_of(header: &HeadLines, shape: &Shape) -> Vec<TextColumn> {
     header.columns(shape.count, shape.count, shape.separator, is_unit)
 }
 
-/// Returns the names of the columns of a comment to which the first row of numbers is attached. Its
-/// last name and the first number share a cell.
+/// Returns the names of columns from a comment to which the first row of numbers is attached, so
+/// that the last name and the first number are in the same cell. Returns `None` for another line.
 fn names_before_numbers(line: &str, shape: &Shape) -> Option<String> {
     let text = line.trim_start_matches(COMMENT);
     let cells: Vec<&str> = shape.separator.split(text).collect();
@@ -241,19 +248,19 @@ pub(crate) fn of_text(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Column
 /// Reader of the lines of a text.
 struct TextReader<'a> {
     options: &'a CurveOptions,
-    /// True for a table of this program, in SI units.
+    /// True for a table that this program has written, in SI units.
     is_of_program: bool,
     beginning: Beginning,
     above: Above,
-    /// Rows so far; `None` before the first one.
+    /// Rows that have been read; `None` before the first row.
     rows: Option<Rows>,
     decimal: Decimal,
-    /// Name of a segment above its points.
+    /// Name of the segment from a line above its points.
     name: String,
 }
 
 impl TextReader<'_> {
-    /// Reads the line with a number from 1.
+    /// Reads a line. `number` is the number of the line from 1.
     fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if is_comment(line)
             && let Some(segment) = segment_of(line)
@@ -270,7 +277,7 @@ impl TextReader<'_> {
         self.take_row(Place::Line(number), line)
     }
 
-    /// Reads a line of numbers, or of the name of a segment between numbers.
+    /// Reads a line of numbers, or a line between numbers with the name of a segment.
     fn take_row(&mut self, place: Place, line: &str) -> Result<(), SurfaceError> {
         let mut rows = match self.rows.take() {
             Some(rows) => rows,
@@ -301,7 +308,7 @@ impl TextReader<'_> {
         Ok(())
     }
 
-    /// Chooses the columns by the lines above the first row.
+    /// Chooses the columns with the information from the lines above the first row.
     fn first_rows(&self) -> Result<Rows, SurfaceError> {
         let stated = Stated {
             metadata: &self.above.metadata,
@@ -321,7 +328,8 @@ fn number_in(
     place: &Place,
 ) -> Result<f64, SurfaceError> {
     let (fault, allowed) = match decimal.read(cell, shape.separator) {
-        // A number of hundreds of digits is not the word for infinity, which marks a missing value.
+        // A number with so many digits that it becomes infinite is an error. The word for infinity,
+        // without digits, marks a missing value.
         TextCell::Number(value)
             if value.is_infinite() && cell.contains(|c: char| c.is_ascii_digit()) =>
         {
@@ -352,7 +360,7 @@ mod tests {
     use crate::read::options::CurveOptions;
     use crate::read::tests::assert_same;
 
-    /// Head and rows of a text, joined by line ends.
+    /// Returns a text with a head and `count` rows.
     fn joined(head: &str, count: usize, line: &dyn Fn(usize) -> String) -> String {
         (0..count).fold(head.to_owned(), |all, index| all + &line(index) + "\n")
     }
@@ -362,7 +370,8 @@ mod tests {
             .unwrap_or_else(|error| panic!("{error}: {}", &text[..80]))
     }
 
-    /// The spring in the form of each program, without options, with a part of its first statement.
+    /// The curve of the spring is read from the form of each program without options. Each case has
+    /// a part of the first statement.
     #[test]
     fn exports_of_other_programs_are_read_without_options() {
         let (all, expected) = (of_spring(600), read(&lines(of_spring(600))));
@@ -426,7 +435,8 @@ mod tests {
                 )
             },
         );
-        // The approach from its turn on, and the forces in three units.
+        // The approach is written backwards, from the turning point on. The deflection is in V and
+        // in pN.
         let nanoscope =
             "Calc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_V_Ex\tDefl_V_Rt\tDefl_pN_Ex\tDefl_pN_Rt\n";
         let nanoscope = joined(nanoscope, 300, &|index| {
@@ -438,8 +448,8 @@ mod tests {
                 one.0, other.0, volts[0], volts[1]
             )
         });
-        // The retraction along the same direction as the approach, and with minus signs of a
-        // spreadsheet.
+        // The retraction is written in the same direction as the approach, and with the minus signs
+        // of a spreadsheet.
         let side = joined(
             "Z ext (nm);F ext (nN);Z ret (nm);F ret (nN)\n",
             300,
@@ -551,7 +561,8 @@ mod tests {
         }
     }
 
-    /// What a file states about its instrument, and a displacement that lacks its deflection.
+    /// A file may state the stiffness of its instrument, and may have a displacement without the
+    /// deflection of the instrument.
     #[test]
     fn the_instrument_of_a_file_is_known() {
         let all = of_spring(600);
@@ -578,7 +589,7 @@ mod tests {
             stated("Tip Position (nm),Force (nN)\n"),
             (None, some("Tip Position"))
         );
-        // A column by its number is what the scene says.
+        // If the options choose a column by its number, the meaning of its name is ignored.
         let options = CurveOptions {
             columns: vec!["1".into(), "2".into()],
             ..CurveOptions::default()
@@ -589,7 +600,8 @@ mod tests {
                 .of_body,
             None
         );
-        // With the stiffness of the file or of the scene it becomes that of the instrument.
+        // With the stiffness from the file or from the scene, the displacement of the body is
+        // converted to that of the instrument.
         let body = |head: &str| {
             joined(head, 600, &|index| {
                 format!("{},{}", all[index].1 / 4.0 - all[index].0, all[index].1)
@@ -621,14 +633,14 @@ mod tests {
                     .ends_with("the deflection of an instrument of 4 N/m was added.")
             );
         }
-        // A deflection becomes a force by the stiffness of the file.
+        // A deflection is converted to a force by the stiffness in the file.
         let half = joined("k (N/m)\t2\nPiezo [nm]\tDeflection [nm]\n", 600, &|index| {
             format!("{}\t{}", all[index].0, all[index].1 / 2.0)
         });
         assert_same(&read(&half), &read(&text("d [nm],f [nN]\n")), "deflection");
     }
 
-    /// Pauses are left out, and rows that repeat the row before.
+    /// Pauses are left out, and so are rows that repeat the previous row.
     #[test]
     fn pauses_and_repeated_rows_are_left_out_and_said() {
         let all = of_spring(600);

@@ -1,5 +1,6 @@
-//! Force curves in binary waves of Igor, as microscopes of Asylum Research write them: a column of
-//! the wave for each quantity, and a note with the properties of the cantilever.
+//! Force curves in binary waves (arrays) of the program Igor, as microscopes of Asylum Research
+//! write them. A wave has a column for each quantity, and a note with the properties of the
+//! cantilever.
 
 use crate::read::columns::Stated;
 use crate::read::metadata::Metadata;
@@ -13,7 +14,7 @@ use asperity_surface::{Place, SurfaceError};
 /// Largest number of columns.
 const MOST_COLUMNS: usize = 64;
 
-/// Reads the content of a file.
+/// Reads the content of a binary wave.
 pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Columns>, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [points, names, ..] = &wave.dimensions;
@@ -46,8 +47,8 @@ pub(crate) fn of_wave(bytes: &[u8], options: &CurveOptions) -> Result<Vec<Column
     Ok(rows.finished())
 }
 
-/// Returns the columns, which have names, and the unit of the wave unless they are columns of
-/// another quantity.
+/// Returns the columns with their names. The unit of each column is the unit of the wave. Returns
+/// an error for a wave that is not a table with named columns.
 fn columns(wave: &IgorWave<'_>) -> Result<Vec<TextColumn>, SurfaceError> {
     let [points, names, layers, _] = &wave.dimensions;
     let is_table = (2..=MOST_COLUMNS).contains(&names.count) && layers.count == 0;
@@ -73,7 +74,7 @@ fn columns(wave: &IgorWave<'_>) -> Result<Vec<TextColumn>, SurfaceError> {
         .collect())
 }
 
-/// Segments that the note states: the last point of each, and its direction.
+/// Segments that the note of a wave states: for each the last point and the direction.
 struct Segments(Vec<Segment>);
 
 struct Segment {
@@ -82,8 +83,9 @@ struct Segment {
 }
 
 impl Segments {
-    /// Returns the segments in the lists of the note, whose first elements are the beginning;
-    /// `None` unless both lists are sound.
+    /// Returns the segments from two lists in the note, the last points and the directions. The
+    /// first element of each list is for the beginning of the curve, and is skipped. Returns `None`
+    /// if the lists are missing or do not fit together.
     fn of(wave: &IgorWave<'_>) -> Option<Self> {
         let list = |key: &str| {
             let text = wave.entry(key)?;
@@ -104,7 +106,8 @@ impl Segments {
         (ascends && !segments.is_empty()).then_some(Segments(segments))
     }
 
-    /// Returns the name of the segment of a point; the last one has all further points.
+    /// Returns the name of the segment of a point. Points after the last segment belong to the last
+    /// segment.
     fn name(&self, row: usize) -> Option<&'static str> {
         let segment = self.0.iter().find(|segment| row <= segment.end);
         segment.or(self.0.last()).map(|segment| segment.name)
@@ -118,8 +121,8 @@ mod tests {
     use crate::read::tests::assert_same;
     use asperity_surface::files::is_igor_wave;
 
-    /// A wave of version 5 with these names of columns and this note; the columns follow one
-    /// another.
+    /// Returns a file of a wave of version 5 with these columns and this note. The values are
+    /// stored column by column.
     fn wave(names: &[&str], values: &[Vec<f64>], note: &str) -> Vec<u8> {
         let points = values[0].len();
         let mut header = vec![0; 384];
@@ -152,7 +155,8 @@ mod tests {
         [&header[..], &numbers, note.as_bytes(), &labels].concat()
     }
 
-    /// The curve of a spring as a wave of raw positions, deflections by 4 N/m and positions, in m.
+    /// Returns a file with the curve of a spring: raw positions, deflections of a cantilever of 4
+    /// N/m, and positions, all in m.
     fn curve(note: &str) -> Vec<u8> {
         let points = of_spring(600);
         let positions: Vec<f64> = points.iter().map(|(d, _)| 1e-9 * d).collect();
@@ -178,7 +182,7 @@ mod tests {
             found.stiffness.as_ref().map(|(_, stiffness)| *stiffness),
             Some(4.0)
         );
-        // Segments in the note, of which a pause is left out.
+        // The note states the segments.
         let segments = format!("{note}\rIndexes: 0,299,599,\rDirection: NaN,1,-1,");
         let found = from_bytes(&curve(&segments), &plain).unwrap();
         assert_eq!(

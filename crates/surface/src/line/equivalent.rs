@@ -10,7 +10,8 @@ use crate::spectrum::moments::{LineMoments, line_moments};
 use asperity_data::check_room;
 use std::f64::consts::TAU;
 
-/// Relative excess of a wavelength over the length of the scan that counts as rounding.
+/// Largest relative excess of a wavelength over the length of the scan that counts as a rounding
+/// error.
 const ROUNDING: f64 = 1.0e-9;
 
 /// Equivalent line of measured surfaces: a random rigid profile with their spectrum. A contact has
@@ -85,7 +86,7 @@ impl EquivalentLine {
     pub fn drawn(&self, number: u64, share: f64) -> EquivalentLine {
         let mut faces = Vec::new();
         for (index, spectrum) in (0_u64..).zip(&self.faces) {
-            // Faces are independent of each other.
+            // Each face gets a seed of its own, because the errors of two faces are independent.
             let number_of_face = number ^ index.rotate_right(1);
             faces.push(spectrum.drawn(number_of_face, share));
         }
@@ -103,7 +104,8 @@ impl EquivalentLine {
     }
 
     /// Returns the first and the last wave number of the line in rad/m. The first is the smallest
-    /// wave number that the spectra of all faces have, the last the largest of any face.
+    /// wave number that the spectra of all faces contain. The last is the largest wave number of
+    /// any face.
     pub fn range(&self) -> [f64; 2] {
         let mut first = 0.0_f64;
         let mut last = 0.0_f64;
@@ -117,7 +119,8 @@ impl EquivalentLine {
 
     /// Returns the first and the last mode k of a line of the length L = `length` in m on `points`
     /// springs. Mode k is the wave with the wave number q = 2πk/L. The modes are the waves of the
-    /// spectrum that fit the line and that the springs resolve. Returns an error if there is none.
+    /// spectrum that are no longer than the line and that the springs resolve. Returns an error if
+    /// there is no such wave.
     pub fn modes(&self, length: f64, points: usize) -> Result<ModeRange, SurfaceError> {
         let [low, high] = self.range();
         let waves = length / TAU;
@@ -152,9 +155,9 @@ impl EquivalentLine {
         }
     }
 
-    /// Returns the amplitude A_k in m of mode k on a line of this length in m. It follows from A_k²
-    /// = 4 C(q_k)/L. Here C is [`EquivalentLine::power`], q_k = 2πk/L the wave number, and L the
-    /// length.
+    /// Returns the amplitude A_k in m of mode k on a line of this length in m. The amplitude
+    /// follows from A_k² = 4 C(q_k)/L, where C is [`EquivalentLine::power`], q_k = 2πk/L the wave
+    /// number, and L the length.
     pub fn amplitude(&self, mode: u64, length: f64) -> f64 {
         self.squared_amplitude(mode as f64, length).sqrt()
     }
@@ -176,7 +179,8 @@ impl EquivalentLine {
         let mut power = 0.0;
         for face in &self.faces {
             let [_, end] = face.range();
-            // A wave may exceed the end by rounding.
+            // The last wave number of a line may exceed the end of the spectrum by a rounding
+            // error.
             let is_at_end = wave_number <= end * (1.0 + ROUNDING);
             power += if is_at_end {
                 face.line(wave_number.min(end))
@@ -194,7 +198,7 @@ impl EquivalentLine {
             mode,
             square: 0.5 * self.amplitude(mode, length).powi(2),
         };
-        // Starts with the smallest amplitudes.
+        // The sum starts with the smallest amplitudes, for accuracy.
         let modes = (modes.first..=modes.last).rev();
         Amplitude::from_modes(modes.map(square), length)
     }
@@ -203,16 +207,18 @@ impl EquivalentLine {
 /// Roughness of a rigid profile that comes from measured surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MeasuredRoughness {
-    /// The profile of the file is an equivalent line, and is the rigid profile unchanged.
+    /// The profile in the file is an equivalent line already, and is used unchanged as the rigid
+    /// profile.
     Profile(MeasuredProfile),
     /// The rigid profile is an equivalent line of the measured surfaces.
     Equivalent(EquivalentLine),
 }
 
 impl MeasuredRoughness {
-    /// Parses the files of one or two [faces](crate::lines::Face), and analyses them if needed. If
-    /// [`MeasuredOptions::as_line`] is given and there is only one file, its measured profile is
-    /// the rigid profile. Otherwise the rigid profile is the equivalent line of the faces.
+    /// Parses the files of one or two [faces](crate::lines::Face), and analyses their surfaces if
+    /// needed. If [`MeasuredOptions::as_line`] is given and there is only one file, its measured
+    /// profile is the rigid profile. Otherwise the rigid profile is the equivalent line of the
+    /// faces.
     ///
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
@@ -332,7 +338,7 @@ mod tests {
             );
             assert_eq!(a == 0.0, mode > 127, "{mode}");
         }
-        // Also moments, over the waves common to both scans.
+        // The squares of the moments add too, over the waves that both scans have.
         let [one, other, both] = [&one, &other, &both].map(|line| line.moments());
         let squares = |a: Moment, b: Moment, sum: Moment| {
             assert!(

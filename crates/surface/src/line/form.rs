@@ -11,8 +11,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 use strum::IntoStaticStr;
 
-/// Macroscopic form of the rigid body: its shape without roughness. Depths count downwards from the
-/// apex, and r is the distance from the axis.
+/// Macroscopic form of the rigid body: its shape without roughness. A depth is the distance along
+/// the axis from the apex to a point of the surface, in m, and r is the distance of this point from
+/// the axis in m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, IntoStaticStr)]
 #[serde(deny_unknown_fields)]
 pub enum Form {
@@ -62,7 +63,8 @@ pub enum Form {
         radius: f64,
         /// Radius of curvature R₂ of the second sphere in m.
         second_radius: f64,
-        /// Depth b of the apex of the second sphere below the apex of the first one, in m.
+        /// Distance in m by which the apex of the second sphere lies farther from the elastic body
+        /// than the apex of the first sphere.
         behind: f64,
     },
     /// Body of revolution whose radii and depths are in a file.
@@ -79,10 +81,10 @@ pub enum Form {
 }
 
 impl Form {
-    /// Reads the file of a [`Form::Table`], unless it has been read already. Other forms need no
-    /// reading. `folder` is the folder of the scene file, and `length` the length of the profile in
-    /// m. Returns an error if the file holds no table, or if the table ends before the profile
-    /// does.
+    /// Reads the file of a [`Form::Table`], unless the file has been read already. Does nothing for
+    /// other forms. `folder` is the folder of the scene file, and `length` the length of the
+    /// profile in m. Returns an error if the file holds no table, or if the table ends before the
+    /// profile does.
     pub fn load(&self, folder: &Path, length: f64) -> Result<(), SurfaceError> {
         let Form::Table { file, unit, rows } = self else {
             return Ok(());
@@ -118,16 +120,17 @@ impl Form {
     }
 
     /// Returns the index ⌊N/2⌋ of the spring on the axis of a body of revolution, for N = `points`
-    /// springs. For a punch the axis is in the middle of the length instead. Each of two spheres
-    /// has an axis of its own.
+    /// springs. Two forms differ: the axis of a punch is in the middle of the length, and
+    /// [`Form::TwoSpheres`] has an axis for each sphere.
     pub fn spring_on_axis(points: u64) -> u64 {
-        // With the axis between two springs no spring would be at the tip, and errors would be
-        // proportional to Δx.
+        // If the axis were between two springs, no spring would be at the tip, and the errors of
+        // the contact would be proportional to the spring spacing Δx.
         points / 2
     }
 
     /// Returns the distance, in spring spacings, from the middle of the length to the axis of the
-    /// form. It is ½ for an even number of springs, and 0 for an odd number and for a punch.
+    /// form. The distance is ½ for an even number of springs, and 0 for an odd number and for a
+    /// punch.
     pub fn shift(&self, points: u64) -> f64 {
         if points.is_multiple_of(2) && self.flat_end().is_none() {
             0.5
@@ -137,9 +140,9 @@ impl Form {
     }
 
     /// Returns the range of indices of the springs under the form, for `points` springs on the
-    /// length `length` in m. All forms except a punch lie above all springs. The width of a punch
-    /// is its diameter, rounded to a whole number of spring spacings. The range is empty if the
-    /// diameter is below half a spacing.
+    /// length `length` in m. A punch lies above the springs of its flat end; every other form lies
+    /// above all springs. The width of a punch is its diameter, rounded to a whole number of spring
+    /// spacings. The range is empty if the diameter is below half a spacing.
     ///
     /// ```
     /// // A punch of 4 µm on springs of 1 µm.
@@ -194,9 +197,9 @@ impl Form {
         }
     }
 
-    /// Returns the curvature at the summit in 1/m, of two spheres the larger one. Returns `None`
-    /// for a cone, for a power law, and for a table that has not been read or has no finite
-    /// curvature at the tip.
+    /// Returns the curvature at the summit in 1/m. For two spheres it is the larger of the two
+    /// curvatures. Returns `None` for a cone, for a power law, and for a table that has not been
+    /// read or has no finite curvature at the tip.
     pub fn summit_curvature(&self) -> Option<f64> {
         match *self {
             Form::Paraboloid { radius } | Form::RoundedCone { radius, .. } => Some(1.0 / radius),
@@ -229,7 +232,8 @@ impl Form {
     /// assert_eq!((depths[2], depths[6]), (0.0, 0.1));
     /// ```
     pub fn depth_of_spring(&self, spring: usize, points: usize, spacing: f64) -> f64 {
-        // Whole cells from the axis: exact, so that the profile is as symmetric as its form.
+        // The distance is a whole number of spacings, computed from integers and therefore exact.
+        // So the profile is exactly as symmetric as its form.
         let distance = |axis: usize| spring.abs_diff(axis) as f64 * spacing;
         let &Form::TwoSpheres {
             radius,
@@ -275,8 +279,8 @@ impl Form {
     }
 
     /// Returns the depth g(|x|) in m of the equivalent profile below its apex, at a distance x from
-    /// the axis in m. For a punch it is 0. For two spheres it is the depth of the first one alone;
-    /// [`Form::depth_of_spring`] has both.
+    /// the axis in m. For a punch the depth is 0. For two spheres it is the depth of the first
+    /// sphere alone; [`Form::depth_of_spring`] takes both spheres into account.
     ///
     /// The equivalent profile is g(x) = |x| ∫₀^|x| f′(r)/√(x²−r²) dr, where f(r) is
     /// [`Form::depth`].
@@ -296,8 +300,9 @@ impl Form {
                 if x <= rounded {
                     return x * x / radius;
                 }
-                // The published form (x − √(x² − b²))/b, without its cancellation (Popov, Heß and
-                // Willert, Handbook of Contact Mechanics, 2019, cone with a rounded tip).
+                // This term equals the published form (x − √(x² − b²))/b (Popov, Heß and Willert,
+                // Handbook of Contact Mechanics, 2019, cone with a rounded tip), but is written
+                // without the difference of nearly equal numbers.
                 let root = ((x - rounded) * (x + rounded)).sqrt();
                 x * slope * (rounded / (x + root) + (rounded / x).acos())
             }
@@ -319,9 +324,10 @@ impl Form {
         }
     }
 
-    /// Returns the depth in m of the body below its apex, at the place (x, y) in m from the middle
-    /// of a square with this side in m. The axes of two spheres are at x = ∓ a quarter of the side.
-    /// Returns `None` beside a punch, where there is no body.
+    /// Returns the depth in m of the body below its apex at the place (x, y). The coordinates x and
+    /// y in m count from the middle of a square with the side `side` in m. The first of two spheres
+    /// has its axis at x = −`side`/4, and the second at x = `side`/4. Returns `None` beside a
+    /// punch, where there is no body.
     pub fn depth_in_square(&self, x: f64, y: f64, side: f64) -> Option<f64> {
         let &Form::TwoSpheres {
             radius,
@@ -342,7 +348,8 @@ impl Form {
 
     /// Returns the depth f(r) in m of the body below its apex, at a distance r from the axis in m.
     /// Returns `None` for a punch at a distance above its radius, where there is no body. For two
-    /// spheres it is the depth of the first one alone; [`Form::depth_in_square`] has both.
+    /// spheres it is the depth of the first sphere alone; [`Form::depth_in_square`] takes both
+    /// spheres into account.
     ///
     /// ```
     /// assert_eq!(
@@ -434,19 +441,20 @@ impl Form {
 /// Returns the factor κₙ = (√π/2) n Γ(n/2)/Γ((n+1)/2) for n = `exponent`. A body of the depth rⁿ
 /// has the equivalent profile κₙ |x|ⁿ.
 pub fn power_law_factor(exponent: f64) -> f64 {
-    // Logarithms of Γ: the quotient remains finite where its parts would overflow.
+    // The difference of the logarithms of Γ remains finite where both values of Γ would overflow.
     let quotient = (libm::lgamma(exponent / 2.0) - libm::lgamma((exponent + 1.0) / 2.0)).exp();
     PI.sqrt() / 2.0 * exponent * quotient
 }
 
-/// Argument above which the asymptotic series of H₀ is accurate to rounding. Its smallest term is
-/// about e^−z.
+/// Argument z above which the asymptotic series of H₀ is accurate to rounding. The smallest term of
+/// the series is about e^(−z).
 const LARGE: f64 = 40.0;
 
 /// Number of quadrature nodes for H₀, enough for the oscillations of the integrand for arguments up
 /// to `LARGE`.
 const NODES: usize = 56;
 
+/// Gauss rule on a quarter circle for the integral of H₀.
 static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// Computes the Struve function H₀(z) for z ≥ 0.
@@ -457,7 +465,8 @@ pub fn struve_0(z: f64) -> f64 {
             .map(|&(angle, weight)| weight * (z * angle.cos()).sin());
         return FRAC_2_PI * terms.sum::<f64>();
     }
-    // H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1), down to rounding.
+    // Asymptotic series H₀ − Y₀ ~ (2/π) Σ (−1)^k ((2k−1)!!)²/z^(2k+1). The sum ends where the terms
+    // begin to grow or are smaller than the rounding error of the sum.
     let mut sum = 0.0;
     let mut term = z.recip();
     for k in 0..LARGE as u32 {
@@ -475,7 +484,7 @@ pub fn struve_0(z: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// g by its definition: with r = x sin t the integral is x ∫₀^{π/2} f′(x sin t) dt.
+    /// Computes g(x) by its definition. With r = x sin t the integral is x ∫₀^{π/2} f′(x sin t) dt.
     fn by_definition(slope: impl Fn(f64) -> f64, x: f64) -> f64 {
         let steps = 20_000;
         let width = std::f64::consts::FRAC_PI_2 / f64::from(steps);
@@ -497,7 +506,8 @@ mod tests {
             wavelength: 0.3,
         };
         let wave = 2.0 * PI / 0.3;
-        // The rounded apex ends at R tan θ, within x and beyond it.
+        // The rounded apex ends at r = R tan θ. One radius puts this end below x, and the other
+        // above x.
         let apex = |radius: f64| -> (Form, Slope) {
             let rounded = radius * angle.tan();
             let slope = move |r: f64| {
@@ -538,7 +548,8 @@ mod tests {
                 "{form:?}: {found} against {expected}"
             );
         }
-        // The special cases of the power law: n = 1 is the cone, n = 2 doubles.
+        // Special cases of the power law: n = 1 is the cone with g = (π/2) f, and n = 2 the
+        // paraboloid with g = 2f.
         assert!((power_law_factor(1.0) - std::f64::consts::FRAC_PI_2).abs() < 1e-14);
         assert!((power_law_factor(2.0) - 2.0).abs() < 1e-14);
     }
@@ -554,11 +565,12 @@ mod tests {
             assert_eq!(form.mdr_profile(x), sphere.mdr_profile(x));
             assert_eq!(form.depth(x), sphere.depth(x));
         }
-        // Both sides of the edge of the apex agree, also in the slope.
+        // The profile and its slope are continuous at the edge of the rounded apex.
         let step = 1e-6 * rounded;
         let beyond = form.mdr_profile(rounded + step) - form.mdr_profile(rounded);
         assert!(beyond > 0.0 && beyond < 3.0 * step * rounded / 0.5);
-        // Far outside the apex is missing from the cone: f = r tan θ − b tan θ/2.
+        // Far outside, the depth f = r tan θ − b tan θ/2 is smaller than the depth of the cone by b
+        // tan θ/2.
         let cone = Form::Cone { angle };
         let far = 1e6 * rounded;
         let missing = cone.depth(far).unwrap() - form.depth(far).unwrap();
@@ -589,11 +601,13 @@ mod tests {
                 assert_eq!(depth, behind + distance * distance / radius);
             }
             let deepest = depths.iter().copied().fold(0.0, f64::max);
-            // Halves of an odd number of springs differ by a spring.
+            // If the number of springs is odd, one half of the profile has one spring more than the
+            // other.
             let wider = (1.0 + 2.0 * spacing).powi(2);
             assert!(deepest <= form.depth_within(1.0) * wider);
         }
-        // In a square the axes are a half of its side apart, and the nearer sphere counts.
+        // In a square the axes of the spheres are half a side apart, and the sphere that is nearer
+        // to the elastic body gives the depth.
         let square = |x, y| form.depth_in_square(x, y, 1.0).unwrap();
         assert_eq!([square(-0.25, 0.0), square(0.25, 0.0)], [0.0, 0.0625]);
         assert!((square(0.25, 1.0) - 0.3125).abs() < 1e-15);
@@ -602,13 +616,13 @@ mod tests {
     #[test]
     fn a_punch_covers_the_nearest_number_of_whole_cells() {
         let under = |radius, points| Form::Punch { radius }.springs_under(1.0, points);
-        // Whole cells, also numbers that the axis cannot halve.
+        // The width of the punch is a whole number of cells, which may be odd.
         assert_eq!(
             (under(0.2, 10), under(0.25, 10), under(0.3, 10)),
             (3..7, 3..8, 2..8)
         );
         assert_eq!((under(0.2, 5), under(0.3, 5)), (1..3, 1..4));
-        // The minimum is a quarter of a cell on either side of the axis.
+        // A punch needs a radius of at least a quarter of a cell to have a spring.
         assert_eq!((under(0.026, 10).count(), under(0.024, 10).count()), (1, 0));
         for points in 1..20 {
             assert_eq!(under(0.5, points), 0..points);
@@ -650,7 +664,7 @@ mod tests {
     #[test]
     fn both_ways_agree_where_they_meet_and_solve_the_equation_of_struve() {
         assert!((struve_0(LARGE.next_down()) - struve_0(LARGE)).abs() < 4e-14);
-        // z H₀″ + H₀′ + z H₀ = 2/π
+        // H₀ solves the differential equation z H₀″ + H₀′ + z H₀ = 2/π.
         for z in [0.3, 3.0, 20.0, 39.9, 40.1, 300.0] {
             let step = 1e-3;
             let [below, at, above] = [-step, 0.0, step].map(|by| struve_0(z + by));

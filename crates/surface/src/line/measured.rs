@@ -13,17 +13,17 @@ use asperity_data::{OutOfMemory, check_room, gathered};
 use asperity_fourier::plan_real_forward;
 use std::path::{Path, PathBuf};
 
-/// Upper bound of the memory of the transform and its arrays in bytes per point. An odd number of
-/// points is transformed at twice the length.
+/// Upper bound, in bytes per point, of the memory of the Fourier transform and its arrays. The
+/// bound includes an odd number of points, which is transformed at twice its length.
 pub(super) const TRANSFORM_BYTES: u64 = 96;
 
 /// Options by which a scene reads and analyses its measured surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredOptions {
-    /// If given, the profile of the file is an equivalent line already, and is the rigid profile
-    /// after removal of this polynomial. Otherwise the profile is a cut through a surface, and the
-    /// rigid profile is an equivalent line of this surface, a random profile with the measured
-    /// spectrum.
+    /// If given, the profile in the file is already an equivalent line. The rigid profile is this
+    /// profile after removal of this polynomial. If not given, the profile is a cut through a
+    /// surface, and the rigid profile is an equivalent line of this surface: a random profile with
+    /// the measured spectrum.
     pub as_line: Option<Detrend>,
     /// Options for reading the files of the measured surfaces.
     pub reading: ReadOptions,
@@ -72,8 +72,8 @@ impl MeasuredProfile {
         self.positions[self.positions.len() - 1] - self.positions[0]
     }
 
-    /// Returns the distance between points in m, if the points are centres of cells that begin at x
-    /// = 0.
+    /// Returns the distance between points in m if the points are the centres of equal cells, the
+    /// first of which begins at x = 0; `None` for other positions.
     fn cell(&self) -> Option<f64> {
         let cell = self.span() / (self.positions.len() - 1) as f64;
         let is_even = first_uneven(&self.positions, 0.5 * cell, cell).is_none();
@@ -101,7 +101,8 @@ impl MeasuredProfile {
 
     /// Returns the pieces of the polyline between neighbouring points.
     fn pieces(&self) -> impl Iterator<Item = Piece> {
-        // Differences of heights, not heights: an offset may be far larger than the roughness.
+        // The first height is subtracted, because an offset far larger than the roughness would
+        // cost digits.
         let level = self.heights[0];
         let positions = self.positions.windows(2);
         positions
@@ -166,8 +167,8 @@ impl MeasuredProfile {
         }
     }
 
-    /// Computes the heights in m at the centres of `points` cells of this width (m), displaced by
-    /// `shift` cells. The first cell begins at `begins` in m.
+    /// Computes the heights in m at the centres of `points` cells of the width `cell` in m,
+    /// displaced by `shift` cells towards smaller x. The first cell begins at x = `begins` in m.
     fn heights_from(
         &self,
         begins: f64,
@@ -196,7 +197,7 @@ impl MeasuredProfile {
         } else {
             return Err(self.span());
         };
-        // The last half cell may be displaced as far as points may.
+        // The end of the profile may be off by as much as a point may be off an even grid.
         let covers = points * distance;
         if length <= covers + UNEVEN * distance {
             Ok(begins)
@@ -205,11 +206,12 @@ impl MeasuredProfile {
         }
     }
 
-    /// Returns the height in m to subtract from all heights: the first one, if all differences from
-    /// it are exact, else 0.
+    /// Returns the height in m that is subtracted from all heights before their interpolation: the
+    /// first height, if all differences from it are exact in floating-point arithmetic, or else 0.
     fn level(&self) -> f64 {
         let first = self.heights[0];
-        // By Sterbenz' lemma.
+        // By the lemma of Sterbenz the difference of two numbers is exact if neither is more than
+        // twice the other.
         let exact = 0.5 * first.abs()..=2.0 * first.abs();
         let is_exact = |height: &f64| exact.contains(&(height * first.signum()));
         if self.heights.iter().all(is_exact) {
@@ -230,7 +232,7 @@ struct PolylineMoments {
 /// A piece of the polyline through the points of a profile. Lengths are in m.
 struct Piece {
     width: f64,
-    /// Heights at its ends.
+    /// Height at the first end of the piece; `to` is the height at the other end.
     from: f64,
     to: f64,
 }
@@ -264,7 +266,9 @@ fn modes(mut heights: Vec<f64>) -> Result<Vec<ModeSquare>, SurfaceError> {
     let modes = (1_u64..)
         .zip(&coefficients[1..])
         .map(|(mode, coefficient)| {
-            // For a wave of two points both exponentials are in one coefficient.
+            // A cosine wave is a sum of two exponentials with opposite wave numbers. The wave with
+            // a wavelength of two points has both exponentials in one coefficient, any other wave
+            // in two.
             let exponentials = if 2 * mode == points as u64 { 1.0 } else { 2.0 };
             ModeSquare {
                 mode,
@@ -285,8 +289,9 @@ fn rms_curvature(heights: &[f64], spacing: f64) -> f64 {
     (squares / count as f64).sqrt() / spacing.powi(2)
 }
 
-/// Subtracts a straight line. The step from the last height back to the first is then the mean of
-/// the steps next to it.
+/// Subtracts a straight line, so that the profile continues periodically without a jump. The step
+/// from the last height back to the first is then the mean of the first and the last step between
+/// neighbouring heights.
 fn join_ends(heights: &mut [f64]) {
     let last = heights.len() - 1;
     let beside = 0.5 * ((heights[1] - heights[0]) + (heights[last] - heights[last - 1]));
@@ -316,13 +321,14 @@ fn read_face(paths: &[PathBuf]) -> Result<Face, SurfaceError> {
 }
 
 impl MeasuredOptions {
-    /// Parses the files of one face, and analyses their surfaces as samples of the same roughness.
+    /// Parses the files of one face, and analyses the surfaces in them as samples of the same
+    /// roughness.
     ///
     /// # Errors
     /// Returns an error if a file holds no surface, or if its surface has no spectrum.
     pub fn analyse(&self, face: &Face) -> Result<Analysis, SurfaceError> {
         let mut surfaces = Vec::new();
-        // Path of the file of each surface.
+        // Path of the file in which each surface is; a file may hold several.
         let mut paths: Vec<&Path> = Vec::new();
         for (path, content) in face {
             let of_file = parse_all(content, &self.reading);
@@ -364,8 +370,8 @@ mod tests {
         let profile = parsed("0.5 3\n1.5 4\n2.5 -1").unwrap();
         assert_eq!(profile.length(), 3.0);
         assert_eq!(profile.sample(3.0, 3, 0.0).unwrap(), [3.0, 4.0, -1.0]);
-        // Before the first and behind the last point at its height, halfway between points at their
-        // mean.
+        // Beyond the first and the last point the height is that of the point; halfway between two
+        // points it is their mean.
         assert_eq!(
             profile.sample(3.0, 6, 0.5).unwrap(),
             [3.0, 3.0, 3.5, 4.0, 1.5, -1.0]
@@ -379,7 +385,7 @@ mod tests {
                 .to_string()
                 .contains("covers 3e0 m")
         );
-        // With the digits of a file.
+        // Positions are rounded to the digits of a file.
         let rounded = parsed("0.1667 3\n0.5 4\n0.8333 -1").unwrap();
         assert!((rounded.length() - 1.0).abs() < 1e-3 && rounded.sample(1.0, 3, 0.0).is_ok());
         // Any other profile covers the distance between its points.
@@ -391,7 +397,7 @@ mod tests {
             let profile = parsed(text).unwrap();
             assert!((profile.length() - length).abs() < 1e-15);
             assert!(profile.sample(length, 3, 0.0).is_ok());
-            // If equally spaced, half a distance beyond each end.
+            // Equally spaced points cover half a distance beyond each end.
             let longest = if length == 1.9 { length } else { 3.0 };
             assert!(
                 profile.sample(longest, 3, 0.0).is_ok()
@@ -463,7 +469,7 @@ mod tests {
                 (level.rms_curvature / curvature - 1.0).abs() < 0.01,
                 "{level:?}"
             );
-            // A tilt has no energy.
+            // A tilt of the profile does not change its elastic energy.
             let tilted = parsed(&text(points, middles, 0.1))
                 .unwrap()
                 .amplitude()
@@ -481,9 +487,10 @@ mod tests {
 
     #[test]
     fn statistics_are_those_of_the_straight_pieces() {
-        // A triangle of height 1 over length 2: mean 1/2, variance 1/12, slope 1. Uneven pieces:
-        // mean 1/2; ∫ (z − 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and
-        // −2. A constant height is no roughness.
+        // The first profile is a triangle of height 1 and length 2, with the mean 1/2, the variance
+        // 1/12 and the slope 1. The second has pieces of different lengths and the mean 1/2; ∫ (z −
+        // 1/2)² dx is 31/12 and 39/4 on the two pieces, and the slopes are 2 and −2. The third has
+        // a constant height and no roughness.
         for (text, square, slope) in [
             ("5 0\n6 1\n7 0", 1.0 / 12.0, 1.0),
             ("5 1\n6 3\n9 -3", (31.0 / 12.0 + 39.0 / 4.0) / 4.0, 2.0),

@@ -1,14 +1,15 @@
-//! Random phases of modes, which do not depend on the grid, the number of modes or the platform.
-//! The Fourier coefficients of a self-affine profile are computed 64 at a time in loops without
-//! branches, so that the compiler computes several in one instruction.
+//! Random phases and Fourier coefficients of the modes of a self-affine profile. The phase of a
+//! mode depends only on the seed and the mode, and not on the grid, the number of modes or the
+//! platform. The coefficients are computed 64 at a time in loops without branches, so that the
+//! compiler can use instructions that compute several numbers at once.
 
 use super::spectrum::SelfAffine;
 use asperity_fourier::Complex64;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 
-/// Number of modes of a block. Block b holds the modes 64 b + 1 … 64 b + 64, whichever mode is
-/// drawn first. So no result depends on the number of threads.
+/// Number of modes of a block. Block b always holds the modes 64 b + 1 … 64 b + 64, whichever mode
+/// is drawn first, so that no result depends on the division of the modes between threads.
 const BLOCK: usize = 64;
 
 /// Number of terms of the series (1 + x)^p − 1. For |x| ≤ 1/64 and |p| ≤ 3/2 the first omitted term
@@ -26,7 +27,7 @@ const SINE: [f64; 6] = [
     1.589_681_178_661_149_6e-10,
 ];
 
-/// (cos y − 1 + y²/2)/y⁴ in the same way.
+/// (cos y − 1 + y²/2)/y⁴ as a polynomial in y², with the same range and order as [`SINE`].
 const COSINE: [f64; 6] = [
     0.041_666_666_666_666_6,
     -0.001_388_888_888_887_413_1,
@@ -41,11 +42,14 @@ const COSINE: [f64; 6] = [
 pub(super) struct Modes {
     spectrum: SelfAffine,
     seed: u64,
-    /// Half the amplitude of mode 1, because each cosine is a pair of exponentials.
+    /// Half the amplitude of mode 1 without a roll-off. It is half, because a cosine wave is the
+    /// sum of two complex exponentials of half its amplitude.
     half_amplitude: f64,
-    /// Phase of mode 1 at the first point of the grid, in turns.
+    /// Phase of mode 1 at the first point of the grid less its phase at the beginning of the
+    /// profile, in turns.
     advance: f64,
-    /// Coefficients of the series (1 + x)^exponent, without the leading 1.
+    /// Coefficients of the power series of (1 + x)^p in x without its first term 1, where p is the
+    /// exponent of the amplitudes.
     series: [f64; TERMS],
 }
 
@@ -152,8 +156,9 @@ struct SineAndCosine {
 /// Computes the sine and the cosine of 2π `turns`, for `turns` from 0 to 2.
 #[inline(always)]
 fn sine_and_cosine(turns: f64) -> SineAndCosine {
-    // The sum with 3·2⁴¹ has quarters of a turn and 10 bits of their fraction as its lowest bits.
-    // So the nearest quarter is found to 2⁻¹⁰ in any rounding of the sum.
+    // Adding 3·2⁴¹ moves the number of quarter turns into the lowest bits of the floating-point
+    // number, with 10 bits for the fraction of a quarter. So the nearest quarter is found with an
+    // uncertainty of 2⁻¹⁰, however the sum is rounded.
     const ALIGN: f64 = 6_597_069_766_656.0;
     let aligned = (4.0 * turns + (ALIGN + 0.5)).to_bits();
     let nearest = f64::from_bits(aligned & !0x3ff) - ALIGN;
@@ -162,7 +167,8 @@ fn sine_and_cosine(turns: f64) -> SineAndCosine {
     let z = y * y;
     let sine = (y + y * (z * polynomial(&SINE, z))).to_bits();
     let cosine = (1.0 - (0.5 * z - z * z * polynomial(&COSINE, z))).to_bits();
-    // An odd number of quarters swaps both; the signs follow from the quadrant.
+    // An odd number of quarter turns exchanges sine and cosine. Their signs follow from the
+    // quadrant.
     let swap = 0_u64.wrapping_sub(quarters & 1);
     let sine_sign = (quarters & 2) << 62;
     let cosine_sign = (quarters.wrapping_add(1) & 2) << 62;
@@ -187,7 +193,8 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     even + x * odd
 }
 
-/// 1, 2, … as floating-point numbers, because conversions would not be vectorised.
+/// The numbers 1 to 64 as floating-point constants, because the compiler does not vectorise
+/// conversions of integers.
 const COUNTS: [f64; BLOCK] = {
     let mut counts = [0.0; BLOCK];
     let mut lane = 0;
@@ -198,8 +205,8 @@ const COUNTS: [f64; BLOCK] = {
     counts
 };
 
-/// Separates this use of the random generator from other uses; a change in how phases are drawn
-/// must change this text.
+/// Part of the key of the random generator that separates this use from other uses with the same
+/// seed. If the way in which phases are drawn changes, this text has to change too.
 const PURPOSE: &[u8; 24] = b"asperity-line-phases-v1\0";
 
 /// Returns the random phases φ_k in rad of the modes k = `first`, `first` + 1, … for a seed,
@@ -212,23 +219,23 @@ pub fn phases(seed: u64, first: u64) -> impl Iterator<Item = f64> {
     std::iter::repeat_with(move || std::f64::consts::TAU * fraction(generator.next_u64()))
 }
 
-/// Returns the random generator whose next 64-bit words belong to the modes `first`, `first` + 1, …
-/// of a seed.
+/// Returns a random generator whose next 64-bit words are those of the modes `first`, `first` + 1,
+/// …, for a seed.
 pub(super) fn phase_words(seed: u64, first: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());
     key[8..].copy_from_slice(PURPOSE);
     let mut generator = ChaCha8Rng::from_seed(key);
-    // Two 32-bit words for each phase.
+    // The position counts 32-bit words, and each phase takes two.
     generator.set_word_pos(2 * u128::from(first.saturating_sub(1)));
     generator
 }
 
 /// Returns the phase of a mode over 2π, in [0, 1): the upper 53 bits of its random word.
 ///
-/// 52 bits become the digits of a number from 1 to 2, and the last bit adds half a digit. Every
-/// processor does this for several words in one instruction, whereas few can convert several
-/// integers at once.
+/// The upper 52 bits become the mantissa of a number from 1 to 2, from which 1 is subtracted. The
+/// 53rd bit adds half of the last digit. Every processor can do these steps for several words in
+/// one instruction, whereas few can convert several integers to floating-point numbers at once.
 #[inline(always)]
 pub(super) fn fraction(word: u64) -> f64 {
     const ONE: u64 = 1.0_f64.to_bits();
@@ -250,7 +257,8 @@ mod tests {
         for word in (0..200_000_u64).map(|index| index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) {
             let turns = fraction(word) + (word & 1) as f64 * 0.75;
             let SineAndCosine { sine, cosine } = sine_and_cosine(turns);
-            // Within an eighth of a turn the angle is as exact as its turns.
+            // The angle is reduced to an eighth of a turn before its multiplication by 2π, so that
+            // the rounding of the product remains negligible.
             let quarters = (4.0 * turns).round();
             let (s, c) = (TAU * (turns - 0.25 * quarters)).sin_cos();
             let expected = [(s, c), (c, -s), (-s, -c), (-c, s)][quarters as usize % 4];
@@ -288,7 +296,7 @@ mod tests {
                 (1 << 27) - 64,
             ] {
                 for (mode, amplitude) in (before + 1..).zip(modes.half_amplitudes(before)) {
-                    // A spectrum of mode 1 alone has the rms height √½.
+                    // A profile with mode 1 alone and the amplitude 1 has the rms height √½.
                     let error =
                         amplitude / (0.5_f64.sqrt() * spectrum.relative_amplitude(mode)) - 1.0;
                     assert!(error.abs() <= 1e-15, "H = {hurst}, mode {mode}: {error:e}");

@@ -8,10 +8,11 @@ use std::sync::Arc;
 /// A rigid profile above springs at the positions x = (i + ½)Δx.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// Gaps c_i = max z − z_i in m of the springs under the body, each at least 0.
+    /// Gaps c_i = max z − z_i in m between the highest point of the body and its surface above
+    /// spring i, for the springs under the body. Each gap is at least 0.
     pub gaps: Arc<Vec<f64>>,
-    /// Index of the leftmost spring under the body, counted along the whole foundation. It is above
-    /// zero only for a punch.
+    /// Index of the leftmost spring under the body, counted from the left end of the foundation.
+    /// The index is above zero only for a punch.
     pub first: usize,
     /// Number of springs N of the whole foundation, the row of springs.
     pub points: usize,
@@ -19,16 +20,17 @@ pub struct Line {
     pub length: f64,
     /// Distance Δx = L/N between springs in m.
     pub spacing: f64,
-    /// Height of the highest point in m. Heights count from the apex of the form without roughness.
+    /// Height in m of the highest point of the profile above the apex of the form without
+    /// roughness.
     pub summit: f64,
     /// Largest gap in m.
     pub deepest: f64,
 }
 
 impl Line {
-    /// Creates the profile of a form on N = `points` springs, and adds roughness. Without a form
-    /// the body is flat, and without roughness it is smooth. `roughness` has one height for each
-    /// spring, in units of the length `scale` in m. The roughness has to be displaced by
+    /// Creates the profile of a form on N = `points` springs, and adds roughness. If `form` is
+    /// `None`, the body is flat; if `roughness` is `None`, it is smooth. `roughness` has one height
+    /// for each spring, in units of the length `scale` in m. The roughness has to be displaced by
     /// [`Form::shift`] already. The profile of a punch has only the springs of
     /// [`Form::springs_under`].
     ///
@@ -114,8 +116,8 @@ impl Line {
     /// Returns the height in m of a point with this gap in m.
     fn height(&self, gap: f64) -> f64 {
         let height = self.summit - gap;
-        // The gap of the rounded height may be one digit off; then that of a neighbouring number is
-        // exact.
+        // Because the height is rounded, its gap may differ from the given gap in the last bit. The
+        // next larger or smaller number then has exactly the given gap.
         let nearby = [height, height.next_up(), height.next_down()];
         nearby
             .into_iter()
@@ -139,7 +141,8 @@ struct Depths<'a> {
     form: &'a Form,
     points: usize,
     spacing: f64,
-    /// Depths of a table at the springs from its axis on.
+    /// Depths in m of the form of a table at the springs, from the spring on the axis outwards;
+    /// `None` for other forms.
     of_table: Option<Vec<f64>>,
 }
 
@@ -167,7 +170,8 @@ impl<'a> Depths<'a> {
 
 /// Returns the largest value. The error is the index of the first value that is not finite.
 fn largest(values: &[f64]) -> Result<f64, usize> {
-    // In parallel: a sequence of comparisons would wait for each one.
+    // Eight maxima are kept side by side, because with a single maximum each comparison would have
+    // to wait for the previous one.
     let mut largest = [f64::NEG_INFINITY; 8];
     let mut all_finite = true;
     let mut take = |values: &[f64]| {
@@ -212,7 +216,8 @@ impl Histogram {
         let scale = counts.len() as f64 / (high - low);
         for height in heights {
             if (low..=high).contains(&height) {
-                // The conversion to an integer maps NaN, 0/0 here, to zero.
+                // If `low` equals `high`, the product is NaN, which the conversion to an integer
+                // maps to bin 0.
                 let bin = ((height - low) * scale) as usize;
                 counts[bin.min(last)] += 1;
             }
@@ -221,15 +226,16 @@ impl Histogram {
     }
 }
 
-/// Returns the error of a punch without a spring below it. Its diameter is rounded to whole cells
-/// of this width in m.
+/// Returns the error for a punch under which no spring lies. The diameter of a punch is rounded to
+/// a whole number of spacings, so a punch is too narrow if its diameter is below half of `spacing`
+/// in m.
 fn no_springs(spacing: f64) -> SurfaceError {
     let found = "no spring lies under the punch";
     let allowed = format!("at least a quarter of the spacing, {:e} m", spacing / 4.0);
     refused(Place::Field("form.radius"), found, allowed)
 }
 
-/// Returns the error of the first height that is not finite, at the spring with this index.
+/// Returns the error for a height that is not finite, at the spring with this index.
 fn not_finite(spring: usize) -> SurfaceError {
     let found = "the line has a height that is not finite";
     let allowed = "a form and roughness whose heights are finite";
@@ -300,7 +306,7 @@ mod tests {
     fn gaps_follow_from_heights_bit_for_bit() {
         let written = |line: &Line| line.heights().collect::<Vec<f64>>();
         let digit = f64::EPSILON;
-        // The gap is 1, and summit − 1 = −1 would have a gap of 1 − ε/2.
+        // The gap is 1. The rounded height summit − 1 = −1 would have the gap 1 − ε/2.
         let line = Line::new(1.0, 2, None, Some(&[-0.5 * digit, -1.0 - digit]), 1.0).unwrap();
         assert_eq!(
             (line.gaps[1], line.summit - (line.summit - 1.0)),

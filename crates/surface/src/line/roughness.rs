@@ -9,15 +9,16 @@ use asperity_fourier::{Complex64, ComplexToReal, plan_real_inverse};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Number of modes below which another thread takes longer to start than it saves.
+/// Smallest number of modes for which a second thread saves more time than it takes to start.
 const MANY_MODES: usize = 1 << 16;
 
-/// Largest number of springs for which the planned transform is kept for the next profile. It takes
-/// 20 bytes per spring, which on longer profiles are worth more than the time saved.
+/// Largest number of springs for which the planned transform is kept for the next profile. The plan
+/// takes 20 bytes per spring, and for longer profiles this memory is worth more than the time that
+/// the plan saves.
 const LONGEST_KEPT: usize = 1 << 22;
 
-/// Computes random self-affine profiles one after the other. It keeps the planned Fourier transform
-/// and its memory for the next profile.
+/// Computes random self-affine profiles one after the other. The planned Fourier transform and its
+/// memory are kept for the next profile.
 #[derive(Default)]
 pub struct Synthesizer {
     transform: Option<Transform>,
@@ -65,7 +66,7 @@ impl Synthesizer {
             let is_worth_a_thread = coefficients.len() >= MANY_MODES;
             let middle = coefficients.len() / 2;
             let (lower, upper) = coefficients.split_at_mut(middle);
-            // Another thread draws the modes from the middle on.
+            // Another thread computes the upper half of the modes.
             in_parallel(
                 is_worth_a_thread,
                 || modes.draw((first + middle) as u64, upper),
@@ -86,7 +87,8 @@ impl Synthesizer {
         shift: f64,
         memory: Vec<f64>,
     ) -> Result<Vec<f64>, SurfaceError> {
-        // Phase advance of mode 1 at the first point of the grid.
+        // Phase of mode 1 at the first point of the grid less its phase at the beginning of the
+        // profile, in rad.
         let advance = TAU * (0.5 - shift) / points as f64;
         let first = modes.first;
         self.transform(modes, points, memory, |_, coefficients| {
@@ -98,8 +100,8 @@ impl Synthesizer {
         })
     }
 
-    /// Computes the heights of these modes. `draw` fills in their coefficients ½ A_k e^(iφ), from
-    /// the mode of its first argument on.
+    /// Computes the heights of a sum of these modes. `draw` fills in their coefficients ½ A_k
+    /// e^(iφ). Its first argument is the first mode to fill in.
     fn transform(
         &mut self,
         modes: ModeRange,
@@ -122,7 +124,8 @@ impl Synthesizer {
         draw(first, &mut coefficients[first..end]);
         let has_nyquist = 2 * modes.last == points as u64;
         if has_nyquist {
-            // At the grid's Nyquist wave vector both exponentials of the cosine coincide.
+            // At the Nyquist wave number of the grid, a wave of two points, the two exponentials of
+            // the cosine coincide. So their coefficients add to a real number.
             coefficients[end - 1] = Complex64::new(2.0 * coefficients[end - 1].re, 0.0);
         }
 
@@ -216,7 +219,7 @@ mod tests {
                 }
             }
         }
-        // The rms height is 1.
+        // The profile has the rms height 1.
         let heights = SelfAffine {
             hurst: 0.8,
             first: 1,
@@ -254,7 +257,8 @@ mod tests {
                 .synthesize(spectrum, seed, points, 0.0, memory)
                 .unwrap();
             assert_eq!(kept, spectrum.heights(seed, points).unwrap());
-            // The same as on one thread and by another plan.
+            // The heights are the same, bit for bit, on one thread and with another plan of the
+            // transform.
             let alone = on_this_thread(|| spectrum.heights(seed, points).unwrap());
             assert_eq!(kept, alone);
             memory = kept;

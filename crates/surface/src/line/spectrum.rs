@@ -118,7 +118,8 @@ impl SelfAffine {
         TAU / length * (self.continuum_moment(2) / height).sqrt()
     }
 
-    /// Computes ∫ k^power A_k² dk from the first to the last mode with the relative amplitudes.
+    /// Computes ∫ k^power A_k² dk from the first to the last mode, where A_k are the relative
+    /// amplitudes.
     fn continuum_moment(&self, power: i32) -> f64 {
         let low = self.first as f64;
         let high = self.last as f64;
@@ -130,8 +131,8 @@ impl SelfAffine {
         above + self.flat_level() * integral_of_power(f64::from(power) + 1.0, low, roll_off)
     }
 
-    /// Computes Σ k^power A_k² over the modes with the relative amplitudes, with a relative error
-    /// of a few units in the last place.
+    /// Computes Σ k^power A_k² over the modes, where A_k are the relative amplitudes. The relative
+    /// error is a few units in the last place.
     fn moment(&self, power: i32) -> f64 {
         let first_above = (self.roll_off_mode.ceil() as u64)
             .max(self.first)
@@ -164,7 +165,7 @@ pub struct ModeRange {
     pub last: u64,
 }
 
-/// Mean square height of a mode.
+/// Mean square height that one mode contributes to a profile.
 pub(crate) struct ModeSquare {
     pub mode: u64,
     /// A_k²/2 in m² of mode k.
@@ -208,8 +209,9 @@ impl Amplitude {
         }
     }
 
-    /// Computes the amplitude of a profile with these modes on a length in m. The smallest come
-    /// first, for accuracy.
+    /// Computes the roughness amplitude of a profile with these modes on a length in m. The modes
+    /// with the smallest mean squares have to come first, because a sum of ascending numbers has
+    /// the smallest rounding error.
     pub(crate) fn from_modes(modes: impl Iterator<Item = ModeSquare>, length: f64) -> Self {
         let mut height = 0.0;
         let mut slope = 0.0;
@@ -269,7 +271,7 @@ mod tests {
             roll_off_mode: 0.0,
         };
         let limit = spectrum(1.0).continuum_gradient_per_height(1.0);
-        // At H = 1: ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
+        // For H = 1 the integrals are ∫dq/q = ln 4096 over ∫q⁻³dq = (1 − 4096⁻²)/2.
         let exact =
             std::f64::consts::TAU * (4096_f64.ln() * 2.0 / (1.0 - 4096_f64.powi(-2))).sqrt();
         assert!((limit - exact).abs() < 4.0 * f64::EPSILON * exact);
@@ -297,7 +299,8 @@ mod tests {
                 .unit_amplitude(length)
                 .scaled(height)
                 .elastic_energy(modulus);
-            // (E*/4) ∫ q C2D d²q over the surface with ⟨h²⟩ = ∫ C2D d²q: C2D ∝ q^(−2−2H).
+            // The energy of a surface is (E*/4) ∫ q C2D d²q, and its mean square height ∫ C2D d²q,
+            // with C2D ∝ q^(−2−2H).
             let q = |mode: u64| std::f64::consts::TAU * mode as f64 / length;
             let (low, high) = (q(spectrum.first), q(spectrum.last));
             let power = |exponent: f64| (high.powf(exponent) - low.powf(exponent)) / exponent;
@@ -307,7 +310,7 @@ mod tests {
                 (modes / expected - 1.0).abs() < 2e-4,
                 "H = {hurst}: {modes} against {expected}"
             );
-            // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H).
+            // e_el/γ = (κ²/4) S₁/√(S₀S₂) with S_j = Σ k^(j−1−2H) and κ² = E* h ⟨∇z⟩/γ.
             let sum = |j: i32| spectrum.moment(j);
             let kappa_squared = modulus * height.powi(2) * spectrum.gradient_per_height(length);
             let by_kappa = 0.25 * kappa_squared * sum(1) / (sum(0) * sum(2)).sqrt();
@@ -330,7 +333,8 @@ mod tests {
                 last,
                 roll_off_mode: roll_off,
             };
-            // C1D = π q C2D with C2D flat up to q_r and ∝ q^(−2−2H) above; A² ∝ C1D.
+            // C2D is constant up to the roll-off q_r and ∝ q^(−2−2H) above it. The squared
+            // amplitudes A² are proportional to C1D = π q C2D.
             let squares = (first..=last).rev().map(|mode| {
                 let power = (mode as f64 / roll_off).max(1.0).powf(-2.0 - 2.0 * hurst);
                 ModeSquare {
@@ -364,7 +368,8 @@ mod tests {
                     "{spectrum:?}, mode {mode}"
                 );
             }
-            // Integrals over the continuum, by the rule of midpoints.
+            // Integrals over all wave numbers from the first to the last mode, by the midpoint
+            // rule.
             let integral = |power: i32| -> f64 {
                 let (low, step) = ((first as f64).ln(), (last as f64 / first as f64).ln() / 4e5);
                 let values =

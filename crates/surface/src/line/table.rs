@@ -1,8 +1,9 @@
 //! A body of revolution from a table of radii and depths, and its equivalent profile.
 //!
-//! Between two rows the depth is a cubic with limited slopes at the rows. So f′ = a + b s + c s² at
-//! the distance s behind a row. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum
-//! over the intervals between rows.
+//! Between two rows the depth f is a cubic polynomial, whose slopes at the rows are limited so that
+//! f does not overshoot. So f′ = a + b s + c s², where s is the distance beyond the first of the
+//! two rows. The profile g(x) = |x| ∫₀^|x| f′(r)/√(x² − r²) dr is then a sum over the intervals
+//! between rows.
 
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::open::{content, parse};
@@ -14,23 +15,27 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::{Arc, LazyLock, OnceLock};
 
-/// Number of points of the interpolation of the rows far inside, with an error of 1e-15.
+/// Number of Chebyshev nodes by which the contributions of rows far nearer the axis are
+/// interpolated. With this number the error of the interpolation is 1e-15.
 const NODES: usize = 20;
 
-/// Number of points at which the equivalent profile is searched for its falling part.
+/// Number of steps in which [`FormTable::falls_from`] searches the distance at which the equivalent
+/// profile begins to fall.
 const STEPS: usize = 1024;
 
-/// Smallest allowed distance of two rows over the radius of the last row. The digits of a file
-/// resolve no smaller one.
+/// Smallest allowed distance between two rows, divided by the radius of the last row. The digits of
+/// a file resolve no smaller distance.
 const CLOSEST: f64 = 1e-9;
 
-/// Decrease of the depth over the largest depth up to which it may result from rounded numbers.
+/// Largest decrease of the depth, divided by the largest depth, that may be an effect of rounded
+/// numbers in the file.
 const ROUNDED: f64 = 1e-9;
 
-/// Sine of the angle of an interval between rows below which power series are accurate to rounding.
+/// Limit of the sine of the angle δ of an interval, see [`FormTable::part`]. Below this limit the
+/// power series are accurate to rounding.
 const NARROW: f64 = 0.05;
 
-/// Power series of (arcsin s)/s in s².
+/// Coefficients of the power series of (arcsin s)/s in s².
 const ARCSINE: [f64; 6] = [
     1.0,
     1.0 / 6.0,
@@ -40,31 +45,32 @@ const ARCSINE: [f64; 6] = [
     945.0 / 42240.0,
 ];
 
-/// Power series of (1 − cos δ)/δ² in δ².
+/// Coefficients of the power series of (1 − cos δ)/δ² in δ².
 const VERSINE: [f64; 4] = [0.5, -1.0 / 24.0, 1.0 / 720.0, -1.0 / 40320.0];
 
-/// Power series of (δ − sin δ)/δ³ in δ².
+/// Coefficients of the power series of (δ − sin δ)/δ³ in δ².
 const ANGLE_LESS_SINE: [f64; 4] = [1.0 / 6.0, -1.0 / 120.0, 1.0 / 5040.0, -1.0 / 362880.0];
 
-/// Power series of ∫ sin² over δ³ in δ².
+/// Coefficients of the power series of ∫ sin² t dt/δ³ in δ², where t goes from 0 to δ.
 const SQUARED_SINE: [f64; 4] = [1.0 / 3.0, -1.0 / 15.0, 2.0 / 315.0, -1.0 / 2835.0];
 
-/// Power series of ∫ (1 − cos)² over δ⁵ in δ².
+/// Coefficients of the power series of ∫ (1 − cos t)² dt/δ⁵ in δ², where t goes from 0 to δ.
 const SQUARED_VERSINE: [f64; 4] = [1.0 / 20.0, -1.0 / 168.0, 1.0 / 2880.0, -17.0 / 1330560.0];
 
-/// Quadrature over the angle of a wider interval, in which f′ is a polynomial of the sine of the
-/// angle.
+/// Gauss rule for the integral over the angle of an interval above [`NARROW`]. It has few nodes
+/// because f′ is a polynomial of sines and cosines of the angle.
 static RULE: LazyLock<[(f64, f64); 9]> = LazyLock::new(gauss_nodes_on_quarter_circle);
 
 /// A body of revolution f(r), given by rows of a radius r and a depth f. The radii ascend from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormTable {
     radii: Vec<f64>,
-    /// The cubic between each row and the next.
+    /// The cubic polynomial of the depth between each row and the next.
     cubics: Vec<Cubic>,
 }
 
-/// Depth between two rows as a cubic of the distance s from the first one: f′ = a + b s + c s².
+/// Slope f′ = a + b s + c s² between two rows, where s is the distance from the first row. The
+/// depth is a cubic polynomial of s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cubic {
     a: f64,
@@ -73,7 +79,8 @@ struct Cubic {
 }
 
 impl Cubic {
-    /// Creates the cubic between two rows with these slopes, from the slope of the secant.
+    /// Creates the cubic between two rows at the distance `width`. `secant` is the slope of the
+    /// straight line between both rows; `from` and `to` are the slopes of the cubic at the rows.
     fn between(width: f64, secant: f64, from: f64, to: f64) -> Self {
         Cubic {
             a: from,
@@ -82,7 +89,7 @@ impl Cubic {
         }
     }
 
-    /// Returns the difference of the depth from the depth of the first row.
+    /// Returns the depth at a distance from the first row, less the depth of the first row.
     fn depth(&self, distance: f64) -> f64 {
         distance * (self.a + distance * (self.b / 2.0 + distance * (self.c / 3.0)))
     }
@@ -100,14 +107,16 @@ impl PartialEq for Rows {
     fn eq(&self, other: &Self) -> bool {
         match (self.0.get(), other.0.get()) {
             (Some(table), Some(other)) => table == other,
-            // What is not read yet may be equal.
+            // Two tables of which one has not been read yet count as equal: the fields of the form
+            // compare the file names.
             _ => true,
         }
     }
 }
 
 impl FormTable {
-    /// Reads a table of two columns in m, unless the file states a unit or `unit` is given.
+    /// Reads a table of two columns, radius and depth. Their unit is m, unless the file states a
+    /// unit or `unit` is given.
     pub(super) fn read(path: &Path, unit: Option<Unit>) -> Result<Self, SurfaceError> {
         let options = ReadOptions {
             unit,
@@ -128,7 +137,8 @@ impl FormTable {
         FormTable::new(radii, &depths)
     }
 
-    /// Creates a form from depths in m at two or more radii in m. The radii ascend from 0.
+    /// Creates a body of revolution from depths in m at two or more radii in m. The radii ascend
+    /// from 0.
     ///
     /// # Errors
     /// Returns an error that names the row at fault and the allowed values.
@@ -163,8 +173,8 @@ impl FormTable {
         self.radii[self.radii.len() - 1]
     }
 
-    /// Returns the depth f(r) in m at a radius in m. Beyond the last row the body goes on with its
-    /// last slope.
+    /// Returns the depth f(r) in m at a radius in m. Beyond the last row the depth continues with
+    /// the slope at this row.
     pub(super) fn depth(&self, radius: f64) -> f64 {
         let rows_inside = self.radii.partition_point(|start| *start <= radius);
         let row = rows_inside.clamp(1, self.cubics.len()) - 1;
@@ -188,16 +198,17 @@ impl FormTable {
         (is_round && curvature >= 0.0).then_some(curvature)
     }
 
-    /// Computes the contribution of the interval after a row to g(x)/x: ∫ f′(r)/√(x² − r²) dr up to
-    /// the radius `end` (m) in the interval, which is at most x.
+    /// Computes the contribution of the interval after a row to g(x)/x. The contribution is ∫
+    /// f′(r)/√(x² − r²) dr from the row to the radius `end` in m, which lies in the interval and is
+    /// at most x.
     ///
-    /// Let δ be the difference of the angles arcsin(r/x) of r and of the row. Then r = u + c sin δ
-    /// − u (1 − cos δ), where u is the radius of the row and c = √(x² − u²). No term cancels,
-    /// however close the rows.
+    /// Let u be the radius of the row, δ = arcsin(r/x) − arcsin(u/x) and w = √(x² − u²). Then r = u
+    /// + w sin δ − u (1 − cos δ), and the integral is taken over δ. No digits are lost by
+    /// subtraction of nearly equal numbers, however close the rows are.
     fn part(&self, row: usize, x: f64, end: f64) -> f64 {
         let u = self.radii[row];
         let Cubic { a, b, c } = self.cubics[row];
-        // For a point on the row, rounding may leave x below u.
+        // If x is on the row, rounding may make x smaller than u.
         if end <= u {
             return 0.0;
         }
@@ -229,8 +240,8 @@ impl FormTable {
         angle * RULE.iter().map(slope).sum::<f64>()
     }
 
-    /// Computes the contribution of the intervals after these rows to g(x)/x. All of them end at x
-    /// or below, in m.
+    /// Computes the contribution to g(x)/x of the intervals after these rows. All these intervals
+    /// end at x (in m) or nearer the axis.
     fn parts(&self, rows: Range<usize>, x: f64) -> f64 {
         rows.map(|row| self.part(row, x, self.radii[row + 1])).sum()
     }
@@ -241,8 +252,8 @@ impl FormTable {
         x * (self.parts(0..gap, x) + self.part(gap, x, x))
     }
 
-    /// Returns `count` depths g of the equivalent profile in m. They are at multiples of `spacing`
-    /// (m) from the axis, the first on the axis.
+    /// Returns `count` depths g of the equivalent profile in m, at the distances 0, `spacing`, 2
+    /// `spacing`, … from the axis, in m.
     pub fn depths(&self, spacing: f64, count: usize) -> Result<Vec<f64>, OutOfMemory> {
         let mut depths = emptied(Vec::new(), count)?;
         for gap in 0..self.cubics.len() {
@@ -270,7 +281,7 @@ impl FormTable {
     pub fn falls_from(&self, radius: f64) -> Option<f64> {
         let step = radius / STEPS as f64;
         let depths = self.depths(step, STEPS + 1).ok()?;
-        // The numbers of a file are rounded.
+        // The numbers of the file are rounded, so a tiny decrease means nothing.
         let slack = ROUNDED * depths.iter().copied().fold(0.0, f64::max);
         let mut pairs = depths.windows(2);
         let place = pairs.position(|pair| pair[1] < pair[0] - slack)?;
@@ -278,7 +289,8 @@ impl FormTable {
     }
 }
 
-/// Returns an error that names the row at fault unless the rows are a table.
+/// Returns an error that names the row at fault, unless the radii ascend from 0 and all numbers are
+/// finite.
 fn check_rows(radii: &[f64], depths: &[f64]) -> Result<(), SurfaceError> {
     let rows = radii.len();
     if rows < 2 || depths.len() != rows {
@@ -311,27 +323,29 @@ fn check_rows(radii: &[f64], depths: &[f64]) -> Result<(), SurfaceError> {
     Ok(())
 }
 
-/// Returns the value of a power series.
+/// Returns the value of a power series at z, by Horner's rule.
 fn series(terms: &[f64], z: f64) -> f64 {
     terms.iter().rev().fold(0.0, |sum, term| sum * z + term)
 }
 
-/// Contributions to g(x)/x of the rows far inside x.
+/// Contributions to g(x)/x of the rows that are much nearer the axis than x.
 ///
-/// One depth takes a square root for each row nearer the axis. If many depths lie between two rows,
-/// the contributions of rows at least one interval away are therefore interpolated by a polynomial.
+/// The exact computation of one depth takes a square root for each row nearer the axis. If many
+/// depths between two neighbouring rows are needed, the contributions of all rows that are at least
+/// one interval away from these two rows are therefore interpolated by a polynomial of x.
 struct FarParts {
     /// Number of rows whose contributions are interpolated.
     rows: usize,
-    /// Interval of x in m.
+    /// Lower end of the interval of x in m; `high` is its upper end.
     low: f64,
     high: f64,
-    /// Coefficients of Chebyshev polynomials.
+    /// Coefficients of the Chebyshev polynomials whose sum is the interpolated contribution.
     coefficients: [f64; NODES],
 }
 
 impl FarParts {
-    /// Prepares the contributions at `points` places in the interval after row `gap`.
+    /// Prepares the interpolation for `points` values of x in the interval after row `gap`. With
+    /// few values nothing is interpolated.
     fn new(table: &FormTable, gap: usize, points: usize) -> Self {
         let low = table.radii[gap];
         let high = table.radii[gap + 1];
@@ -370,13 +384,15 @@ impl FarParts {
     }
 }
 
-/// Returns the slope of the form at a row, from the secants between rows. It is the slope of the
-/// parabola through three rows, at most three times the smaller secant beside the row, and zero
-/// where the secants differ in sign. Between two rows the cubic then stays between their depths.
-/// Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238.
+/// Returns the slope of the form at a row, from the secants between rows. The slope is that of the
+/// parabola through three rows. Its magnitude is limited to three times the smaller secant beside
+/// the row, and it is zero where the two secants differ in sign. With these limits the cubic
+/// between two rows stays between the depths of the rows (Fritsch and Carlson, SIAM J. Numer. Anal.
+/// 17 (1980) 238).
 fn limited_slope(radii: &[f64], secants: &[f64], row: usize) -> f64 {
     let last = secants.len() - 1;
-    // Two secants beside or near the row.
+    // Indices of the two secants beside the row; at either end of the table, of the two secants
+    // nearest to it.
     let inner = row.saturating_sub(1).min(last.saturating_sub(1));
     let outer = (inner + 1).min(last);
     let middle = |secant: usize| 0.5 * (radii[secant] + radii[secant + 1]);

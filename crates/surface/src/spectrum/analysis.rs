@@ -1,5 +1,5 @@
-//! Analysis of measured surfaces: statistics of the points, spectra, equivalent line, and the
-//! limits of all three.
+//! Analysis of measured surfaces: statistics of the points, spectra, the equivalent line, and the
+//! limits within which these results are valid.
 
 use super::differences::Differences;
 use super::fits::SpectrumFits;
@@ -38,9 +38,9 @@ pub struct Analysis {
     /// Moments of the [equivalent line](crate::EquivalentLine) of the surfaces, such as its rms
     /// height.
     pub line: LineMoments,
-    /// Shortest wavelength in m that the tip of radius R resolves reliably: no curvature measured
-    /// over this length is below −1/(2R). If no length fulfils this, it is half the length of a
-    /// row. `None` if no tip radius is given, or if the tip resolves all waves.
+    /// Shortest wavelength in m that a tip of the radius R resolves reliably: no curvature measured
+    /// over this length is below −1/(2R). If no length fulfils this condition, the value is half
+    /// the length of a row. `None` if no tip radius is given, or if the tip resolves all waves.
     pub reliability_cutoff: Option<f64>,
     /// Number of the analysed surfaces that are profiles.
     pub profiles: u64,
@@ -48,31 +48,34 @@ pub struct Analysis {
     pub maps: u64,
     /// Length in m of the longest row of all surfaces.
     pub length: f64,
-    /// [`AnalysisOptions::end`] of this analysis: whether waves continue beyond the last resolved
-    /// one.
+    /// Assumption of this analysis on waves shorter than the shortest resolved wave, see
+    /// [`AnalysisOptions::end`].
     pub end: End,
-    /// True if the shortest waves that the points resolve have no significant power. The spectrum
-    /// then ends before these waves.
+    /// True if the shortest waves that the points resolve have no significant power. The fitted
+    /// spectrum then ends at a longer wave.
     pub ends_inside: bool,
     /// True if the analysis leaves out the waves parallel to one axis of a map. The rows or columns
     /// of such a map are offset against each other, or were levelled one by one.
     pub offsets: bool,
-    /// Largest difference between the squared gradient of waves parallel to an axis of a map and
-    /// the value expected from waves in neighbouring directions. It is divided by the squared
-    /// gradient of the map. The value is 0 if the difference may be chance.
+    /// Largest difference, over all maps, between the squared gradient of the waves parallel to an
+    /// axis of a map and the value expected from waves in neighbouring directions, divided by the
+    /// squared gradient of the map. It is 0 if the difference may be chance.
     pub apart: f64,
-    /// Distance in m by which odd rows of a map are displaced against even rows, as if they were
-    /// from two scans. `None` if no map has such a displacement.
+    /// Distance in m by which the odd rows of a map are displaced along the rows against the even
+    /// rows, as in a file that alternates between trace and retrace. `None` if no map has such a
+    /// displacement.
     pub displaced: Option<f64>,
     /// True if the curvature of each surface was removed, see [`AnalysisOptions::detrend`].
     pub is_levelled: bool,
-    /// Ratio of the largest to the smallest rms gradient of the four quarters of a surface (of the
-    /// two halves of a profile), the largest of all surfaces. It is 1 if the parts differ by no
-    /// more than chance explains.
+    /// Ratio of the largest to the smallest rms gradient among the four quarters of a surface, or
+    /// among the two halves of a profile. For several surfaces it is the largest of their ratios.
+    /// It is 1 if the parts differ by no more than chance explains.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height or rms gradient of several surfaces, by the
-    /// waves that they have in common with the fitted spectrum. It is 1 if the surfaces differ by
-    /// no more than chance explains, and for a single surface.
+    /// Ratio of the largest to the smallest rms height among several surfaces, or the same ratio of
+    /// the rms gradients, whichever is larger. Surfaces with different numbers or distances of
+    /// points are compared through the fitted spectrum: by the ratio of the measured to the fitted
+    /// value over the waves that the surface has. The result is 1 for a single surface, and if the
+    /// surfaces differ by no more than chance explains.
     pub ratio_of_surfaces: f64,
 }
 
@@ -159,7 +162,8 @@ pub fn analyse(
         if !fits.ends_inside {
             isotropic.missing = fits.missing_waves(&observations, &isotropic);
         }
-        // Levelling rows one by one takes height from them.
+        // Subtracting the median of each row removes a part of the rms height, so the height of the
+        // points cannot be compared with the spectrum.
         let has_height = !surfaces.iter().any(|surface| surface.aligned);
         points.check_identities(&mut isotropic, has_height);
     }
@@ -190,7 +194,7 @@ pub fn analyse(
     })
 }
 
-/// What follows from the surfaces without a fit.
+/// Results that follow from the surfaces without a fit of a spectrum.
 #[derive(Default)]
 struct Measured {
     points: PointResults,

@@ -1,20 +1,19 @@
-//! Waves of a map that are parallel to an axis. Offsets of rows or columns against each other
-//! appear in them alone.
+//! Waves of a map that run parallel to an axis. Offsets of whole rows or columns against each other
+//! appear only in these waves.
 
 use super::periodogram::Wave;
 use std::ops::RangeInclusive;
 
-/// Smallest number of a wave along an axis that is compared with its neighbours, over the number of
-/// points.
+/// Smallest number of a wave, divided by the number of points along the axis, from which on the
+/// wave is compared with its neighbours.
 const COMPARED: f64 = 1.0 / 8.0;
 
-/// Smallest number of a wave that may be left out, over the number of points. Longer waves have
-/// more power than offsets.
+/// Smallest number of a wave, divided by the number of points along the axis, from which on the
+/// wave may be left out. The surface has more power in longer waves than offsets have.
 const LEFT_OUT: f64 = 1.0 / 32.0;
 
-/// Relative difference of the mean power of n waves along an axis from the mean power of their
-/// neighbours, times √n, above which it is not chance: about four standard deviations under a
-/// window.
+/// Limit of chance for the relative difference between the mean power of n waves along an axis and
+/// that of their neighbours, times √n. The limit is about four standard deviations under a window.
 const NO_CHANCE: f64 = 12.0;
 
 /// Distances from the axis, in waves, of the near group of neighbouring waves.
@@ -23,23 +22,26 @@ const NEAR: RangeInclusive<f64> = 3.0..=5.0;
 /// Distances from the axis, in waves, of the farther group of neighbouring waves.
 const FARTHER: RangeInclusive<f64> = 6.0..=8.0;
 
-/// The power is an even function a + bx² of the distance x from the axis, also on an anisotropic
-/// surface. Its value at the axis is the mean of the near group plus this factor times the
-/// difference of the near and the farther group.
+/// Factor for the extrapolation of the power to the axis. The power is an even function a + bx² of
+/// the distance x from the axis, also on an anisotropic surface. So its value at the axis is the
+/// mean of the near group plus this factor times the mean of the near group less that of the
+/// farther group.
 const EXTRAPOLATED: f64 = 0.486;
 
-/// Share of the squared gradient above which the difference matters.
+/// Share of the squared gradient of the map above which the difference between waves along an axis
+/// and their neighbours is not negligible.
 const NEGLIGIBLE_OFFSETS: f64 = 1e-3;
 
-/// Share of the squared gradient above which the difference is attributed to the surface itself.
+/// Share of the squared gradient of the map above which this difference is attributed to the
+/// surface itself, and not to offsets of rows or columns.
 const LARGEST_OFFSETS: f64 = 0.25;
 
-/// Place of a wave with respect to an axis of the plane of waves.
+/// Place of a wave in the plane of wave numbers, with respect to one axis.
 #[derive(Clone, Copy)]
 pub(super) struct AxisPlace {
-    /// Distance from the axis in waves.
+    /// Number of the wave across the axis, which is its distance from the axis.
     pub across: f64,
-    /// Number of the wave along the axis, over the number of points.
+    /// Number of the wave along the axis, divided by the number of points.
     pub along: f64,
 }
 
@@ -62,11 +64,11 @@ impl GradientSum {
 }
 
 /// Waves parallel to one axis, in which offsets of rows or columns appear, and sums over their
-/// neighbours, in which they do not.
+/// neighbours, in which such offsets do not appear.
 #[derive(Default)]
 struct AxisPower {
     waves: Vec<Wave>,
-    /// The short waves parallel to the axis.
+    /// Sum over the short waves parallel to the axis.
     parallel: GradientSum,
     near: GradientSum,
     farther: GradientSum,
@@ -90,15 +92,15 @@ impl AxisPower {
         }
     }
 
-    /// Returns the excess of the squared gradient of the waves parallel to the axis over their
-    /// neighbours; zero if it may be chance.
+    /// Returns by how much the squared gradient of the waves parallel to the axis differs from the
+    /// value expected from their neighbours; zero if the difference may be chance.
     fn departure(&self) -> f64 {
         let near = self.near.mean();
         let farther = self.farther.mean();
         let count = self.parallel.waves;
         let expected = (near + EXTRAPOLATED * (near - farther)) * count;
         let departure = (self.parallel.squared_gradient - expected).abs();
-        // Without neighbours nothing is expected, and the comparison with NaN is false.
+        // Without neighbours `expected` is NaN, the comparison is false, and the result is 0.
         if departure * count.sqrt() > NO_CHANCE * expected.abs() {
             departure
         } else {
@@ -115,7 +117,7 @@ pub(super) struct WavesByAxis {
     axes: [AxisPower; 2],
 }
 
-/// The waves of a map without those that offsets of its rows or columns falsify.
+/// The waves of a map, without the waves that offsets of rows or columns falsify.
 pub(super) struct TrueWaves {
     pub waves: Vec<Wave>,
     /// True if waves parallel to an axis are left out.
@@ -149,8 +151,8 @@ impl WavesByAxis {
         self.others.push(wave);
     }
 
-    /// Leaves out the waves parallel to an axis that differ from their neighbours as offsets of
-    /// rows or columns make them differ.
+    /// Leaves out the short waves parallel to an axis if they differ from their neighbours by as
+    /// much as offsets of rows or columns can cause.
     pub fn without_offsets(self) -> TrueWaves {
         let gradient = self.squared_gradient();
         let mut waves = self.others;
@@ -174,7 +176,7 @@ impl WavesByAxis {
         }
     }
 
-    /// Returns all waves.
+    /// Returns all waves, also those parallel to an axis.
     pub fn all(self) -> Vec<Wave> {
         let mut waves = self.others;
         for axis in self.axes {

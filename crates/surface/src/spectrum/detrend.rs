@@ -1,9 +1,9 @@
-//! Removal of offset, tilt and curvature by least squares.
+//! Removal of offset, tilt and curvature from heights by least squares.
 
 use crate::topography::surface::Detrend;
 use asperity_data::Cholesky;
 
-/// Exponents of x and y of a monomial.
+/// A monomial of the polynomial: the exponents of x and y.
 #[derive(Clone, Copy)]
 struct Monomial {
     x: i32,
@@ -40,7 +40,7 @@ impl Detrend {
         let Some(&level) = heights.first() else {
             return;
         };
-        // Relative to the first height, sums keep their digits.
+        // The first height is subtracted, because a large offset would cost the sums digits.
         for height in heights.iter_mut() {
             *height -= level;
         }
@@ -65,12 +65,13 @@ impl Detrend {
     }
 }
 
-/// Returns the place of a point on an axis from −1 to 1, so that powers keep their digits.
+/// Returns the coordinate of a point on an axis from −1 to 1. On such an axis the powers of the
+/// coordinates are of similar size, so that the solution keeps its digits.
 fn place(index: usize, count: usize) -> f64 {
     2.0 * index as f64 / (count.max(2) - 1) as f64 - 1.0
 }
 
-/// Returns the sums of the powers 0 to 4 of the places on an axis.
+/// Returns the sums of the powers 0 to 4 of the coordinates on an axis.
 fn sums_of_powers(count: usize) -> [f64; 5] {
     std::array::from_fn(|power| {
         (0..count)
@@ -79,8 +80,8 @@ fn sums_of_powers(count: usize) -> [f64; 5] {
     })
 }
 
-/// Returns the matrix of the normal equations. Sums over the grid are products of sums along its
-/// axes.
+/// Returns the matrix of the normal equations. A sum over all points of the grid is a product of
+/// sums along its axes.
 fn normal_matrix(monomials: &[Monomial], columns: usize, rows: usize) -> Vec<f64> {
     let along = sums_of_powers(columns);
     let between = sums_of_powers(rows);
@@ -101,7 +102,7 @@ fn right_side(monomials: &[Monomial], heights: &[f64], columns: usize) -> Vec<f6
     let mut right = vec![0.0; monomials.len()];
     for (row, heights) in heights.chunks_exact(columns).enumerate() {
         let y = place(row, rows);
-        // Sums along the row of the height times a power of x.
+        // Sums, along the row, of the height times x⁰, x¹ and x².
         let sums: [f64; 3] = std::array::from_fn(|power| {
             let terms = heights.iter().enumerate();
             terms

@@ -1,11 +1,11 @@
-//! Differences between the parts of surfaces, and between surfaces that are measurements of the
-//! same roughness, beyond the differences that chance explains.
+//! Differences between the parts of a surface, and between several measurements of the same
+//! roughness. Only the part of a difference that chance does not explain is used.
 
 use super::levelled::LevelledSurface;
 use super::parts::{Spread, chance_factor, student_factor, variance_of_mean};
 use super::point_results::SAME;
 
-/// Surfaces with equal points, whose moments can be compared.
+/// Surfaces with equal numbers and distances of points, whose moments can be compared.
 struct Group {
     points: [usize; 2],
     spacing: f64,
@@ -18,17 +18,17 @@ pub(super) struct Differences {
     groups: Vec<Group>,
 }
 
-/// What follows from the differences.
+/// Errors and ratios that follow from the differences.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unevenness {
     /// Relative errors of [`IsotropicSpectrum::integrals`](super::isotropic::IsotropicSpectrum)
     /// that come from the differences.
     pub errors: [f64; 3],
-    /// Ratio of the largest to the smallest rms gradient of the parts of a surface, the largest of
-    /// all surfaces; 1 if the parts differ by chance.
+    /// Ratio of the largest to the smallest rms gradient among the parts of a surface: the largest
+    /// ratio of all surfaces; 1 if chance explains the differences.
     pub ratio_of_parts: f64,
-    /// Ratio of the largest to the smallest rms height or rms gradient of surfaces with equal
-    /// points, whichever is larger; 1 if the surfaces differ by chance.
+    /// Ratio of the largest to the smallest rms height, or rms gradient if this ratio is larger,
+    /// among surfaces with equal points; 1 if chance explains the differences.
     pub ratio_of_surfaces: f64,
 }
 
@@ -50,7 +50,8 @@ impl Differences {
         }
     }
 
-    /// Returns what follows from all differences. The largest error of all groups counts.
+    /// Returns the errors and ratios that follow from all differences. The error is the largest
+    /// error of all groups.
     pub fn unevenness(&self) -> Unevenness {
         let mut unevenness = Unevenness {
             errors: [0.0; 3],
@@ -74,16 +75,17 @@ impl Differences {
 }
 
 impl Group {
-    /// Returns the relative variance of a mean moment of all surfaces beyond chance, because parts
-    /// of each surface differ.
+    /// Returns the relative variance of the mean of a moment over all surfaces that results from
+    /// differences between the parts of each surface, without the part that chance explains.
     fn within(&self, index: usize) -> f64 {
         let count = self.spreads.len() as f64;
         let sum: f64 = self.spreads.iter().map(|spread| spread.excess[index]).sum();
         sum / (count * count)
     }
 
-    /// Returns the spread between the surfaces. Differences between the parts of a surface, and the
-    /// finite number of its waves, make the surfaces differ by chance.
+    /// Returns the spread of the moments between the surfaces. The expected spread by chance
+    /// results from the differences between the parts of each surface, and from the finite number
+    /// of waves.
     fn between(&self) -> Spread {
         let mut between = Spread::by_chance();
         let count = self.spreads.len();

@@ -1,5 +1,5 @@
-//! Fits of spectra to the observed powers of all surfaces, and how the results change with the
-//! heights that were interpolated and with the waves that are missing.
+//! Fits of spectra to the observed powers of all surfaces. Also computes how the results change
+//! with other interpolated heights, and with waves that the points do not resolve.
 
 use super::isotropic::IsotropicSpectrum;
 use super::isotropic_fit::fit_isotropic;
@@ -15,11 +15,12 @@ use super::self_affine_fit::SelfAffineFit;
 use crate::error::{Place, SurfaceError, refused};
 use crate::topography::surface::Topography;
 
-/// Number of waves before an end inside the scan that the self-affine fit leaves out.
+/// Number of waves that the self-affine fit leaves out before the end of a spectrum that ends
+/// before the last resolved wave.
 const BEFORE_END: f64 = 4.0;
 
-/// Largest ratio of the wave number up to which a spectrum may be continued to the last resolved
-/// wave number.
+/// Ratio of the largest wave number to the last resolved wave number, in the estimate of missing
+/// short waves.
 const CONTINUED: f64 = 4.0;
 
 /// Fits of spectra to observations over one range of wave numbers.
@@ -31,7 +32,8 @@ pub(super) struct SpectrumFits {
     pub ends_inside: bool,
 }
 
-/// Largest changes of the results between several readings of the same surfaces.
+/// Largest changes of the results between several readings of the same surfaces. The readings
+/// differ in the heights that are interpolated.
 #[derive(Default)]
 pub(super) struct ReadingChanges {
     /// Relative changes of the integrals of [`IsotropicSpectrum::integrals`].
@@ -41,8 +43,8 @@ pub(super) struct ReadingChanges {
 }
 
 impl SpectrumFits {
-    /// Finds the range of the waves with significant power. Returns an error for a spectrum that
-    /// would continue up to a wave number which is resolved already.
+    /// Finds the range of the waves with significant power. Returns an error if `end` continues the
+    /// spectrum up to a wave number that the points already resolve.
     pub fn new(powers: &Powers, has_gaps: bool, end: End) -> Result<Self, SurfaceError> {
         let range = powers.range(|waves| last_significant(waves, has_gaps));
         let resolved = powers.range(|waves| waves.len());
@@ -88,7 +90,8 @@ impl SpectrumFits {
         fit_for_ends(&before_end, self.range, self.end, self.ends_inside)
     }
 
-    /// Repeats the fits for other values of the heights that were interpolated or resampled.
+    /// Repeats the fits with other heights at the points that were interpolated or resampled, and
+    /// returns the changes of the results.
     pub fn changes_between_readings(
         &self,
         surfaces: &[Topography],
@@ -126,7 +129,7 @@ impl SpectrumFits {
             end: End::Continues(CONTINUED * last),
             ..*self
         };
-        // Without such a fit nothing is known of the missing waves.
+        // If this fit fails, the influence of the missing waves is unknown.
         let Ok(continued) = continued_fits.isotropic(observations) else {
             return [f64::INFINITY; 3];
         };
@@ -142,8 +145,8 @@ impl SpectrumFits {
     }
 }
 
-/// Returns the number of other readings of the same surfaces, by the `quarters` of
-/// [`Topography::copied_heights`]. A resampled profile has only one other reading.
+/// Returns the number of other readings of the same surfaces. The readings differ in the argument
+/// `quarters` of [`Topography::copied_heights`]. A resampled profile has only one other reading.
 fn other_readings(surfaces: &[Topography]) -> usize {
     if surfaces.iter().any(|surface| surface.interpolated() > 0) {
         3

@@ -1,21 +1,22 @@
-//! Identities between the moments of a spectrum and the statistics of the points of which it was
-//! computed.
+//! Comparison of the moments of a spectrum with the statistics of the points from which the
+//! spectrum was computed. For exact data both are equal.
 
 use super::isotropic::IsotropicSpectrum;
 use super::moments::{Moment, line_moments};
 use super::statistics::PointStatistics;
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
-/// Departures of the moments of the line from the measured points, relative to the squares of the
-/// moments.
+/// Differences between the squared moments of the line and those of the measured points, divided by
+/// the squared moments.
 pub(super) struct Departures {
     pub squared_height: f64,
     pub squared_gradient: f64,
 }
 
-/// Compares the rms height of the line with the measured height, if this is known. Also compares
-/// its rms gradient with the gradient of the measured points: a spike that the window hides is seen
-/// only there. Departures within three standard errors are zero.
+/// Compares the rms height of the line with the measured rms height `height` in m, if it is known,
+/// and the rms gradient of the line with the gradient of the measured points. The comparison finds,
+/// for example, a spike that the window function hides from the spectrum. Differences within three
+/// standard errors count as zero.
 pub(super) fn departures(
     isotropic: &IsotropicSpectrum,
     height: Option<f64>,
@@ -27,7 +28,8 @@ pub(super) fn departures(
         Some(height) => departure(line.rms_height, height, height),
         None => 0.0,
     };
-    // Differences of neighbours reduce the slope of a wave of two points by π/2.
+    // The slope from the difference of two neighbouring points is smaller than the true slope, for
+    // a wave of two points by the factor π/2.
     let squared_gradient = departure(line.rms_gradient, gradient, FRAC_PI_2 * gradient);
     Departures {
         squared_height,
@@ -35,12 +37,12 @@ pub(super) fn departures(
     }
 }
 
-/// Returns by how much a moment lies outside the range that the points give. The result is relative
-/// to the square of the moment.
+/// Returns by how much the square of a moment lies outside the range that the points give, divided
+/// by the square of the moment.
 fn departure(moment: Moment, least: f64, most: f64) -> f64 {
     let beyond = (least - moment.value).max(moment.value - most);
     if beyond > 3.0 * moment.error {
-        // The squares have twice the relative error.
+        // A square has twice the relative difference.
         2.0 * beyond / moment.value
     } else {
         0.0

@@ -1,24 +1,27 @@
-//! Maps whose rows alternate between two scans, trace and retrace, that are displaced against each
-//! other along the rows.
+//! Maps whose rows come alternately from two scans, trace and retrace, which are displaced against
+//! each other along the rows.
 
-/// Largest number of pairs of neighbouring rows that are compared, of each order.
+/// Largest number of pairs of neighbouring rows that are compared. The limit holds for pairs that
+/// begin with an even row, and for pairs that begin with an odd row.
 const MOST_PAIRS: usize = 128;
 
-/// Largest displacement searched, in points.
+/// Largest displacement that is tried, in points.
 const REACH: usize = 16;
 
-/// Largest share of the mean square difference of neighbouring rows that may remain after the
-/// displacement.
+/// Largest ratio of the mean square difference of neighbouring rows after the displacement to that
+/// before. Above this ratio the displacement is not certain.
 const LEFT: f64 = 0.75;
 
 /// Returns the number of points by which the odd rows are displaced against the even rows; `None`
 /// unless this is certain.
 ///
 /// Neighbouring rows of a surface are most alike without a displacement, or with the same
-/// displacement from each row to the next. The latter results from a lay askew to the rows or from
-/// a drift. A displacement whose sign alternates from row to row comes from two scans.
+/// displacement from each row to the next. An equal displacement from row to row results from a
+/// drift, or from a surface with a lay (direction of machining marks) oblique to the rows. A
+/// displacement whose sign alternates from row to row results from two scans.
 pub(super) fn displacement(heights: &[f64], columns: usize) -> Option<f64> {
-    // Of odd rows against the even rows before them, and of even rows against the odd rows before.
+    // The first displacement is that of odd rows against the even rows before them. The second is
+    // that of even rows against the odd rows before them.
     let of_odd = displacement_of_pairs(heights, columns, 0)?;
     let of_even = displacement_of_pairs(heights, columns, 1)?;
     let has_two_scans = of_odd * of_even < 0.0 && (of_odd + of_even).abs() <= 1.0;
@@ -67,7 +70,8 @@ fn squares_about_mean(row: &[f64], next: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Waves of all directions in rows of 64 points, each row displaced by some points.
+    /// Returns heights with waves of all directions in rows of 64 points. Each row is displaced by
+    /// `displaced` points.
     fn rows(displaced: impl Fn(usize) -> f64) -> Vec<f64> {
         let wave = |k: u32, x: f64, y: f64| {
             let angle = f64::from(k * k);
@@ -89,14 +93,14 @@ mod tests {
         let parity = |row: usize| (row % 2) as f64;
         assert_eq!(displacement(&rows(|row| 3.0 * parity(row)), 64), Some(3.0));
         assert_eq!(displacement(&rows(|row| -parity(row)), 64), Some(1.0));
-        // No displacement, drift, and a lay askew.
+        // These maps have no displacement, a drift, and a lay oblique to the rows.
         assert_eq!(displacement(&rows(|_| 0.0), 64), None);
         assert_eq!(displacement(&rows(|row| 2.0 * row as f64), 64), None);
         let lay: Vec<f64> = (0..64 * 48)
             .map(|i| (0.3 * (i % 64 + 4 * (i / 64)) as f64).sin())
             .collect();
         assert_eq!(displacement(&lay, 64), None);
-        // Noise, and rows at two levels in turn.
+        // These maps have noise, and rows that alternate between two levels.
         let noise: Vec<f64> = (0..64 * 48_u32).map(|i| f64::from(i * i % 8191)).collect();
         assert_eq!(displacement(&noise, 64), None);
         let levels: Vec<f64> = rows(|_| 0.0)

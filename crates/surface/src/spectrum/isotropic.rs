@@ -11,7 +11,8 @@ use std::f64::consts::{PI, TAU};
 #[cfg(test)]
 pub(super) use tests::known;
 
-/// Separates this use of the random generator from other uses.
+/// Part of the key of the random generator that makes its numbers differ from those of other uses
+/// with the same seed.
 const PURPOSE: &[u8; 24] = b"asperity-spectrum-draws\0";
 
 /// Number of quadrature pieces per unit of u in [`cut`].
@@ -52,14 +53,16 @@ pub struct IsotropicSpectrum {
     pub(super) nodes: Nodes,
     /// ln C2D at the nodes.
     pub(super) values: Vec<f64>,
-    /// Information matrix of `values`.
+    /// Cholesky factor of the information matrix, the inverse covariance matrix, of `values`.
     pub(super) information: Cholesky,
     /// Relative errors of ∫ q^power C2D dq, for power = 1, 2, 3, that come from the method.
     pub(super) method: [f64; 3],
-    /// Relative changes of the same integrals if short waves are missing.
+    /// Relative changes of these integrals if the surface has shorter waves than the points
+    /// resolve.
     pub(super) missing: [f64; 3],
-    /// Ratio of the largest to the smallest rms height or rms gradient of the measured surfaces of
-    /// several kinds to which the spectrum is fitted; 1 if they differ by chance.
+    /// Ratio of the largest to the smallest rms height or rms gradient among several kinds of
+    /// surfaces, such as profiles and maps, to which the spectrum is fitted together; 1 if chance
+    /// explains the differences.
     pub(super) ratio_of_kinds: f64,
 }
 
@@ -92,7 +95,7 @@ impl IsotropicSpectrum {
         cut(|q| self.c2d(q), wave_number, self.nodes.end)
     }
 
-    /// Returns the wave number in rad/m of the last node: that of the shortest wave that the
+    /// Returns the wave number in rad/m of the last node, which is the shortest wave that the
     /// measured points resolve.
     pub fn last_node(&self) -> f64 {
         self.nodes.wave_number(self.nodes.count - 1)
@@ -129,7 +132,7 @@ impl IsotropicSpectrum {
         let mut draws = NormalDraws::new(number);
         let independent = self.values.iter().map(|_| draws.next()).collect();
         let steps = self.information.solve_transposed(independent);
-        // The error of the method moves all values alike.
+        // The error of the method changes ln C2D at all nodes by the same amount.
         let common = draws.next() * self.method.into_iter().fold(0.0, f64::max);
         let mut drawn = self.clone();
         for (value, step) in drawn.values.iter_mut().zip(steps) {
@@ -159,21 +162,23 @@ impl IsotropicSpectrum {
     }
 
     /// Computes ∫ q^power C2D dq for power = 1, 2, 3 over the waves of the equivalent line. Up to
-    /// constant factors they are its mean square height, its elastic energy and its mean square
-    /// gradient.
+    /// constant factors these integrals are the mean square height, the elastic energy and the mean
+    /// square gradient of the line.
     pub(super) fn integrals(&self) -> [f64; 3] {
         let from = 0.5 * self.nodes.wave_number(0);
         [1, 2, 3].map(|power| self.integral(power, from).value)
     }
 
-    /// Returns the relative differences of these integrals in another spectrum.
+    /// Returns the relative differences of the integrals of [`Self::integrals`] between another
+    /// spectrum and this one.
     pub(super) fn changes(&self, other: &IsotropicSpectrum) -> [f64; 3] {
         let own = self.integrals();
         let others = other.integrals();
         [0, 1, 2].map(|index| others[index] / own[index] - 1.0)
     }
 
-    /// Adds relative errors of these integrals that come from the method.
+    /// Adds further relative errors of the integrals that come from the method. Independent errors
+    /// add as squares.
     pub(super) fn add_method_errors(&mut self, errors: [f64; 3]) {
         for (method, error) in self.method.iter_mut().zip(errors) {
             *method = method.hypot(error);
@@ -201,7 +206,7 @@ impl NormalDraws {
         radius * (TAU * self.uniform()).cos()
     }
 
-    /// Returns a number above 0 and up to 1, of which the logarithm is finite.
+    /// Returns a random number above 0 and up to 1, so that its logarithm is finite.
     fn uniform(&mut self) -> f64 {
         ((self.generator.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
     }
@@ -213,7 +218,7 @@ mod tests {
     use super::super::nodes::{End, WaveRange};
     use super::*;
 
-    /// Spectrum with these values of ln C2D, known exactly.
+    /// Returns a spectrum with the values of `c2d` at the nodes and without errors.
     pub fn known(nodes: Nodes, c2d: impl Fn(f64) -> f64) -> IsotropicSpectrum {
         let values = (0..nodes.count)
             .map(|index| c2d(nodes.wave_number(index)).ln())
@@ -239,7 +244,7 @@ mod tests {
         };
         let nodes = Nodes::new(range, 6.0, End::Ends);
         let count = nodes.count;
-        // Neighbours are correlated.
+        // The errors of neighbouring nodes are correlated.
         let mut information = vec![0.0; count * count];
         for row in 0..count {
             information[row * count + row] = 30.0;
@@ -279,7 +284,7 @@ mod tests {
         for (moment, estimate) in errors.into_iter().enumerate() {
             let spread = (square[moment] - mean[moment].powi(2)).sqrt();
             let expected = estimate.error / estimate.value;
-            // To second order in the errors, and a hundredth for chance.
+            // The limits allow for terms of second order in the errors, and for chance.
             assert!(
                 (spread / expected - 1.0).abs() < 0.1,
                 "{moment}: {spread} {expected}"

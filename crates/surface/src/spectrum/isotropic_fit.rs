@@ -1,7 +1,8 @@
 //! The isotropic spectrum of largest penalised likelihood.
 //!
-//! The sum Σ w (P/m + ln m) + λ Σ (x_{i−1} − 2x_i + x_{i+1})² is minimised over the values x = ln
-//! C2D at the nodes. P are the observed powers of w waves each, and m(x) their means.
+//! The fit finds the values x_i = ln C2D at the nodes that minimise Σ w (P/m + ln m) + λ Σ (x_{i−1}
+//! − 2x_i + x_{i+1})². The first sum runs over the observations: P is the observed mean power of w
+//! waves, and m(x) the expected mean. The second sum makes the spectrum smooth.
 
 use super::isotropic::IsotropicSpectrum;
 use super::likelihood::Model;
@@ -10,7 +11,7 @@ use super::parts::student_factor;
 use super::scoring::{Linearised, Objective, descend};
 use std::f64::consts::TAU;
 
-/// Weight λ of the squared second differences.
+/// Weight λ of the squared second differences of ln C2D.
 const SMOOTHNESS: f64 = 1.0;
 
 /// Weights of three neighbouring values in a second difference.
@@ -22,10 +23,11 @@ const MOST_STEPS: usize = 200;
 /// Largest change of ln C2D at a node in one step.
 const LARGEST_STEP: f64 = 1.5;
 
-/// Number of standard errors that chance exceeds once in a few hundred times.
+/// Number of standard errors that a difference exceeds by chance once in a few hundred times.
 const LEAST_DEVIATIONS: f64 = 3.0;
 
-/// Exponent of the power law q^(−3) by which initial values are interpolated.
+/// Exponent of the power law q^(−3) that the spectrum is assumed to follow near each observation,
+/// when the initial values are computed.
 const INITIAL_EXPONENT: f64 = 3.0;
 
 /// Finds the isotropic spectrum. `None` if the information matrix is not positive definite, as for
@@ -48,7 +50,7 @@ pub(super) fn fit_isotropic(model: &Model<'_>) -> Option<IsotropicSpectrum> {
     Some(spectrum)
 }
 
-/// The objective as a function of ln C2D at the nodes.
+/// The penalised negative log-likelihood as a function of ln C2D at the nodes.
 struct PenalisedLikelihood<'a> {
     model: &'a Model<'a>,
 }
@@ -86,7 +88,7 @@ impl Objective for PenalisedLikelihood<'_> {
 
 fn add_likelihood(model: &Model<'_>, values: &[f64], linearised: &mut Linearised) {
     let count = values.len();
-    // Slope of the logarithm of a mean.
+    // Derivatives of the logarithm of a mean with respect to ln C2D at the nodes.
     let mut slope = vec![0.0; count];
     for (observed, terms) in model.observations.iter().zip(&model.terms) {
         slope.fill(0.0);
@@ -131,14 +133,14 @@ struct NodeMean {
     waves: f64,
 }
 
-/// Returns the initial values: C2D from the powers as if it were a power law, constant outside the
-/// observations.
+/// Returns the initial values of ln C2D at the nodes. They follow from the observed powers as if
+/// C2D were a power law, and are constant outside the observations.
 fn initial_values(model: &Model<'_>) -> Vec<f64> {
     let count = model.nodes.count;
     let mut means = vec![NodeMean::default(); count];
     for (observed, terms) in model.observations.iter().zip(&model.terms) {
         let ln_q = observed.wave_number.ln();
-        // The mean of a spectrum that is 1 at the observed wave number.
+        // Expected mean power for a power law that is 1 at the observed wave number.
         let weight: f64 = terms
             .iter()
             .map(|term| term.weight * ((ln_q - term.ln_q) * INITIAL_EXPONENT).exp())
@@ -173,13 +175,13 @@ fn between(means: &[NodeMean], index: usize) -> f64 {
     }
 }
 
-/// Differences between the measured powers and a fit.
+/// Differences between the moments of the measured powers and of the fitted means.
 struct Departure {
-    /// Largest difference of each moment among profiles and maps of one kind, in the unit of the
-    /// moment.
+    /// Largest difference of each moment among the kinds of surfaces, in the unit of the moment. A
+    /// kind is all profiles or all maps with equal points.
     moments: [f64; 3],
-    /// Ratio of the largest to the smallest rms height or rms gradient among the kinds; 1 if the
-    /// kinds differ by chance.
+    /// Ratio of the largest to the smallest rms height or rms gradient among the kinds; 1 if chance
+    /// explains the differences.
     ratio_of_kinds: f64,
 }
 
@@ -220,8 +222,9 @@ impl KindMoments {
 }
 
 /// Compares the moments of the measured powers with the moments of the fitted means over the same
-/// waves, for the profiles and maps of each kind. With several kinds, only the excess over chance
-/// counts, multiplied by Student's factor if it is large.
+/// waves, for the profiles and maps of each kind. With several kinds, only the part of a difference
+/// that exceeds chance counts. If the kinds differ by more than chance, this part is multiplied by
+/// Student's factor.
 fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
     let mut means = model.means(values);
     let mut kinds = Vec::new();
@@ -229,7 +232,7 @@ fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
         .observations
         .chunk_by(|observation, next| observation.kind == next.kind)
     {
-        // The means of the next kind follow.
+        // The iterator then continues with the means of the next kind.
         let mut own_means = means.by_ref().take(observations.len());
         kinds.push(KindMoments::new(observations, &mut own_means));
     }
@@ -242,8 +245,8 @@ fn departure(model: &Model<'_>, values: &[f64]) -> Departure {
         for index in 0..3 {
             let difference = kind.differences[index].abs();
             is_chance &= difference <= LEAST_DEVIATIONS * kind.errors[index];
-            // Scans that share a spectrum depart from it by chance, which is in the statistical
-            // error.
+            // Scans with the same spectrum depart from it by chance. This part of the difference is
+            // already in the statistical error.
             let chance = if kinds.len() > 1 {
                 2.0 * kind.errors[index]
             } else {

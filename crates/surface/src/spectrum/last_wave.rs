@@ -1,24 +1,25 @@
-//! The last significant wave of a measured spectrum.
+//! Search for the last wave of a measured spectrum that has significant power.
 
 use super::periodogram::{Wave, squared_gradient};
 
-/// Share of the squared gradient that waves beyond the end of the spectrum may have.
+/// Largest share of the squared gradient that the waves beyond the end of the spectrum may have.
 const NEGLIGIBLE: f64 = 1e-4;
 
-/// The last 1/`FLOOR` of the waves give the noise floor of interpolated points.
+/// The power of the last 1/`FLOOR` of all waves is the noise floor that interpolated points cause.
 const FLOOR: usize = 8;
 
-/// Share of the noise floor that is attributed to chance.
+/// Excess over the noise floor, as a share of it, that is attributed to chance.
 const CHANCE: f64 = 0.25;
 
 /// Largest ratio of the power beyond the end of the spectrum to the power of as many waves before
 /// it.
 const DROP: f64 = 0.03;
 
-/// Finds the end of a spectrum. Returns the number of waves after which the rest has a negligible
-/// share of the squared gradient and far smaller power, or the number of all waves if there is no
-/// end. With `has_floor` only the power above the level of the last waves counts, because errors of
-/// single interpolated points add the same power to all waves.
+/// Finds the end of a spectrum. Returns the number of waves up to the end. The waves beyond have a
+/// negligible share of the squared gradient, and far less power than those before. If there is no
+/// such end, returns the number of all waves. If `has_floor` is true, only the power above the
+/// level of the last waves is used, because errors of single interpolated points add the same power
+/// to all waves.
 pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
     let floor = if has_floor { noise_floor(waves) } else { 0.0 };
     let excess_over_floor =
@@ -42,7 +43,8 @@ pub(super) fn last_significant(waves: &[Wave], has_floor: bool) -> usize {
     }
 }
 
-/// Returns the power of the last waves, which single interpolated points add to all waves.
+/// Returns the mean power of the last waves. This is the power that errors of single interpolated
+/// points add to all waves.
 fn noise_floor(waves: &[Wave]) -> f64 {
     let last = &waves[waves.len() - waves.len() / FLOOR..];
     if last.is_empty() {
@@ -51,7 +53,7 @@ fn noise_floor(waves: &[Wave]) -> f64 {
     squared_gradient(last) / sum_of_squares(last)
 }
 
-/// Returns the sum of the squared wave numbers.
+/// Returns the sum of the squared wave numbers of several waves.
 fn sum_of_squares(waves: &[Wave]) -> f64 {
     waves
         .iter()

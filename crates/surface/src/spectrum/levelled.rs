@@ -1,4 +1,4 @@
-//! A surface without its polynomial, as the analysis sees it.
+//! A surface after removal of a polynomial: the input of the analysis.
 
 use super::options::AnalysisOptions;
 use crate::error::{Place, SurfaceError, refused};
@@ -8,10 +8,11 @@ use asperity_data::resized;
 /// Smallest allowed number of points along a row and of rows of a map.
 const LEAST_POINTS: usize = 32;
 
-/// Share of the largest height below which heights are rounding errors.
+/// Largest ratio of the heights after removal of the polynomial to the original heights at which
+/// the former are only rounding errors.
 const ROUNDING: f64 = 1e-12;
 
-/// Height in m below which squares of heights could vanish.
+/// Smallest allowed height in m. The squares of smaller heights could be rounded to zero.
 const LEAST_HEIGHT: f64 = 1e-100;
 
 /// Heights of a surface after removal of a polynomial.
@@ -27,15 +28,16 @@ pub(super) struct LevelledSurface {
     pub distances: [f64; 2],
     /// True if the analysis uses a window function, because the surface is not periodic.
     pub windowed: bool,
-    /// True if the rows were levelled one by one.
+    /// True if the median height of each row was subtracted from the row.
     pub aligned: bool,
     /// True if the curvature was removed.
     pub without_curvature: bool,
 }
 
 impl LevelledSurface {
-    /// Removes the polynomial from surface number `index`. With `quarters` above zero the heights
-    /// differ by an estimate of the error of interpolation, see [`Topography::copied_heights`].
+    /// Copies the heights of a surface and removes the polynomial. `index` is the number of the
+    /// surface, for errors. If `quarters` is above zero, the heights are changed by about as much
+    /// as interpolation may have falsified them, see [`Topography::copied_heights`].
     pub fn new(
         index: usize,
         surface: &Topography,
@@ -105,8 +107,8 @@ fn check_points(columns: usize, rows: usize) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns the polynomial to remove: the one of the options, else the one that the file states,
-/// else the default.
+/// Returns the polynomial to remove: that of the options, or else that of the file, or else the
+/// default.
 fn polynomial(surface: &Topography, options: &AnalysisOptions, periodic: bool) -> Detrend {
     let default = if periodic {
         Detrend::Mean

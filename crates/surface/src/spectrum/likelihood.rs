@@ -1,15 +1,16 @@
-//! Likelihood of the observed powers (Whittle). The powers of waves are exponentially distributed
-//! about their means.
+//! Likelihood of the observed powers by Whittle: the powers of the waves are independent and
+//! exponentially distributed, with the means of the spectrum.
 
 use super::nodes::{End, Nodes, Term, WaveRange};
 use super::observation::Observation;
 
+/// Number of nodes of a spectrum per decade of wave numbers.
 const NODES_PER_DECADE: f64 = 6.0;
 
-/// Distance in ln q of the grid of condensed terms.
+/// Distance in ln q of the grid of wave numbers to which [`Model::condensed`] moves the terms.
 const GRID: f64 = 0.02;
 
-/// Observed powers, with the terms that give their means from a spectrum.
+/// Observed powers, with the terms by which their expected means follow from a spectrum.
 pub(super) struct Model<'a> {
     pub observations: &'a [Observation],
     /// Terms of the mean of each observation.
@@ -33,8 +34,8 @@ impl<'a> Model<'a> {
     }
 
     /// Returns the same model with fewer terms: the weight of each term is divided between the two
-    /// nearest wave numbers of a fine grid. The mean of a power law q^(−4) changes by less than
-    /// 0.1 %.
+    /// nearest wave numbers of a fine grid. The expected mean for a power law q^(−4) changes by
+    /// less than 0.1 %.
     pub fn condensed(&self) -> Model<'a> {
         let terms = self.terms.iter().map(|terms| self.condensed_terms(terms));
         Model {
@@ -45,7 +46,7 @@ impl<'a> Model<'a> {
     }
 
     fn condensed_terms(&self, terms: &[Term]) -> Vec<Term> {
-        // The spectrum is constant below the first node.
+        // Terms below the first node are moved to it, because the spectrum is constant there.
         let ln_q = |term: &Term| term.ln_q.max(self.nodes.first);
         let lowest = terms.iter().map(ln_q).fold(f64::INFINITY, f64::min);
         let highest = terms.iter().map(ln_q).fold(lowest, f64::max);
@@ -71,8 +72,8 @@ impl<'a> Model<'a> {
         condensed
     }
 
-    /// Computes the negative logarithm of the likelihood, Σ w (P/m + ln m), for the means m of the
-    /// powers P of w waves each.
+    /// Computes the negative logarithm of the likelihood, Σ w (P/m + ln m), summed over the
+    /// observations. P is the observed mean power of w waves, and m its expected mean.
     pub fn misfit(&self, means: impl Iterator<Item = f64>) -> f64 {
         self.observations
             .iter()
@@ -81,7 +82,7 @@ impl<'a> Model<'a> {
             .sum()
     }
 
-    /// Returns the means of the observed powers for these values of ln C2D at the nodes.
+    /// Returns the expected means of the observed powers for these values of ln C2D at the nodes.
     pub fn means<'b>(&'b self, values: &'b [f64]) -> impl Iterator<Item = f64> + 'b {
         self.terms
             .iter()

@@ -1,4 +1,4 @@
-//! Periodograms of maps: the power of each wave in the plane.
+//! Periodograms of maps: the power of each plane wave.
 
 use super::axis_power::{AxisPlace, WavesByAxis};
 use super::levelled::LevelledSurface;
@@ -8,7 +8,7 @@ use asperity_data::{check_room, emptied};
 use asperity_fourier::{Complex64, plan_forward};
 use std::f64::consts::{PI, TAU};
 
-/// Memory of the spectrum of a map in bytes per point.
+/// Memory of the computation of the spectrum of a map in bytes per point.
 const BYTES: u64 = 48;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -16,22 +16,23 @@ pub(super) struct MapPower {
     pub windowed: bool,
     /// Wave number of wave 1 along and between the rows in rad/m.
     pub steps: [f64; 2],
-    /// Wave number of the sampling along and between the rows in rad/m.
+    /// 2π over the distance between points, along and between the rows, in rad/m.
     pub sampling: [f64; 2],
-    /// The waves in half of the plane with their C2D, up to the smaller Nyquist wave number, sorted
-    /// by wave number.
+    /// The waves with their C2D, up to the smaller of the two Nyquist wave numbers, sorted by wave
+    /// number. They are in one half of the plane of wave numbers, because the other half has the
+    /// same powers.
     pub waves: Vec<Wave>,
     /// True if the waves parallel to one axis are left out, because rows or columns are offset
-    /// against each other or were levelled one by one.
+    /// against each other or each row was levelled.
     pub offsets: bool,
-    /// Largest departure of waves parallel to an axis from neighbouring waves, as a share of the
-    /// squared gradient. Waves that are left out do not count.
+    /// Largest departure of the remaining waves parallel to an axis from the value expected from
+    /// neighbouring waves, as a share of the squared gradient.
     pub apart: f64,
 }
 
 impl MapPower {
-    /// Computes the power spectrum of a map. If its rows were levelled one by one, the waves
-    /// between the rows are left out.
+    /// Computes the power spectrum of a map. If each row was levelled, the waves that run across
+    /// the rows are left out, because levelling changes them.
     pub fn new(map: &LevelledSurface) -> Result<Self, SurfaceError> {
         let [along, between] = map.distances;
         let steps = steps(map);
@@ -50,8 +51,7 @@ impl MapPower {
     }
 }
 
-/// Returns the waves of a map up to the smaller Nyquist wave number, in any order. None are left
-/// out.
+/// Returns all waves of a map up to the smaller Nyquist wave number, in any order.
 pub(super) fn waves_of_map(map: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
     Ok(waves_by_axis(map, steps(map))?.all())
 }
@@ -65,8 +65,8 @@ fn steps(map: &LevelledSurface) -> [f64; 2] {
     ]
 }
 
-/// Computes the powers of the waves in half of the plane. Wave 1 along and between the rows has the
-/// wave numbers `steps` in rad/m.
+/// Computes the powers of the waves in one half of the plane of wave numbers. Wave 1 along and
+/// between the rows has the wave numbers `steps` in rad/m.
 fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, SurfaceError> {
     let [along, between] = map.distances;
     let columns = map.columns;
@@ -80,7 +80,7 @@ fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, 
     let mut column = vec![Complex64::ZERO; rows];
     let row_window = window(rows, map.windowed);
 
-    // A window spreads the waves parallel to an axis to their neighbours.
+    // A window spreads the power of waves parallel to an axis to the next waves.
     let reach = if map.windowed { 1.0 } else { 0.0 };
     let mut waves = WavesByAxis::new(reach, emptied(Vec::new(), half * rows)?);
     let nyquist = (PI / along).min(PI / between);
@@ -94,7 +94,7 @@ fn waves_by_axis(map: &LevelledSurface, steps: [f64; 2]) -> Result<WavesByAxis, 
         for (y, value) in column.iter().enumerate() {
             let x = x as f64;
             let y = signed_number(y, rows);
-            // Waves and their mirror images have equal power: only one of them counts.
+            // A wave and its mirror image have equal power, so only one of the two is used.
             let is_first = x > 0.0 || y > 0.0;
             let wave_number = (x * steps[0]).hypot(y * steps[1]);
             if !is_first || wave_number >= nyquist {
@@ -130,8 +130,8 @@ fn transformed_rows(map: &LevelledSurface) -> Result<Vec<Complex64>, SurfaceErro
     Ok(coefficients)
 }
 
-/// Returns the number of a wave between the rows from its index in the transform. It is negative in
-/// the upper half.
+/// Returns the number of a wave across the rows from its index in the Fourier transform. The number
+/// is negative for indices above half the number of rows.
 fn signed_number(index: usize, rows: usize) -> f64 {
     if 2 * index > rows {
         index as f64 - rows as f64

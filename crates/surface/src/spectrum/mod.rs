@@ -2,7 +2,8 @@
 //! maps, its equivalent line, and the uncertainty of both.
 //!
 //! A measured profile is a cut through a surface. It is not the equivalent line, which the method
-//! of dimensionality reduction needs. For an isotropic surface both follow from one spectrum:
+//! of dimensionality reduction needs. For an isotropic surface the spectra of the cut and of the
+//! equivalent line follow from the same spectrum C2D:
 //!
 //! C_cut(k) = (1/π) ∫₀^∞ C2D(√(k² + t²)) dt, C_line(q) = q C2D(q)/2.
 //!

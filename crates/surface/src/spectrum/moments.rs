@@ -26,10 +26,10 @@ pub struct Moment {
     pub statistical: f64,
     /// Standard error that results from the method of estimation.
     pub method: f64,
-    /// Largest change of the value if the surface has shorter waves than the points resolve: a
-    /// power law down to a quarter of the shortest resolved wavelength. The change is zero with
-    /// [`End::Continues`](super::nodes::End::Continues), and if the spectrum ends before the last
-    /// resolved wave.
+    /// Largest change of the value if the surface has shorter waves than the points resolve. These
+    /// waves are assumed to follow a power law down to a quarter of the shortest resolved
+    /// wavelength. The change is zero with [`End::Continues`](super::nodes::End::Continues), and if
+    /// the spectrum ends before the last resolved wave.
     pub missing_short_waves: f64,
 }
 
@@ -92,9 +92,10 @@ pub struct LineMoments {
     pub energy_per_modulus: Moment,
 }
 
-/// Computes the moments of the equivalent line of faces with independent spectra, whose sum is its
-/// spectrum. Its waves begin at half the first wave number known for all faces, because wave 1 of a
-/// length represents the range from ½ to 1½.
+/// Computes the moments of the equivalent line of several faces, the surfaces that touch each
+/// other. The spectrum of the line is the sum of the spectra of the faces, whose errors are
+/// independent. The waves of the line begin at half of the first wave number that is known for all
+/// faces, because wave 1 on a length represents all waves from ½ to 1½ periods.
 pub(crate) fn line_moments(faces: &[IsotropicSpectrum]) -> LineMoments {
     let integrals = LineIntegrals::new(faces);
     let [squared_height, energy, squared_gradient] = integrals.totals.map(|total| 0.5 / PI * total);
@@ -140,8 +141,9 @@ impl<'a> LineIntegrals<'a> {
         }
     }
 
-    /// Returns a moment with this value, which is proportional to the product of the integrals to
-    /// the power of these exponents. The errors of several faces are independent.
+    /// Returns a moment with this value and its errors. The moment is proportional to the product
+    /// of the three integrals, each raised to the power of its exponent. The errors of several
+    /// faces are independent.
     fn moment(&self, value: f64, exponents: [f64; 3]) -> Moment {
         let mut statistical_variance = 0.0;
         let mut method_variance = 0.0;
@@ -184,7 +186,7 @@ mod tests {
 
     #[test]
     fn moments_of_a_power_law_are_those_of_its_integrals() {
-        // C2D = q⁻³ from 1 on, constant below.
+        // C2D is q⁻³ from q = 1 on, and constant below.
         let range = WaveRange {
             first: 1.0,
             last: 100.0,

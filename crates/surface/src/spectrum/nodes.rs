@@ -1,4 +1,5 @@
-//! Nodes of a spectrum that is linear in ln q between them, and terms of sums over such a spectrum.
+//! Nodes of a spectrum: wave numbers q between which ln C2D is linear in ln q, and terms of sums
+//! over such a spectrum.
 
 use super::quadrature::{GaussPoint, gauss};
 
@@ -29,28 +30,29 @@ pub(super) struct Nodes {
     /// Distance between nodes in ln q.
     pub step: f64,
     pub count: usize,
-    /// Largest wave number of the spectrum in rad/m; beyond the last node for a spectrum that is
-    /// continued.
+    /// Largest wave number of the spectrum in rad/m. It lies beyond the last node if the spectrum
+    /// is continued.
     pub end: f64,
 }
 
-/// Place of a wave number between a node and the next.
+/// Place of a wave number between a node and the next node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct NodePlace {
-    /// Index of the node below.
+    /// Index of the node at or below the wave number.
     pub index: usize,
-    /// Share of the way to the next node.
+    /// Distance from this node in ln q, divided by the distance between the nodes.
     pub share: f64,
 }
 
 impl NodePlace {
-    /// Interpolates values at the nodes.
+    /// Interpolates linearly between the values at the two nodes.
     pub fn interpolate(&self, values: &[f64]) -> f64 {
         (1.0 - self.share) * values[self.index] + self.share * values[self.index + 1]
     }
 
-    /// Adds the derivative of a quantity with respect to ln C2D at this place to its derivatives
-    /// with respect to ln C2D at the nodes.
+    /// Divides the derivative of a quantity with respect to ln C2D at this place between the two
+    /// nodes beside it. The parts are added to `gradient`, the derivatives with respect to ln C2D
+    /// at the nodes.
     pub fn distribute(&self, derivative: f64, gradient: &mut [f64]) {
         gradient[self.index] += (1.0 - self.share) * derivative;
         gradient[self.index + 1] += self.share * derivative;
@@ -105,11 +107,11 @@ impl Nodes {
         }
     }
 
-    /// Returns the intervals of the wave number in rad/m, from `low` to the end of the spectrum, in
-    /// each of which it is a power law.
+    /// Returns the intervals of the wave number in rad/m from `low` to the end of the spectrum. In
+    /// each interval the spectrum is a power law.
     pub fn pieces_from(&self, low: f64) -> Vec<Piece> {
         let node_number = |wave_number: f64| (wave_number.ln() - self.first) / self.step;
-        // The logarithm of zero is below all nodes.
+        // For `low` = 0 the logarithm is −∞, which is below all nodes.
         let first = (node_number(low).floor() + 1.0).max(0.0) as usize;
         let last = node_number(self.end).ceil() as usize;
         let bounds = (first..=last).map(|index| self.wave_number(index).min(self.end));
@@ -139,7 +141,7 @@ impl Nodes {
     }
 }
 
-/// A weight times C2D at ln q, which lies between a node and the next.
+/// A term of a sum over a spectrum: a weight times C2D at the wave number q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Term {
     pub weight: f64,

@@ -6,22 +6,23 @@ use super::periodogram::{ProfilePower, Wave};
 use super::quadrature::gauss;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Number of waves of a profile that are single observations; shorter waves are averaged in bands.
+/// Number of the longest waves of a profile that are observations of their own; shorter waves are
+/// averaged in bands.
 const SINGLE: usize = 32;
 
-/// Number of bands per decade. Within a band a power law with the exponent −3 departs from its mean
-/// by 0.1 %.
+/// Number of bands per decade of wave numbers. In such a band, the mean of a power law with the
+/// exponent −3 differs from its value at the mean wave number by 0.1 %.
 const BANDS_PER_DECADE: f64 = 60.0;
 
-/// Number of waves under a Hann window that count as one independent wave. Powers at distances of 1
-/// and 2 waves are correlated with the squares of 2/3 and 1/6.
+/// Number of waves under a Hann window that carry as much information as one independent wave. The
+/// powers of waves 1 and 2 numbers apart have the correlation coefficients (2/3)² and (1/6)².
 pub(super) const HANN_CORRELATED: f64 = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
 
 /// A wave that contributes to the observed power of a wave.
 struct Contribution {
-    /// Distance of the contributing wave, in waves.
+    /// Number of the contributing wave, less the number of the observed wave.
     distance: f64,
-    /// Share of its power in the mean of the observed power.
+    /// Share of the power of the contributing wave in the mean of the observed power.
     share: f64,
 }
 
@@ -47,38 +48,41 @@ const OWN_CONTRIBUTION: [Contribution; 1] = [Contribution {
     share: 1.0,
 }];
 
-/// Largest number of aliases of a wave whose powers are added one by one.
+/// Number of aliases on each side of a wave, along each axis, whose powers are added one by one.
+/// Aliases are waves that look the same at the sampled points.
 const MOST_ALIASES: u32 = 4;
 
-/// Number of waves up to which a band says nothing about the dispersion of its powers.
+/// Number of waves that a band must exceed to be used for the estimate of the dispersion of powers.
 const LEAST_DISPERSED: f64 = 8.0;
 
 /// Mean power of the waves in a band of wave numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Observation {
     pub wave_number: f64,
-    /// Mean power: C1D in m³ or C2D in m⁴.
+    /// Mean power spectral density of the band: C1D in m³ or C2D in m⁴.
     pub power: f64,
     pub waves: f64,
-    /// Width of the band in rad/m. Power times width times q^p is the contribution to a moment of
-    /// the equivalent line.
+    /// Weight of the band in a moment. The mean power, times this weight, times a power of q, is
+    /// the contribution of the band to a moment of the equivalent line, see
+    /// [`Observation::moments`].
     pub range: f64,
     pub windowed: bool,
     pub kind: Kind,
 }
 
-/// Kind of the observed power, with the wave number of wave 1 (step) and of the sampling in rad/m.
-/// Waves that differ by the latter are aliases.
+/// Kind of the observed power. `step` and `steps` are the wave numbers of wave 1, and `sampling` is
+/// 2π over the distance between points, all in rad/m. Two waves whose wave numbers differ by
+/// `sampling` look the same at the points: they are aliases.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Power of a cut through the surface: C1D.
+    /// Power C1D of a cut through the surface, which is a profile.
     Cut { step: f64, sampling: f64 },
-    /// Power of a map, C2D, with wave numbers along and between rows.
+    /// Power C2D of a map. The two wave numbers are those along and between the rows.
     Plane { steps: [f64; 2], sampling: [f64; 2] },
 }
 
-/// Returns the observations of the spectrum of profiles, from wave 1 on, or under a window from
-/// wave 2 on. Removing a polynomial reduces wave 1.
+/// Returns the observations of the spectrum of profiles up to the wave number `last` in rad/m. They
+/// begin with wave 1, or under a window with wave 2, because removing a polynomial reduces wave 1.
 pub(super) fn of_profiles(power: &ProfilePower, last: f64) -> Vec<Observation> {
     let kind = Kind::Cut {
         step: power.step,
@@ -128,7 +132,7 @@ pub(super) fn least_of_map(power: &MapPower) -> f64 {
     }
 }
 
-/// Sums over the waves of a map in a band of wave numbers.
+/// Sums over the waves of a map whose wave numbers lie in one band.
 #[derive(Default)]
 struct BandSums {
     waves: f64,
@@ -174,7 +178,7 @@ pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     let observations = bands.into_iter().map(|band| Observation {
         wave_number: band.wave_number / band.waves,
         power: band.power / band.waves,
-        // Of a wave and its mirror image one is counted.
+        // The factor 2 is for the mirror image of each wave, which is not in the sum.
         range: 2.0 * band.waves * along * between / (4.0 * PI * PI),
         waves: band.waves / (correlated * dispersion),
         windowed: map.windowed,
@@ -186,9 +190,10 @@ pub(super) fn of_map(map: &MapPower, last: f64) -> Vec<Observation> {
     observations.collect()
 }
 
-/// Computes the variance of the powers in a band over the square of their mean, averaged over the
-/// waves. It is 1 for a surface that is equal in all directions, and more for an anisotropic one,
-/// whose mean powers are less certain.
+/// Computes the variance of the powers in a band, divided by the square of their mean, as an
+/// average over all bands weighted by their waves. The result is 1 for an isotropic surface. It is
+/// larger for an anisotropic surface, whose mean powers are less certain. A result below 1 is
+/// raised to 1.
 fn dispersion(bands: &[BandSums]) -> f64 {
     let mut sum = 0.0;
     let mut waves = 0.0;
@@ -199,7 +204,8 @@ fn dispersion(bands: &[BandSums]) -> f64 {
         }
         let n = band.waves;
         let square = n * band.squared_power / (band.power * band.power);
-        // For exponentially distributed powers the mean of the first factor is (n − 1)/(n + 1).
+        // For n exponentially distributed powers the mean of `square − 1` is (n − 1)/(n + 1), so
+        // the product has the mean 1.
         let variance = (square - 1.0) * (n + 1.0) / (n - 1.0);
         sum += n * variance;
         waves += n;
@@ -212,8 +218,9 @@ fn dispersion(bands: &[BandSums]) -> f64 {
 }
 
 impl Observation {
-    /// Computes the contribution of this mean power to the moments ∫ q^(p+1) C2D dq/2π of the
-    /// equivalent line, p = 0, 1, 2. The moments of a cut are 1, 2/π and 1/2 times these moments.
+    /// Computes the contribution of a mean power of this band to the moments ∫ q^(p+1) C2D dq/2π of
+    /// the equivalent line, for p = 0, 1, 2. The corresponding moments of a cut are 1, 2/π and 1/2
+    /// times these moments.
     pub fn moments(&self, power: f64) -> [f64; 3] {
         let q = self.wave_number;
         let factors = match self.kind {
@@ -257,12 +264,16 @@ impl Observation {
         terms
     }
 
+    /// Returns the terms for a wave of a map: its own power and the powers of the neighbouring
+    /// waves that the window adds, and the aliases of these waves.
     fn terms_of_plane(&self, nodes: &Nodes, steps: [f64; 2], sampling: [f64; 2]) -> Vec<Term> {
         let mut terms = Vec::new();
         if nodes.end > 0.5 * sampling[0].min(sampling[1]) {
             add_aliases(&mut terms, nodes, self.wave_number, sampling);
         }
-        // Waves between rows have their neighbours at the distances along them.
+        // The wave is taken along the rows and between the rows, because an isotropic spectrum has
+        // no direction. Its neighbours ahead and aside then have different distances if the map is
+        // not square.
         let turned = [steps[1], steps[0]];
         let directions = if steps == turned {
             vec![steps]
@@ -287,8 +298,9 @@ impl Observation {
 }
 
 /// Adds the aliases of the waves of a map at a wave number (rad/m), averaged over all directions.
-/// They are C2D at the distances of the reciprocal lattice of the sampling. Distant aliases are
-/// replaced by an integral.
+/// An alias differs from its wave by a vector of the reciprocal lattice of the sampled points, and
+/// its power is C2D at the resulting wave number. The sum over distant aliases is replaced by an
+/// integral.
 fn add_aliases(terms: &mut Vec<Term>, nodes: &Nodes, wave_number: f64, sampling: [f64; 2]) {
     let [x, y] = sampling;
     let most = MOST_ALIASES as i32;
@@ -323,8 +335,9 @@ fn add_term(terms: &mut Vec<Term>, nodes: &Nodes, q: f64, weight: f64) {
     }
 }
 
-/// Adds `factor` times (1/π) ∫ C2D(√(k² + t²)) dt, piece by piece between the nodes. With t as the
-/// variable the integrand has no pole.
+/// Adds the terms of `factor` times the power of a cut, (1/π) ∫ C2D(√(k² + t²)) dt, with one
+/// quadrature for each piece between nodes. The variable is t and not q = √(k² + t²), because the
+/// integrand over q has a pole at q = k.
 fn add_cut(terms: &mut Vec<Term>, nodes: &Nodes, k: f64, factor: f64) {
     let along = |q: f64| ((q - k) * (q + k)).max(0.0).sqrt();
     for piece in nodes.pieces_from(k) {
@@ -347,7 +360,8 @@ mod tests {
 
     #[test]
     fn powers_that_differ_between_directions_count_as_fewer_waves() {
-        // Quantiles of the exponential distribution, for half of the waves times a factor.
+        // The powers are quantiles of the exponential distribution, multiplied by a factor for half
+        // of the waves.
         let powers = |factor: f64| -> Vec<f64> {
             let quantile = |i: u32| -((f64::from(i) + 0.5) / 2000.0).ln();
             (0..2000)
@@ -370,7 +384,8 @@ mod tests {
             2000.0 / of_map(&map, 2.0)[0].waves
         };
         assert!((found(1.0) - 1.0).abs() < 0.01, "{}", found(1.0));
-        // Mean 5, mean square 2 (1 + 81)/2 = 82: variance over squared mean (82 − 25)/25.
+        // The mean is 5 and the mean square 2 (1 + 81)/2 = 82, so the variance over the squared
+        // mean is (82 − 25)/25.
         assert!((found(9.0) - 57.0 / 25.0).abs() < 0.03, "{}", found(9.0));
     }
 
@@ -382,10 +397,11 @@ mod tests {
         };
         let nodes = Nodes::new(range, 12.0, End::Ends);
         for hurst in [0.3, 0.8] {
-            // Roll-off at 10.
+            // The roll-off is at the wave number 10.
             let spectrum = known(nodes, |q: f64| (q / 10.0).max(1.0).powf(-2.0 - 2.0 * hurst));
-            // Moments of the cut from its own spectrum; below half the first wave number the line
-            // has no waves, but the cut has the projections of waves across it.
+            // Moments of the cut, integrated over its own spectrum. The cut also has power below
+            // half the first wave number, where the line has none: waves that run nearly across the
+            // cut appear in it as long waves.
             let mut sums = [0.0; 3];
             let wave_numbers: Vec<f64> = (0..=600)
                 .map(|i| 0.5e-3 * 600_000_f64.powf(f64::from(i) / 600.0))
@@ -409,7 +425,8 @@ mod tests {
             ];
             let expected = [1.0, 2.0_f64.sqrt(), 0.5 * PI];
             for (ratio, expected) in ratios.into_iter().zip(expected) {
-                // The line omits the waves below half the first wave number, 0.1 % of the height.
+                // The line has no waves below half the first wave number, which would add 0.1 % to
+                // the height.
                 assert!(
                     (ratio / expected - 1.0).abs() < 2e-3,
                     "H = {hurst}: {ratios:?}"

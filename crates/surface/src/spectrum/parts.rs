@@ -1,6 +1,7 @@
-//! Parts of a surface: the powers of equal blocks of its points. They show whether the surface is
-//! uniform, how much less certain its moments are if it is not, and by how much a window, which
-//! weighs the middle of the surface more than its borders, falsifies its spectrum.
+//! Parts of a surface: the powers of the waves in equal blocks of its points. The differences
+//! between the blocks show whether the surface is uniform. For a surface that is not uniform they
+//! give the additional error of its moments, and a correction of its spectrum: a window function
+//! weighs the middle of the surface more than its borders, and thereby falsifies the spectrum.
 
 use super::levelled::LevelledSurface;
 use super::map_power::waves_of_map;
@@ -20,23 +21,24 @@ const MOST_OF_MAP: usize = 8;
 /// Largest number of blocks of a profile.
 const MOST_OF_PROFILE: usize = 16;
 
-/// Number of the first wave of a block that counts. Removing the tilt of a block reduces the waves
-/// around wave 1.
+/// Number of the first wave of a block that is used. The longer waves are left out, because
+/// removing the tilt of a block reduces their power.
 const FIRST_WAVE: f64 = 2.0;
 
-/// Quantile of the normal distribution that chance exceeds once in a thousand times.
+/// Quantile of the normal distribution that is exceeded by chance once in a thousand times.
 const NO_CHANCE: f64 = 3.09;
 
 /// Powers of the waves of one block.
 #[derive(Clone, Debug)]
 struct Block {
-    /// Sum of the powers in each octave of wave numbers.
+    /// Sum of the powers of the waves in each octave of wave numbers.
     octaves: Vec<f64>,
-    /// Sums of q^power times the power of each wave, for power = 0, 1, 2. Up to constant factors
-    /// they are the mean square height, the elastic energy and the mean square gradient.
+    /// Sums of qⁿ times the power of each wave, for n = 0, 1, 2, where q is the wave number. Up to
+    /// constant factors these sums are the mean square height, the elastic energy and the mean
+    /// square gradient.
     moments: [f64; 3],
-    /// Relative variances of these moments on a normal surface, because the number of waves is
-    /// finite.
+    /// Relative variances that these moments have because the number of waves is finite, for a
+    /// surface with normally distributed heights.
     variances: [f64; 3],
 }
 
@@ -48,7 +50,8 @@ pub(super) struct Blocks {
     /// Wave number in rad/m at which the first octave begins.
     first: f64,
     blocks: Vec<Block>,
-    /// Share of each block in the powers of the surface, by the square of the window.
+    /// Share of each block in the powers of the whole surface. The shares differ because the window
+    /// function weighs the blocks differently.
     shares: Vec<f64>,
 }
 
@@ -57,15 +60,17 @@ pub(super) struct Blocks {
 pub(super) struct Spread {
     /// Means of the moments over the blocks.
     pub means: [f64; 3],
-    /// Relative variances of these means on a uniform normal surface.
+    /// Relative variances that these means have by chance, on a uniform surface with normally
+    /// distributed heights.
     pub chance: [f64; 3],
-    /// Relative variances of these means beyond `chance`; zero if the parts differ by chance.
+    /// Relative variances of these means in addition to `chance`; zero if chance explains the
+    /// differences between the parts.
     pub excess: [f64; 3],
     /// Ratio of the largest to the smallest mean square gradient among the four quarters of a
-    /// surface, or among the two halves of a surface that has no four quarters. It is 1 if the
-    /// parts differ by chance.
+    /// surface, or among the two halves of a surface that has no four quarters. The ratio is 1 if
+    /// chance explains the differences.
     pub ratio: f64,
-    /// True if the parts differ by chance.
+    /// True if chance explains the differences between the parts.
     pub is_chance: bool,
 }
 
@@ -73,16 +78,18 @@ pub(super) struct Spread {
 #[derive(Clone, Copy)]
 struct MomentSpread {
     mean: f64,
-    /// Relative variance of the mean on a uniform normal surface.
+    /// Relative variance that the mean has by chance, on a uniform surface with normally
+    /// distributed heights.
     chance: f64,
-    /// Largest relative variance of the mean that the differences between the parts give.
+    /// Relative variance of the mean that follows from the differences between the parts: the
+    /// largest of the values for parts of several sizes.
     variance: f64,
-    /// True if the parts differ by chance.
+    /// True if chance explains the differences between the parts.
     is_chance: bool,
 }
 
 impl Spread {
-    /// Returns the spread of parts that differ by chance, or of a single part.
+    /// Returns the spread of parts whose differences chance explains, or of a single part.
     pub fn by_chance() -> Self {
         Spread {
             ratio: 1.0,
@@ -140,8 +147,8 @@ impl Blocks {
         })
     }
 
-    /// Returns the spread of the moments, which is by chance unless one of the moments spreads more
-    /// than chance explains.
+    /// Returns the spread of the moments. If chance explains the spread of each moment, the whole
+    /// spread counts as chance.
     pub fn spread(&self) -> Spread {
         let moments = [0, 1, 2].map(|index| self.spread_of_moment(index));
         let mut spread = Spread {
@@ -157,10 +164,11 @@ impl Blocks {
         spread
     }
 
-    /// Returns the spread of one moment. For parts of several sizes, each of 1, 2, 4 … blocks, it
-    /// takes the variance of the mean that their differences give, multiplied by the square of
-    /// Student's factor, and of these variances the largest: differences over long distances do
-    /// not appear between small parts.
+    /// Returns the spread of one moment. The surface is divided into parts of 1, 2, 4, … blocks.
+    /// For each size of the parts, the differences between the parts give a variance of the mean,
+    /// which is multiplied by the square of Student's factor for the number of parts. The largest
+    /// of these variances is returned, because neighbouring small parts do not show differences
+    /// over long distances.
     fn spread_of_moment(&self, index: usize) -> MomentSpread {
         let count = self.blocks.len() as f64;
         let moments: Vec<f64> = self
@@ -192,8 +200,8 @@ impl Blocks {
         spread
     }
 
-    /// Returns the means of a value of the blocks over parts of more and more blocks, down to two
-    /// parts.
+    /// Returns the means of a value over parts of 1, 2, 4, … blocks, one list for each size of the
+    /// parts. The last list has two parts.
     fn parts(&self, values: &[f64]) -> Vec<Vec<f64>> {
         let mut all = Vec::new();
         let mut parts = values.to_vec();
@@ -228,8 +236,8 @@ impl Blocks {
         most / least
     }
 
-    /// Returns factors of the powers of the whole surface: if the surface is not uniform by this
-    /// spread, the factors by which its powers change if all its blocks count equally; else 1.
+    /// Returns the factors by which the powers of the whole surface change if all its blocks count
+    /// equally. The factors are 1 if chance explains `spread`.
     pub fn weights(&self, spread: &Spread) -> EqualWeights {
         if spread.is_chance {
             EqualWeights::none()
@@ -265,6 +273,7 @@ impl Blocks {
 }
 
 impl Block {
+    /// Sums the powers of the waves of a block from the wave number `first` in rad/m on.
     fn new(waves: &[Wave], first: f64, is_profile: bool) -> Self {
         let mut block = Block {
             octaves: Vec::new(),
@@ -300,7 +309,8 @@ impl Block {
                 if block.moments[index] > 0.0 {
                     let term = wave.power * wave.wave_number.powi(index as i32);
                     let share = term / block.moments[index];
-                    // The mean square of an exponentially distributed power is twice the variance.
+                    // The powers are exponentially distributed, and the mean square of such a
+                    // number is twice its variance.
                     block.variances[index] += 0.5 * correlated * share * share;
                 }
             }
@@ -318,8 +328,8 @@ fn block_count(points: usize, most: usize) -> usize {
     blocks
 }
 
-/// Copies a block of a surface without its tilt. `first` is its first column and row, `size` the
-/// number of its columns and rows.
+/// Copies a block of a surface and removes the tilt of the block. `first` is the first column and
+/// the first row of the block, and `size` the number of its columns and rows.
 fn copy_block(surface: &LevelledSurface, first: [usize; 2], size: [usize; 2]) -> LevelledSurface {
     let [first_column, first_row] = first;
     let [columns, rows] = size;
@@ -351,7 +361,8 @@ fn waves_of(block: &LevelledSurface) -> Result<Vec<Wave>, SurfaceError> {
     Ok(power.waves)
 }
 
-/// Returns the share of each of several blocks of points in the power of windowed points.
+/// Returns the share of each of `blocks` equal blocks in the power of a row of `points` points: the
+/// share of the block in the sum of the squared window function.
 fn shares(points: usize, blocks: usize, windowed: bool) -> Vec<f64> {
     let weights: Vec<f64> = window(points, windowed).iter().map(|w| w * w).collect();
     let size = points / blocks;
@@ -367,7 +378,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Returns the means of neighbours in two rows of this number of columns.
+/// Returns the mean of each number of the first row and the number below it in the second row.
 fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
     let (first, second) = pair.split_at(columns);
     first
@@ -376,27 +387,29 @@ fn mean_of_rows(pair: &[f64], columns: usize) -> impl Iterator<Item = f64> {
         .map(|(first, second)| 0.5 * (first + second))
 }
 
-/// Returns the variance of the mean of several parts that their differences give, over the square
-/// of the mean.
+/// Returns the relative variance of the mean of several parts, as estimated from the differences
+/// between the parts.
 pub(super) fn variance_of_mean(parts: &[f64], mean: f64) -> f64 {
     let count = parts.len() as f64;
     let squares: f64 = parts.iter().map(|part| (part / mean - 1.0).powi(2)).sum();
     squares / ((count - 1.0) * count)
 }
 
-/// Returns the factor above its expected value that the variance of a mean, known from `parts`
-/// parts, exceeds by chance once in a thousand times: a quantile of the χ² distribution (Wilson and
-/// Hilferty 1931). `variance` is the relative variance of a part by chance. Sums of few powers have
-/// a skewed distribution, that of the sum of 1/`variance` exponentially distributed numbers, and
-/// their variance scatters more.
+/// Returns the limit of the ratio of the estimated to the expected variance of a mean. An estimate
+/// from the differences between `parts` parts exceeds this ratio by chance once in a thousand
+/// times: the ratio is a quantile of the χ² distribution (Wilson and Hilferty 1931). `variance` is
+/// the relative variance of one part by chance. A part is then distributed like a sum of
+/// 1/`variance` exponentially distributed numbers. If they are few, the distribution is skewed, and
+/// the estimate scatters more.
 pub(super) fn chance_factor(parts: usize, variance: f64) -> f64 {
     let parts = parts as f64;
     let ninth = (2.0 / (parts - 1.0) + 6.0 * variance / parts) / 9.0;
     (1.0 - ninth + NO_CHANCE * ninth.sqrt()).powi(3)
 }
 
-/// Returns the quantile of Student's distribution within which two thirds of all cases lie, for a
-/// mean of `parts` parts. It is 1 for many parts.
+/// Returns the factor by which the standard error of a mean of `parts` parts is multiplied, so that
+/// two thirds of all cases lie within it: a quantile of Student's distribution. The factor is
+/// nearly 1 for many parts.
 pub(super) fn student_factor(parts: usize) -> f64 {
     let freedom = parts as f64 - 1.0;
     1.0 + 0.5 / freedom + 0.337 / (freedom * freedom)
@@ -412,12 +425,12 @@ mod tests {
 
     #[test]
     fn factors_are_quantiles_of_their_distributions() {
-        // Quantiles of Student's distribution with 1, 3, 7 and 63 degrees of freedom for a
-        // probability of 68.27 % between both.
+        // Quantiles of Student's distribution with 1, 3, 7 and 63 degrees of freedom, within which
+        // 68.27 % of all cases lie.
         for (parts, expected) in [(2, 1.837), (4, 1.197), (8, 1.077), (64, 1.008)] {
             assert!(is_near(student_factor(parts), expected, 0.01), "{parts}");
         }
-        // Quantiles of χ² for a probability of 99.9 %, over the degrees of freedom.
+        // Quantiles of χ² for a probability of 99.9 %, divided by the degrees of freedom.
         for (parts, expected) in [(2, 10.83), (4, 16.27 / 3.0), (65, 104.7 / 64.0)] {
             assert!(
                 is_near(chance_factor(parts, 0.0), expected, 0.04),
@@ -427,7 +440,7 @@ mod tests {
         assert!(chance_factor(64, 0.5) > 1.1 * chance_factor(64, 0.0));
     }
 
-    /// Heights of 1 m and of 1e-90 m have the same relative spread.
+    /// The relative spread is the same for heights of 1 m and of 1e-90 m.
     #[test]
     fn the_spread_does_not_depend_on_the_unit() {
         let spread = |scale: f64| {

@@ -35,7 +35,7 @@ pub struct Bin {
     pub waves: u64,
 }
 
-/// Power of a wave: C1D in m³ of a profile, or C2D in m⁴ of a map.
+/// A wave and its power spectral density: C1D in m³ for a profile, or C2D in m⁴ for a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Wave {
     /// Wave number in rad/m.
@@ -50,12 +50,12 @@ impl Wave {
     }
 }
 
-/// Returns the squared gradient of several waves, up to the same factor.
+/// Returns the squared gradient of several waves, up to a constant factor.
 pub(super) fn squared_gradient(waves: &[Wave]) -> f64 {
     waves.iter().map(Wave::squared_gradient).sum()
 }
 
-/// Power spectrum of profiles of one length, summed over the profiles.
+/// Power spectrum of profiles with equal numbers and distances of points, summed over the profiles.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ProfilePower {
     pub points: usize,
@@ -88,8 +88,7 @@ impl ProfilePower {
         }
     }
 
-    /// Adds the power spectra of profiles with equal points, which are the rows of one surface,
-    /// multiplied by these factors.
+    /// Adds the power spectra of the rows of one surface, multiplied by the factors `weights`.
     pub fn add(
         &mut self,
         rows: impl Iterator<Item = impl Iterator<Item = f64>>,
@@ -144,7 +143,7 @@ pub fn line_spectrum(
     Ok(bins(waves))
 }
 
-/// Calls `each` with the Fourier coefficients of each row of `points` heights.
+/// Calls `each` with the Fourier coefficients of each row. A row has `points` heights.
 pub(super) fn transform_rows(
     rows: impl Iterator<Item = impl Iterator<Item = f64>>,
     points: usize,
@@ -181,7 +180,7 @@ pub(super) fn window(points: usize, windowed: bool) -> Vec<f64> {
 /// Averages powers in 10 bins per decade of the wave number. Each given bin is one wave, or the
 /// mean of several waves with the same wave number.
 pub(super) fn bins(waves: impl IntoIterator<Item = Bin>) -> Vec<Bin> {
-    // Sums over the waves of each bin, by its number.
+    // Sums over the waves of each bin. The key is the number of the bin on the logarithmic axis.
     let mut sums: BTreeMap<i64, Bin> = BTreeMap::new();
     for wave in waves {
         let number = (BINS_PER_DECADE * wave.wave_number.log10()).floor() as i64;

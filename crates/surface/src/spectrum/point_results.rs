@@ -13,15 +13,17 @@ pub(super) const SAME: f64 = 1e-6;
 #[derive(Default)]
 pub(super) struct PointResults {
     pub sums: Sums,
-    /// Sums over the longest scans, which alone hold the height of the line.
+    /// Sums over the longest scans. Only they have the long waves that give the rms height of the
+    /// equivalent line.
     pub longest: LargestSums,
-    /// Sums over the finest scans, which alone hold the gradient of the line.
+    /// Sums over the scans with the finest points. Only they have the short waves that give the rms
+    /// gradient of the equivalent line.
     pub finest: LargestSums,
     /// Rms height of each surface in m.
     pub rms_heights: Vec<f64>,
     /// Largest reliability cut-off of all surfaces in m.
     pub reliability_cutoff: Option<f64>,
-    /// Largest displacement of odd rows against even rows in m.
+    /// Largest displacement in m of odd rows against even rows of a map; `None` if no map has one.
     pub displaced: Option<f64>,
 }
 
@@ -48,8 +50,8 @@ impl PointResults {
         }
     }
 
-    /// Adds to the errors of the spectrum its departures from the gradient of the points, and from
-    /// their height if `has_height`.
+    /// Compares the spectrum with the rms gradient of the points, and if `has_height` is true with
+    /// their rms height. Differences are added to the errors of the spectrum.
     pub fn check_identities(&self, isotropic: &mut IsotropicSpectrum, has_height: bool) {
         let height = self.longest.sums.statistics().rms_height;
         let height = has_height.then_some(height);

@@ -1,4 +1,5 @@
-//! Power spectra of all surfaces together: what the fits observe of them, and what figures show.
+//! Power spectra of all surfaces together: the observations for the fits, and the averaged spectra
+//! for figures.
 
 use super::levelled::LevelledSurface;
 use super::map_power::MapPower;
@@ -13,10 +14,11 @@ use crate::error::SurfaceError;
 use crate::topography::surface::Topography;
 use std::f64::consts::PI;
 
-/// Smallest ratio of length to width of a map whose longest waves are taken from its rows alone.
+/// Smallest ratio of length to width of a map from which on its longest waves are taken from the
+/// profiles along its longer side alone.
 const NARROW: f64 = 2.0;
 
-/// Power spectra of all surfaces; profiles with equal points are summed.
+/// Power spectra of all surfaces. Profiles with equal numbers and distances of points are summed.
 #[derive(Default)]
 pub(super) struct Powers {
     pub profiles: Vec<ProfilePower>,
@@ -34,8 +36,9 @@ struct Strip {
 }
 
 impl Powers {
-    /// Computes the power spectra of surfaces. With `quarters` above zero the heights differ by an
-    /// estimate of the error of interpolation, see [`Topography::copied_heights`].
+    /// Computes the power spectra of surfaces. If `quarters` is above zero, the heights are changed
+    /// by about as much as interpolation may have falsified them, see
+    /// [`Topography::copied_heights`].
     pub fn of_reading(
         surfaces: &[Topography],
         options: &AnalysisOptions,
@@ -89,7 +92,8 @@ impl Powers {
         }
         for strip in &self.strips {
             for mut observation in observation::of_profiles(&strip.power, strip.end) {
-                // Neighbouring rows are nearly equal in waves that long, so they count as one.
+                // Such waves are longer than the map is wide, so all its rows have nearly the same
+                // waves and count as one profile.
                 observation.waves /= strip.power.profiles as f64;
                 observations.push(observation);
             }
@@ -101,8 +105,8 @@ impl Powers {
     }
 
     /// Returns the range of wave numbers from wave 1 of the longest surface to the last wave of the
-    /// finest surface, for profiles half a wave further. `count` returns the number of the waves
-    /// of a spectrum up to its last one.
+    /// surface with the finest points. For profiles the range ends half a wave later. `count`
+    /// returns how many waves of a spectrum are used.
     pub fn range(&self, count: impl Fn(&[Wave]) -> usize) -> WaveRange {
         let mut first = f64::INFINITY;
         let mut last = 0.0_f64;
@@ -167,21 +171,21 @@ fn long_axis(surface: &LevelledSurface, map: &MapPower) -> Option<usize> {
     if along_columns >= NARROW * along_rows {
         return Some(0);
     }
-    // Columns of levelled rows have lost their long waves.
+    // Levelling of the rows has removed the long waves along the columns.
     if !surface.aligned && along_rows >= NARROW * along_columns {
         return Some(1);
     }
     None
 }
 
-/// Returns the power spectrum of the profiles along an axis of the surface, without any profile.
+/// Returns an empty power spectrum for the profiles along an axis of the surface.
 fn new_power(surface: &LevelledSurface, axis: usize) -> ProfilePower {
     let points = [surface.columns, surface.rows];
     ProfilePower::new(points[axis], surface.distances[axis], surface.windowed)
 }
 
-/// Returns the power spectrum of profiles with the same number and spacing of points as the
-/// profiles along an axis of the surface, a new one if there is none yet.
+/// Returns the power spectrum in `powers` of profiles with the same number and spacing of points as
+/// the profiles along an axis of the surface. If there is none yet, an empty one is added.
 fn group<'a>(
     powers: &'a mut Vec<ProfilePower>,
     surface: &LevelledSurface,

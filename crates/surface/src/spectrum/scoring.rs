@@ -2,7 +2,8 @@
 
 use asperity_data::Cholesky;
 
-/// Decrease of the objective, relative to its value or to 1, below which the search ends.
+/// Decrease of the objective in one step below which the search ends. The decrease is relative to
+/// the objective, or to 1 if the objective is smaller.
 const SMALL_DECREASE: f64 = 1e-9;
 
 /// Largest number of times that a step is halved.
@@ -16,7 +17,7 @@ pub(super) trait Objective {
 
     fn linearise(&self, parameters: &Self::Parameters) -> Linearised;
 
-    /// Returns the parameters after a share of a step.
+    /// Returns the parameters after a step that is multiplied by `share`.
     fn moved(&self, parameters: &Self::Parameters, step: &[f64], share: f64) -> Self::Parameters;
 }
 
@@ -28,7 +29,7 @@ pub(super) struct Linearised {
 }
 
 impl Linearised {
-    /// Creates zeros for this number of parameters.
+    /// Creates a gradient and a matrix of zeros for this number of parameters.
     pub fn zeros(count: usize) -> Self {
         Linearised {
             gradient: vec![0.0; count],
@@ -42,15 +43,16 @@ impl Linearised {
     }
 }
 
-/// Parameters of the smallest objective that was found.
+/// Smallest value of an objective that was found, and its parameters.
 #[derive(Clone, Copy)]
 pub(super) struct Minimum<P> {
     pub parameters: P,
     pub value: f64,
 }
 
-/// Minimises an objective from initial parameters. Steps solve the linearised equations and are
-/// halved until the objective falls. `None` if an information matrix is not positive definite.
+/// Minimises an objective from initial parameters. Each step is the solution of the linearised
+/// equations, and is halved until the objective decreases. `None` if an information matrix is not
+/// positive definite.
 pub(super) fn descend<O: Objective>(
     objective: &O,
     start: O::Parameters,

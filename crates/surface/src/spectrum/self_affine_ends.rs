@@ -1,10 +1,10 @@
 //! Self-affine fits for several assumptions on the waves that the points do not resolve.
 //!
-//! Points that sample a surface with shorter waves than they resolve have the powers of these waves
-//! added to the powers of longer ones (aliases), and a profile has in each of its powers a part of
-//! shorter waves of the surface. An assumption on these waves changes the Hurst exponent by up to
-//! 0.2, so the assumption with the largest likelihood counts, and the change between likely
-//! assumptions is part of the error.
+//! Waves that the points do not resolve falsify the measured spectrum. Their powers are added to
+//! the powers of longer waves (aliases), and each power of a profile contains a part of shorter
+//! waves of the surface. The assumption on these waves changes the Hurst exponent by up to 0.2. So
+//! the fit uses the assumption of largest likelihood, and the change between likely assumptions is
+//! part of the error.
 
 use super::isotropic_fit::fit_isotropic;
 use super::likelihood::Model;
@@ -12,17 +12,18 @@ use super::nodes::{End, WaveRange};
 use super::observation::{Kind, Observation};
 use super::self_affine_fit::{PowerLaw, SelfAffineFit, find_power_law};
 
-/// Ratios of the last wave number of the surface to the last resolved one that are tried.
+/// Assumed ratios of the last wave number of the surface to the last resolved wave number. Each
+/// ratio is tried.
 const CONTINUED: [f64; 3] = [1.5, 3.0, 10.0];
 
-/// Ratio of the last wave number of the surface to the last one that a filter before the sampling
-/// leaves.
+/// Assumed ratio of the last wave number of the surface to the last wave number that a filter of
+/// the instrument leaves, for a filter before the sampling.
 const FILTERED: f64 = 30.0;
 
-/// Ratio of the last resolved wave number to the last one of a fit over a shorter range.
+/// Ratio of the last resolved wave number to the last wave number of a fit over a shorter range.
 const OCTAVE: f64 = 2.0;
 
-/// Assumption on the waves beyond the last resolved one.
+/// Assumption on the waves beyond the last resolved wave.
 #[derive(Clone, Copy)]
 struct Assumption {
     end: End,
@@ -91,7 +92,7 @@ fn assumptions(
     let has_cut = observations
         .iter()
         .any(|observation| matches!(observation.kind, Kind::Cut { .. }));
-    // A spectrum that ends inside the scan has no waves that the points do not resolve.
+    // A spectrum that ends before the last resolved wave has no shorter waves.
     let continued = if ends_inside { &[] } else { &CONTINUED[..] };
     for factor in continued {
         assumptions.push(Assumption {
@@ -99,7 +100,8 @@ fn assumptions(
             is_filtered: false,
         });
     }
-    // The power of a wave of a map has no part of shorter waves but its aliases.
+    // Only profiles need this assumption: without aliases, the power of a wave of a map contains no
+    // part of shorter waves.
     if has_cut {
         assumptions.push(Assumption {
             end: End::Continues(FILTERED * range.last),
@@ -110,7 +112,8 @@ fn assumptions(
 }
 
 impl Assumption {
-    /// Returns the observations, without aliases if they are filtered.
+    /// Returns the observations. If the instrument filters, they are changed so that their expected
+    /// means have no aliases.
     fn observed(&self, observations: &[Observation]) -> Vec<Observation> {
         let mut observed = observations.to_vec();
         if !self.is_filtered {
@@ -127,7 +130,8 @@ impl Assumption {
 }
 
 /// Returns the rms change of the Hurst exponent between the assumptions, weighted by their
-/// likelihood. Powers that scatter `scale` times as much as chance says distinguish less.
+/// likelihood. `scale` is the ratio of the observed scatter of the powers to that expected by
+/// chance. The larger the scatter, the less the likelihoods distinguish the assumptions.
 fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 {
     let mut weights = 0.0;
     let mut squares = 0.0;
@@ -141,10 +145,11 @@ fn change_by_end(candidates: &[Candidate], best: &Candidate, scale: f64) -> f64 
     (by_likelihood + change_between_ends(candidates, best).powi(2)).sqrt()
 }
 
-/// Returns the standard deviation of the Hurst exponent because the last wave number of the surface
-/// lies anywhere between two wave numbers that are tried. It is that of a uniform distribution
-/// between the best assumption and the likeliest other one without a filter, and zero if the
-/// surface ends at the last resolved wave.
+/// Returns the standard deviation of the Hurst exponent that results because the last wave number
+/// of the surface may lie between two wave numbers that are tried. The exponent is assumed to be
+/// uniformly distributed between its values for the best assumption and for the likeliest other
+/// assumption without a filter. The result is zero if the best assumption is that the surface ends
+/// at the last resolved wave, or that the instrument filters.
 fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
     if best.assumption.is_filtered || best.assumption.end == End::Ends {
         return 0.0;
@@ -159,8 +164,9 @@ fn change_between_ends(candidates: &[Candidate], best: &Candidate) -> f64 {
     }
 }
 
-/// Returns the change of the Hurst exponent without the last octave of waves, beyond the change
-/// that the smaller number of waves explains. `error` is the standard error over the whole range.
+/// Returns by how much the Hurst exponent changes without the last octave of waves, in excess of
+/// the change that the smaller number of waves explains. `error` is the standard error over the
+/// whole range.
 fn change_by_range(
     observations: &[Observation],
     range: WaveRange,

@@ -7,8 +7,8 @@ use super::moments::ValueWithError;
 use super::scoring::{Linearised, Minimum, Objective, descend};
 use std::f64::consts::LN_10;
 
-/// Gain of the log-likelihood that justifies a roll-off. With one more parameter, chance exceeds
-/// this gain once in a hundred times.
+/// Gain of the log-likelihood from which on a roll-off is added to the fit. A superfluous parameter
+/// reaches this gain by chance once in a hundred times.
 const LEAST_GAIN: f64 = 3.3;
 
 /// Number of initial roll-off wave numbers per decade.
@@ -17,7 +17,7 @@ const STARTS_PER_DECADE: f64 = 4.0;
 /// Number of steps from each initial wave number.
 const FEW_STEPS: usize = 6;
 
-/// Largest number of steps from the best of these results.
+/// Largest number of further steps from the best result of the initial wave numbers.
 const MOST_STEPS: usize = 60;
 
 /// Smallest and largest Hurst exponent of the search.
@@ -26,8 +26,8 @@ const HURST: [f64; 2] = [-0.5, 1.5];
 /// Hurst exponent from which the search begins.
 const INITIAL_HURST: f64 = 0.7;
 
-/// Largest share of the range of ln q below the roll-off. Above a third of the range no exponent
-/// could be determined.
+/// Largest share of the range of ln q that may lie below the roll-off. The remaining third is
+/// needed to determine the exponent.
 const LARGEST_ROLL_OFF: f64 = 0.67;
 
 /// Number of the parameters with a roll-off: level, exponent and roll-off.
@@ -65,7 +65,7 @@ impl SelfAffineFit {
     }
 }
 
-/// Self-affine spectrum of largest likelihood, without errors.
+/// Self-affine spectrum of largest likelihood, without standard errors.
 #[derive(Clone, Copy)]
 pub(super) struct PowerLaw {
     parameters: Parameters,
@@ -101,16 +101,17 @@ pub(super) fn find_power_law(model: &Model<'_>) -> Option<PowerLaw> {
 }
 
 impl PowerLaw {
-    /// Returns the Hurst exponent.
     pub fn hurst(&self) -> f64 {
         self.parameters.hurst
     }
 
-    /// Returns the factor of the standard errors that the misfit to the observations of the model
-    /// gives. `isotropic` is the fit with nodes to the same observations.
+    /// Returns the factor, at least 1, by which the standard errors are multiplied because the
+    /// surface may not be self-affine. The factor follows from the misfit to the observations of
+    /// the model, compared with the misfit of `isotropic`, the fit with nodes to the same
+    /// observations.
     pub fn scale(&self, model: &Model<'_>, isotropic: &IsotropicSpectrum) -> f64 {
-        // For a self-affine surface the mean of twice the difference is the number of further
-        // parameters of the isotropic spectrum.
+        // For a self-affine surface, twice the difference of the misfits has a mean equal to the
+        // number of parameters that the isotropic spectrum has in addition.
         let misfit_of_nodes = model.misfit(model.means(&isotropic.values));
         let excess = 2.0 * (self.misfit - misfit_of_nodes);
         let further = isotropic.values.len() - self.free;
@@ -137,7 +138,8 @@ impl PowerLaw {
         Some(SelfAffineFit {
             hurst: ValueWithError {
                 value: parameters.hurst,
-                // The surface may have a roll-off that the data cannot distinguish from chance.
+                // A roll-off may exist although the data cannot distinguish it from chance, so the
+                // change of the exponent by a roll-off is part of the error.
                 error: error(1).hypot(self.hurst_with_roll_off - parameters.hurst),
             },
             roll_off,
@@ -157,11 +159,11 @@ fn exponential(value: f64, error: f64) -> ValueWithError {
 /// Parameters of the self-affine fit.
 #[derive(Clone, Copy, Debug)]
 struct Parameters {
-    /// ln C2D at the roll-off.
+    /// ln C2D at the roll-off, with C2D in m⁴.
     level: f64,
     /// Hurst exponent H.
     hurst: f64,
-    /// ln q of the roll-off.
+    /// ln q of the roll-off, with q in rad/m.
     roll_off: f64,
 }
 
@@ -195,7 +197,7 @@ impl Parameters {
     }
 }
 
-/// Returns the means of the observed powers.
+/// Returns the expected mean of each observed power for these parameters.
 fn means<'a>(model: &'a Model<'_>, parameters: &'a Parameters) -> impl Iterator<Item = f64> + 'a {
     model.terms.iter().map(|terms| {
         terms
@@ -227,7 +229,8 @@ impl<'a> Search<'a> {
         descend(&self.likelihood(WITHOUT_ROLL_OFF), start, MOST_STEPS)
     }
 
-    /// Searches from several roll-off wave numbers, and from the best result with more steps.
+    /// Searches from several roll-off wave numbers with few steps each, and then continues from the
+    /// best result with more steps.
     fn with_roll_off(&self) -> Option<Minimum<Parameters>> {
         let [low, high] = self.roll_off;
         let starts = (STARTS_PER_DECADE * (high - low) / LN_10).ceil().max(1.0);
@@ -245,7 +248,8 @@ impl<'a> Search<'a> {
         descend(&likelihood, best?.parameters, MOST_STEPS)
     }
 
-    /// Searches near a roll-off: level and exponent first, then all three parameters.
+    /// Searches from one roll-off wave number: first for the level and the exponent alone, then for
+    /// all three parameters.
     fn near(&self, roll_off: f64) -> Option<Minimum<Parameters>> {
         let start = Parameters::initial(self.model, roll_off);
         let fixed = descend(&self.likelihood(WITHOUT_ROLL_OFF), start, FEW_STEPS)?;
@@ -307,7 +311,7 @@ impl Objective for SelfAffineLikelihood<'_> {
     }
 
     fn moved(&self, parameters: &Parameters, step: &[f64], share: f64) -> Parameters {
-        // A parameter that is not free has no step.
+        // The list of steps is shorter if the roll-off is not free.
         let limited = |index: usize, most: f64| match step.get(index) {
             Some(step) => (share * step).clamp(-most, most),
             None => 0.0,

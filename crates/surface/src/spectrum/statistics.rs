@@ -8,8 +8,8 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PointStatistics {
-    /// Number of measured points of all surfaces together. Points with interpolated heights count
-    /// nowhere in these statistics.
+    /// Number of measured points of all surfaces together. Points with interpolated heights are
+    /// left out of all these statistics.
     pub points: usize,
     /// Root mean square height about the mean in m: Pq of profiles, and Sq of maps, without a
     /// filter.
@@ -115,15 +115,15 @@ impl Sums {
     }
 }
 
-/// Share of the curvature of the tip above which artefacts appear (Sanner et al., Appl. Surf. Sci.
-/// Adv. 7, 100190, 2022).
+/// Share of the curvature of the tip, 1/R, above which measured curvatures are artefacts of the tip
+/// (Sanner et al., Appl. Surf. Sci. Adv. 7, 100190, 2022).
 const SAFETY: f64 = 0.5;
 
-/// Finds the reliability cut-off in m, below which waves may be artefacts of the tip. It is the
-/// smallest stencil length 2sΔx (s whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x +
+/// Finds the reliability cut-off in m. Shorter waves may be artefacts of the tip. The cut-off is
+/// the smallest stencil length 2sΔx (s whole) at which the curvature (z(x − sΔx) − 2z(x) + z(x +
 /// sΔx))/(sΔx)² of all rows is at least −1/(2R) for a tip radius R in m.
 ///
-/// `None` if the condition already holds at the distance between points. If it holds nowhere, no
+/// Returns `None` if the condition is already fulfilled at s = 1. If no s fulfils the condition, no
 /// wave is reliable, and the cut-off is half the length of a row.
 pub(crate) fn reliability_cutoff(
     heights: &[f64],
@@ -136,8 +136,9 @@ pub(crate) fn reliability_cutoff(
     if is_reliable(1) {
         return None;
     }
-    // The smallest reliable scale is searched in steps of a fifth, at least of one, and then by
-    // bisection between the last unreliable scale and the first reliable one.
+    // The scale s is increased by a fifth, at least by one, until it is reliable. The smallest
+    // reliable scale is then found by bisection between the last unreliable and the first reliable
+    // scale.
     let most = (columns - 1) / 4;
     let mut unreliable = 1;
     let mut reliable = None;
@@ -199,14 +200,15 @@ mod tests {
         let map = surface(&[1.0, 2.0, 4.0, 1.0, 5.0, 5.0], [0.5, 2.0]);
         sums.add(&map);
         let found = sums.statistics();
-        // Mean 3: −2 −1 1 −2 2 2.
+        // The mean is 3, and the differences from the mean are −2, −1, 1, −2, 2 and 2.
         assert!((found.rms_height - 3.0_f64.sqrt()).abs() < 1e-15);
         assert!((found.skewness - 0.0).abs() < 1e-15);
         assert!((found.kurtosis - (66.0 / 6.0) / 9.0).abs() < 1e-15);
-        // Along rows 2 4 8 0, between rows 0 1.5 0.5.
+        // The slopes along the rows are 2, 4, 8 and 0, and those between the rows 0, 1.5 and 0.5.
         assert!((found.rms_slope.powi(2) - 84.0 / 4.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (21.0 + 2.5 / 3.0)).abs() < 1e-13);
-        // Without the point in the middle of the second row: mean 2.6, −1.6 −0.6 1.4 −1.6 2.4.
+        // Without the point in the middle of the second row the mean is 2.6, and the differences
+        // from the mean are −1.6, −0.6, 1.4, −1.6 and 2.4.
         let mut measured = Sums::default();
         measured.add(&LevelledSurface {
             measured: vec![true, true, true, true, false, true],
@@ -215,7 +217,7 @@ mod tests {
         let found = measured.statistics();
         assert_eq!(found.points, 5);
         assert!((found.rms_height.powi(2) - 13.2 / 5.0).abs() < 1e-14);
-        // Along the first row 2 4, between rows 0 0.5.
+        // The slopes along the first row are 2 and 4, and those between the rows 0 and 0.5.
         assert!((found.rms_slope.powi(2) - 20.0 / 2.0).abs() < 1e-13);
         assert!((found.rms_gradient.unwrap().powi(2) - (10.0 + 0.25 / 2.0)).abs() < 1e-13);
         sums.add(&surface(&[7.0, 7.0, 7.0], [1.0; 2]));
@@ -228,7 +230,7 @@ mod tests {
     #[test]
     fn a_parabola_is_reliable_for_sharper_tips_only() {
         let spacing = 0.5;
-        // Curvature −2 at every scale.
+        // The curvature of this parabola is −2 at every scale.
         let heights: Vec<f64> = (0..101)
             .map(|i| -(0.5 * f64::from(i) - 25.0).powi(2))
             .collect();
@@ -243,7 +245,8 @@ mod tests {
     fn a_spike_is_unreliable_below_a_length() {
         let mut heights = vec![0.0; 1001];
         heights[500] = 1.0;
-        // At scale s the curvature is −2/(sΔx)², above −1/(2R) from sΔx = 2√R on.
+        // At the scale s the curvature at the spike is −2/(sΔx)². It is above −1/(2R) from sΔx =
+        // 2√R on.
         let cutoff = reliability_cutoff(&heights, 1001, 0.1, 1.0);
         assert!((cutoff.unwrap() - 4.0).abs() < 1e-12, "{cutoff:?}");
     }

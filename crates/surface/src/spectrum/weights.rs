@@ -1,6 +1,6 @@
-//! Factors of measured powers that make all parts of a surface count equally.
+//! Factors of measured powers that give all parts of a surface the same weight.
 
-/// Factors of the powers of a surface in octaves of wave numbers.
+/// Factors by which the powers of a surface are multiplied, one for each octave of wave numbers.
 pub(super) struct EqualWeights {
     /// Wave number in rad/m at which the first octave begins.
     pub first: f64,
@@ -9,7 +9,7 @@ pub(super) struct EqualWeights {
 }
 
 impl EqualWeights {
-    /// Returns factors of 1.
+    /// Returns factors that change no power.
     pub fn none() -> Self {
         EqualWeights {
             first: 1.0,
@@ -17,8 +17,8 @@ impl EqualWeights {
         }
     }
 
-    /// Returns the factor of the power of a wave with this wave number in rad/m. It is
-    /// interpolated between the middles of the octaves.
+    /// Returns the factor for a wave with this wave number in rad/m. The factor is interpolated
+    /// between the middles of the octaves.
     pub fn factor(&self, wave_number: f64) -> f64 {
         let Some(last) = self.logarithms.len().checked_sub(1) else {
             return 1.0;

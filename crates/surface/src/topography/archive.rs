@@ -1,4 +1,4 @@
-//! ZIP archives in memory, whose files expand to a limit together.
+//! ZIP archives in memory. The decompressed size of all their files together is limited.
 
 use super::bytes::most_expanded;
 use crate::error::{Place, SurfaceError, refused};
@@ -8,6 +8,7 @@ use std::fmt;
 use std::io::Cursor;
 use zip::ZipArchive;
 
+/// First bytes of a ZIP archive.
 pub(super) const ZIP: &[u8] = b"PK\x03\x04";
 
 pub(super) struct Archive<'a> {
@@ -16,16 +17,17 @@ pub(super) struct Archive<'a> {
     places: HashMap<String, usize>,
     /// Folder of the index file; names of other files are relative to it.
     folder: String,
-    /// Number of bytes to which further files of unknown size may still expand.
+    /// Number of bytes that further files of unknown size may have after decompression.
     most: usize,
 }
 
-/// A file of an archive that may be its index. The order is the order of preference.
+/// A file of an archive that may be its index. The smallest value in the derived order is
+/// preferred.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct IndexFile {
-    /// Number of folders around it.
+    /// Number of folders in which the file lies.
     depth: usize,
-    /// Place of its name in the list of known names.
+    /// Index of the name of the file in the list of possible names.
     name: usize,
     folder: String,
 }
@@ -61,8 +63,9 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// Returns the one of `names` that is the index of the archive, the file of such a name nearest
-    /// to the root. Names of other files are then relative to its folder.
+    /// Returns the name in `names` that the index of the archive has. The index is the file with
+    /// such a name that lies in the fewest folders. From then on, names of other files are relative
+    /// to its folder.
     pub fn index(&mut self, names: &[&'static str]) -> Result<Option<&'static str>, SurfaceError> {
         let mut found = self.index_files(names);
         found.sort();
@@ -99,19 +102,21 @@ impl<'a> Archive<'a> {
         found
     }
 
-    /// Returns the names of all files in one spelling.
+    /// Returns the names of all files, in the spelling of [`plain_name`].
     pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.places.keys().map(String::as_str)
     }
 
-    /// Returns the content of a file of unknown size, at most `most` bytes.
+    /// Returns the content of a file whose size is unknown. Returns an error if it has more than
+    /// `most` bytes.
     pub fn unpacked(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let content = self.unpacked_up_to(name, most.min(self.most))?;
         self.most -= content.len();
         Ok(content)
     }
 
-    /// Returns the content of a file that a header states to have at most `most` bytes.
+    /// Returns the content of a file that has at most `most` bytes according to a header. Returns
+    /// an error if it has more.
     pub fn unpacked_up_to(&mut self, name: &str, most: usize) -> Result<Vec<u8>, SurfaceError> {
         let path = plain_name(&format!("{}/{name}", self.folder));
         let Some(place) = self.places.get(&path) else {

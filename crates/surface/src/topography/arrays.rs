@@ -56,9 +56,9 @@ impl Topography {
         Topography::from_map_with(heights, columns, spacing, &ReadOptions::default())
     }
 
-    /// Creates a map as [`Topography::from_map`] does, with the corrections of [`ReadOptions`] that
-    /// a file has: a row or a column alone, levelled rows, replaced outliers and interpolated
-    /// points. A height of NaN is a missing point.
+    /// Creates a map as [`Topography::from_map`] does, with the same corrections by [`ReadOptions`]
+    /// as a map from a file: the choice of one row or column, levelling of the rows, replacement of
+    /// outliers and interpolation of missing points. A height of NaN is a missing point.
     ///
     /// # Errors
     /// Returns the errors of [`Topography::from_map`], and an error for missing points that the

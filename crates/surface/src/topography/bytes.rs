@@ -9,11 +9,12 @@ use std::borrow::Cow;
 /// Largest size of a file in bytes.
 pub const MOST_BYTES: usize = 1 << 30;
 
-/// Number of decompressed bytes allowed for each byte of the file where no header states their
-/// number. Numbers as text expand by factors of three to six.
+/// Largest number of decompressed bytes for each byte of the file, if no header states the
+/// decompressed size. The limit is generous, because numbers as text expand only by factors of
+/// three to six.
 pub(super) const MOST_EXPANSION: usize = 32;
 
-/// Number of decompressed bytes allowed on top of that.
+/// Number of decompressed bytes that are allowed in addition, for small files.
 const LEAST_EXPANDED: usize = 1 << 20;
 
 /// Returns the largest allowed number of bytes after decompression of `bytes` bytes.
@@ -23,7 +24,7 @@ pub(super) fn most_expanded(bytes: usize) -> usize {
         .saturating_add(LEAST_EXPANDED)
 }
 
-/// Decodes text as UTF-8, or if it is invalid as Windows-1252.
+/// Decodes text as UTF-8, or as Windows-1252 if the bytes are invalid in UTF-8.
 pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     match str::from_utf8(text) {
         Ok(text) => Cow::Borrowed(text),
@@ -31,8 +32,8 @@ pub(super) fn decoded(text: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// Returns the size in bytes of compressed points of `size` bytes from their number in a header.
-/// Refuses a size above the limits.
+/// Returns the decompressed size in bytes of compressed points. A header states their number
+/// `points`, and each point has `size` bytes. Returns an error for a size above the limits.
 pub(super) fn unpacked_size(
     points: usize,
     size: usize,
@@ -61,7 +62,7 @@ macro_rules! numbers {
         }
 
         impl Number {
-            /// Returns the type that NumPy calls by this name.
+            /// Returns the type with this name in NumPy, such as `f8`.
             pub fn named(name: &str) -> Option<Number> {
                 match name {
                     $($code => Some(Number::$name),)*
@@ -75,7 +76,7 @@ macro_rules! numbers {
                 }
             }
 
-            /// Returns the number that the bytes encode; their count is [`Self::size`].
+            /// Returns the number that the bytes encode. There have to be [`Self::size`] bytes.
             fn value(self, bytes: &[u8], order: Order) -> f64 {
                 match self {
                     $(Number::$name => {
@@ -97,8 +98,8 @@ macro_rules! numbers {
 numbers!(U8 "u1": u8, I8 "i1": i8, U16 "u2": u16, I16 "i2": i16, U32 "u4": u32, I32 "i4": i32, U64 "u8": u64,
     I64 "i8": i64, F16 "f2": u16 = half, F32 "f4": f32, F64 "f8": f64);
 
-/// Returns the half-precision number of 16 bits: the sign, 5 bits of an exponent, 10 bits of a
-/// fraction.
+/// Returns the value of a half-precision number of 16 bits: a sign bit, 5 bits of an exponent and
+/// 10 bits of a fraction.
 fn half(bits: u16) -> f64 {
     let exponent = i32::from(bits >> 10 & 31);
     let fraction = f64::from(bits & 1023);
@@ -157,7 +158,8 @@ impl<'a> Bytes<'a> {
         Ok(taken)
     }
 
-    /// Returns the next `count` bytes as a part of the file that keeps their places.
+    /// Returns the next `count` bytes as a part of the file. Places in this part are offsets in the
+    /// whole file.
     pub fn part(&mut self, count: usize) -> Result<Bytes<'a>, SurfaceError> {
         let offset = self.offset;
         self.take(count)?;
@@ -194,7 +196,7 @@ impl<'a> Bytes<'a> {
         Ok(gathered(count, numbers)?)
     }
 
-    /// Returns the bytes up to the next zero, which is skipped.
+    /// Returns the bytes up to the next zero byte, and skips the zero byte.
     pub fn text(&mut self) -> Result<&'a [u8], SurfaceError> {
         let left = &self.bytes[self.offset..];
         let Some(end) = left.iter().position(|byte| *byte == 0) else {

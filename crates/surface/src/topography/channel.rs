@@ -7,11 +7,11 @@ use asperity_data::{Remedy, shown};
 /// Largest number of channels that a message lists.
 const MOST_LISTED: usize = 8;
 
-/// Words in the names of channels of heights in files of scanning probes. Other lengths are
-/// deflections and amplitudes.
+/// Words in the names of channels of heights in files of scanning probe microscopes. Other channels
+/// in a unit of length are deflections and amplitudes.
 const HEIGHTS: [&str; 3] = ["height", "zsens", "topography"];
 
-/// Returns true for the name of a channel of heights in a file of a scanning probe.
+/// Returns true for the name of a channel of heights in a file of a scanning probe microscope.
 pub(super) fn names_heights(name: &str) -> bool {
     let name = name.to_lowercase();
     HEIGHTS.iter().any(|word| name.contains(word))
@@ -22,14 +22,13 @@ pub(super) fn names_heights(name: &str) -> bool {
 pub(super) enum Wanted<'a> {
     /// The only channel of heights.
     Heights,
-    /// The channel with this number.
     Number(u32),
-    /// The channel with this name.
     Name(&'a str),
 }
 
 impl<'a> Wanted<'a> {
-    /// Returns what the options state. A number and a name together are refused.
+    /// Returns the channel that the options ask for. Returns an error if they have both a number
+    /// and a name.
     pub fn new(options: &'a ReadOptions) -> Result<Self, SurfaceError> {
         match (options.channel, options.surface_name.as_deref()) {
             (None, None) => Ok(Wanted::Heights),
@@ -43,25 +42,26 @@ impl<'a> Wanted<'a> {
     }
 }
 
-/// A channel as it is chosen, and as messages list it.
+/// Properties by which a channel is chosen, and which messages list.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Label {
     /// Number in the file.
     pub number: u32,
     /// Name in the file; empty if it has none.
     pub name: String,
-    /// Direction of the scan, such as `retrace`, if it is no part of the name.
+    /// Direction of the scan, such as `retrace`, if the name does not contain it.
     pub direction: Option<String>,
-    /// Unit of the values; empty if the file states that they have none, `None` if it is unknown.
+    /// Unit of the values. The text is empty if the file states that the values have no unit.
+    /// `None` if the unit is unknown.
     pub unit: Option<String>,
-    /// First line of the numbers in a text.
+    /// Number of the first line with numbers of the channel, in a text.
     pub line: Option<usize>,
-    /// True for a channel that is read if the options ask for none.
+    /// True for a channel of heights. Such a channel is read if the options name no channel.
     pub has_heights: bool,
 }
 
 impl Label {
-    /// Returns true if the options may mean this channel by this name.
+    /// Returns true if `name` is the name of this channel, its direction, or both.
     fn has_name(&self, name: &str) -> bool {
         let is_same = |own: &str| own.to_lowercase() == name.trim().to_lowercase();
         let with_direction = match &self.direction {
@@ -95,8 +95,8 @@ impl Label {
     }
 }
 
-/// Returns the index of the channel that is wanted. If several channels have the name, it is the
-/// only one of them with heights. `kind` is what messages call a channel.
+/// Returns the index of the channel that is wanted. If several channels have the wanted name, only
+/// a channel of heights among them is meant. `kind` is the word for a channel in messages.
 pub(super) fn chosen(
     labels: &[Label],
     kind: &str,
@@ -183,7 +183,7 @@ mod tests {
             (Wanted::Number(3), 2),
             (Wanted::Name("phase"), 2),
             (Wanted::Name(" Height Retrace"), 1),
-            // The phase has no heights.
+            // Two channels have this direction, and only one of them is a channel of heights.
             (Wanted::Name("Retrace"), 1),
         ] {
             assert_eq!(found(&labels, wanted), Ok(expected), "{wanted:?}");

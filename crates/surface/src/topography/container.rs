@@ -12,8 +12,10 @@ use serde::Deserialize;
 /// Names of the index, in JSON and in YAML.
 pub(super) const INDICES: [&str; 2] = ["index.json", "meta.yml"];
 
+/// Largest size of an index in bytes.
 pub(super) const LONGEST_INDEX: usize = 1 << 24;
 
+/// Largest number of measurements in a container.
 const MOST_MEASUREMENTS: usize = 10_000;
 
 #[derive(Deserialize)]
@@ -63,8 +65,8 @@ struct Radius {
     unit: String,
 }
 
-/// Name of the file as measured, and of the file with the same heights after scaling and
-/// detrending.
+/// Name of the file as measured, and name of the file with the same heights after scaling and
+/// removal of a polynomial.
 #[derive(Deserialize)]
 struct Files {
     original: Option<String>,
@@ -81,8 +83,8 @@ enum Mode {
     Curvature,
 }
 
-/// Returns the measurements of the surface with this name, or the measurement with this name.
-/// Without a name, returns the measurements of the only surface.
+/// Returns the measurements of the surface called `name`, or the measurement called `name`. If no
+/// name is given, returns the measurements of the only surface.
 pub(super) fn measurements(
     index: &str,
     content: &[u8],
@@ -115,6 +117,8 @@ fn surfaces(index: &str, content: &[u8]) -> Result<Vec<Surface>, SurfaceError> {
     }
 }
 
+/// Returns the measurements of the surface called `name`, or else the measurement called `name`. If
+/// no name is given, returns the measurements of the only surface.
 fn chosen(
     mut surfaces: Vec<Surface>,
     name: Option<&str>,
@@ -149,8 +153,8 @@ fn chosen(
 }
 
 impl Measurement {
-    /// Returns the name of the file with the scaled heights, whose format is always the same; if
-    /// there is none, of the measured file.
+    /// Returns the name of the file with the scaled heights, whose format is always NetCDF. If
+    /// there is no such file, returns the name of the measured file.
     pub fn file(&self) -> Result<&str, SurfaceError> {
         let name = self.datafile.squeezed.as_deref();
         name.or(self.datafile.original.as_deref()).ok_or_else(|| {
@@ -178,8 +182,8 @@ impl Measurement {
         self.datafile.squeezed.is_none()
     }
 
-    /// Returns the polynomial that the container removes from the heights; `None` if it removes
-    /// only the mean, its default.
+    /// Returns the polynomial that has to be removed from the heights by the index of the
+    /// container; `None` if the index names only the mean, which is the default of such containers.
     pub fn detrend(&self) -> Option<Detrend> {
         match self.detrend_mode? {
             Mode::Center => None,
@@ -204,14 +208,16 @@ impl Measurement {
         Ok(ReadOptions {
             convention: stated.or(options.convention),
             channel,
-            // The name has chosen the surface or the measurement.
+            // The name has already chosen the surface or the measurement, and does not name a
+            // channel in its file.
             surface_name: None,
             interpolate: options.interpolate || is_filled,
             ..options.clone()
         })
     }
 
-    /// Fills in what the file of the measurement omits.
+    /// Fills in the distances and the scale of heights from the index, if the file of the
+    /// measurement omits them.
     pub fn completed(&self, mut reading: Reading) -> Reading {
         if reading.positions.is_none()
             && reading.spacing.is_none()
@@ -222,7 +228,7 @@ impl Measurement {
             reading.spacing = Some([width / reading.columns as f64, height / rows as f64]);
         }
         match self.height_scale {
-            // A file with a unit of its heights has their scale.
+            // Heights with a unit in the file are already scaled.
             Some(scale) if self.is_original() && reading.units.heights.is_none() => {
                 reading.scaled(|_| false, scale)
             }
@@ -285,7 +291,7 @@ mod tests {
             ("map", 4, Ok([1e-9; 2]))
         );
         assert!((map.heights[3] - 4e-8).abs() < 1e-20 && map.detrend.is_none());
-        // The scaled file is not scaled again.
+        // The heights of the file with scaled heights are not scaled again.
         assert_eq!((&*profile.name, profile.heights[1]), ("profile", 3e-6));
         assert_eq!(
             (profile.detrend, profile.periodic),
@@ -344,7 +350,7 @@ mod tests {
                 )
             ]
         );
-        // What an option supplies is asked for.
+        // A distance that an option can supply is asked for.
         assert!(
             read(b"1 2 3 4\n5 6 7 9\n", spm)
                 .unwrap_err()
@@ -425,7 +431,7 @@ mod tests {
             error.starts_with("2 measurements of a surface; allowed: one"),
             "{error}"
         );
-        // Aliases of aliases expand to nothing large.
+        // Nested aliases of YAML must not expand to a large index.
         let level = |i: u32| {
             format!(
                 "a{i}: &a{i} [*a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}, *a{0}]\n",

@@ -15,7 +15,7 @@ pub enum Cut {
 
 /// The points of a row or of a column among the points of a map.
 struct CutLine {
-    /// Index of the first point.
+    /// Index, among the points of the map, of the first point of the line.
     first: usize,
     /// Difference of the indices of neighbouring points.
     step: usize,
@@ -29,7 +29,8 @@ impl CutLine {
     fn new(map: &Topography, cut: Cut) -> Result<Self, SurfaceError> {
         let columns = map.columns;
         let rows = map.rows();
-        // Rows and columns are numbered as in the file.
+        // Rows and columns have the numbers that they have in the file, where the cropped ones
+        // count too.
         let [columns_before, rows_before] = map.cropped.before;
         Ok(match cut {
             Cut::Row(number) => CutLine {
@@ -47,7 +48,8 @@ impl CutLine {
         })
     }
 
-    /// Returns the number of a point of the map on the line, from 0; `None` for a point off it.
+    /// Returns the number of a point on the line, from 0, from its index in the map; `None` for a
+    /// point that is not on the line.
     fn number_of(&self, index: usize) -> Option<usize> {
         let offset = index.checked_sub(self.first)?;
         let number = offset / self.step;
@@ -56,8 +58,9 @@ impl CutLine {
     }
 }
 
-/// Returns the index, among the `count` remaining rows or columns, of the one with this number in
-/// the file, where `before` rows or columns are left out before them.
+/// Returns the index, from 0, of a row or column among the `count` that remain after cropping.
+/// `number` is its number in the file, from 1, and `before` is the number of rows or columns that
+/// were left out before the first remaining one.
 fn remaining_index(
     name: &str,
     number: u64,

@@ -1,5 +1,5 @@
-//! Names of formats that are not read, by their first bytes or the files of an archive. A message
-//! can then state the way out.
+//! Recognition of formats that are not read, by their first bytes or by the files in an archive. A
+//! message can then name the format, and say how to convert the file.
 
 use crate::error::{Place, SurfaceError, refused};
 
@@ -18,7 +18,7 @@ const KEYENCE: &str = "the same as VK4, or the heights as CSV, from the program 
 /// A format that is not read.
 struct Foreign {
     name: &'static str,
-    /// What is allowed in its place.
+    /// What can be read instead, for the message.
     allowed: &'static str,
 }
 
@@ -132,8 +132,7 @@ const KNOWN_CONTENTS: [KnownContent; 7] = [
     containing(is_nms, "NMS of NanoFocus", GWYDDION),
 ];
 
-/// Returns an error with the name of the format if the content has a format that is known, but not
-/// read.
+/// Returns an error with the name of the format if the content has a known format that is not read.
 pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     for known in &KNOWN_STARTS {
         if bytes.starts_with(known.start) {
@@ -148,14 +147,15 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), SurfaceError> {
     Ok(())
 }
 
-/// Returns true for an image of WSxM in binary numbers. Its texts have the same first words.
+/// Returns true for an image of the program WSxM in binary numbers. The test is needed because its
+/// texts, which are read, have the same first words.
 fn is_wsxm_image(bytes: &[u8]) -> bool {
     let second_line = bytes.split(|byte| *byte == b'\n').nth(1);
     let has_image = second_line.is_some_and(|line| line.starts_with(b"SxM Image file"));
     bytes.starts_with(b"WSxM file") && (has_image || bytes.contains(&0))
 }
 
-/// Returns true for a date of 24 letters, then a zero.
+/// Returns true for PLU of Sensofar: a file that begins with a date of 24 letters and a zero byte.
 fn is_plu(bytes: &[u8]) -> bool {
     match bytes.get(..25) {
         Some(head) => head[24] == 0 && head[13] == b':' && head[16] == b':',
@@ -163,20 +163,21 @@ fn is_plu(bytes: &[u8]) -> bool {
     }
 }
 
-/// Returns true for the name of the format in letters of two bytes, after the size of the header.
+/// Returns true for SM4 of RHK: a file with the name of the format in letters of two bytes, after
+/// the size of the header.
 fn is_sm4(bytes: &[u8]) -> bool {
     let name = bytes.get(2..).unwrap_or_default();
     name.starts_with(b"S\0T\0i\0M\0a\0g\0e\0 \0")
 }
 
-/// Returns true for one of the first words of Createc before binary numbers.
+/// Returns true for a file of Createc: one of its first words, and binary numbers.
 fn is_createc(bytes: &[u8]) -> bool {
     let starts: [&[u8]; 3] = [b"[Parameter]", b"[Paramet32]", b"[Paramco32]"];
     starts.iter().any(|start| bytes.starts_with(start)) && bytes.contains(&0)
 }
 
-/// Returns true for a mesh of triangles, as text or as 50 bytes for each triangle after their
-/// number.
+/// Returns true for a mesh of triangles (STL), as text or as binary numbers. The binary form has a
+/// header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
 fn is_mesh(bytes: &[u8]) -> bool {
     const HEADER: usize = 80;
     const TRIANGLE: usize = 50;
@@ -191,8 +192,8 @@ fn is_mesh(bytes: &[u8]) -> bool {
     count > 0 && bytes.len() == size
 }
 
-/// Returns true for a version below 3, and the two letters of a channel at its place in that
-/// version.
+/// Returns true for ASD: a version below 3, and the two letters of a channel at the place where
+/// this version has them.
 fn is_asd(bytes: &[u8]) -> bool {
     const CHANNELS: [[u8; 2]; 4] = [*b"TP", *b"PT", *b"ER", *b"PH"];
     let letters = match (little_endian(bytes, 0), bytes.get(..28)) {
@@ -203,8 +204,8 @@ fn is_asd(bytes: &[u8]) -> bool {
     CHANNELS.contains(&letters)
 }
 
-/// Returns true for a header of known size whose counts, at their place in it, fit the size of the
-/// file.
+/// Returns true for NMS: a header of known size whose numbers of columns and rows fit the size of
+/// the file.
 fn is_nms(bytes: &[u8]) -> bool {
     const HEADER: usize = 3_468;
     const COUNTS: usize = 1_368;
@@ -218,7 +219,7 @@ fn is_nms(bytes: &[u8]) -> bool {
     points > 0 && bytes.len() == points.saturating_mul(2).saturating_add(HEADER)
 }
 
-/// Returns the number of four bytes at this offset.
+/// Returns the little-endian number in the four bytes at this offset.
 fn little_endian(bytes: &[u8], offset: usize) -> Option<usize> {
     let bytes = bytes.get(offset..offset + 4)?;
     Some(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]) as usize)

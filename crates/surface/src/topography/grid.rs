@@ -5,17 +5,19 @@ use super::printed::{Digits, Grid, GridPoint, printed_grid};
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::{gathered, resized};
 
-/// Share of the largest distance between positions below which two positions are on the same line
-/// of a grid.
+/// Largest distance between positions on the same line of a grid, as a share of the largest
+/// distance between neighbouring positions.
 const SAME_LINE: f64 = 0.05;
 
-/// Largest number of lines of a grid over the number of lines that have points.
+/// Largest ratio of the number of all lines of a grid to the number of lines that have points.
 const MOST_LINES: f64 = 1.25;
 
-/// Ratio to the smallest distance between lines below which no line is missing between two lines.
+/// Two lines are neighbours, without a missing line between them, if their distance is smaller than
+/// this factor times the smallest distance of lines.
 const SMALL_GAP: f64 = 1.5;
 
-/// Largest number of cells of a grid over the number of points: half of the points may be missing.
+/// Largest ratio of the number of cells of a grid to the number of points, so that at most half of
+/// the points may be missing.
 const MOST_CELLS: usize = 2;
 
 /// Evenly spaced lines of a grid along one axis.
@@ -51,7 +53,8 @@ impl Axis {
                 count: 1,
             }));
         }
-        // Without missing lines, or with some.
+        // The first attempt assumes that no line is missing, and the second that some lines are
+        // missing.
         let found = Axis::through(&numbered(&lines), digits)
             .or_else(|| Axis::through(&numbered_by_distance(&lines), digits));
         let Some(mut axis) = found else {
@@ -100,7 +103,8 @@ impl Axis {
         }
         let number = ((position - self.first) / self.distance).round();
         let off = (position - self.first - number * self.distance).abs();
-        // Printed digits and errors within a line may add.
+        // The rounding of the printed position and the displacement of the point from its line may
+        // add up.
         let most = 2.0 * UNEVEN * self.distance.abs() + digits.half(position);
         let is_on_grid = off <= most && number >= 0.0 && (number as usize) < self.count;
         is_on_grid.then_some(number as usize)
@@ -119,7 +123,7 @@ fn lines(sorted: &[f64]) -> Result<Vec<f64>, SurfaceError> {
     Ok(gathered(sorted.len(), lines)?)
 }
 
-/// Numbers lines of which none is missing.
+/// Numbers lines one after the other, for a grid without missing lines.
 fn numbered(lines: &[f64]) -> Vec<GridPoint> {
     let points = (0..lines.len()).map(|index| GridPoint {
         number: index as f64,
@@ -128,7 +132,8 @@ fn numbered(lines: &[f64]) -> Vec<GridPoint> {
     points.collect()
 }
 
-/// Numbers lines of which some are missing, in steps of the mean of the smaller distances.
+/// Numbers lines by their distance from the first line, for a grid with missing lines. The unit of
+/// distance is the mean of the small distances.
 fn numbered_by_distance(lines: &[f64]) -> Vec<GridPoint> {
     let gaps = || lines.windows(2).map(|pair| pair[1] - pair[0]);
     let least = gaps().fold(f64::INFINITY, f64::min);
@@ -164,14 +169,14 @@ pub(super) struct PointList<'a, P> {
     pub x: &'a [f64],
     pub y: &'a [f64],
     pub heights: &'a [f64],
-    /// Digits with which x and y are printed.
+    /// Numbers of digits with which x and y are printed.
     pub digits: [Digits; 2],
-    /// Place in the file of the point with an index.
+    /// Function that returns the place in the file of a point from its index.
     pub place: P,
 }
 
 impl<P: Fn(usize) -> Place> PointList<'_, P> {
-    /// Makes the map of the points. Points of the grid that are not listed are missing.
+    /// Creates a map from the points. A point of the grid that is not in the list is missing.
     pub fn map(&self) -> Result<Map, SurfaceError> {
         let points = self.heights.len();
         if points < 2 {

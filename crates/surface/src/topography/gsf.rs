@@ -1,4 +1,5 @@
-//! Gwyddion Simple Field: a header of lines `key = value`, then 32-bit heights.
+//! The format Gwyddion Simple Field: a header of lines `key = value`, then heights as 32-bit
+//! floating-point numbers.
 
 use super::bytes::{Bytes, Number, Order};
 use super::key_values::KeyValues;
@@ -11,8 +12,8 @@ pub(super) const SIGNATURE: &[u8] = b"Gwyddion Simple Field 1.0\n";
 
 const REQUIRED: &str = "XRes and YRes";
 
-/// Reads the lines up to a zero byte, then XRes × YRes numbers from the next multiple of four
-/// bytes.
+/// Reads the header up to a zero byte, and then XRes × YRes numbers, which begin at the next
+/// multiple of four bytes.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let Some(end) = bytes.iter().position(|byte| *byte == 0) else {
         let found = "a header without an end";

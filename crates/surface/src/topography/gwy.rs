@@ -11,9 +11,9 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"GWYP";
 
-/// Reads the data field `/N/data` of the channel that is wanted. Without a number or a name, reads
-/// the only channel whose heights are in a unit of length, or if there is none, the only channel
-/// without a unit.
+/// Reads the data field `/N/data` of the channel that is wanted. If neither a number nor a name is
+/// given, reads the only channel in a unit of length. If there is no such channel, reads the only
+/// channel without a unit.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut channels = channels(bytes)?;
     let has_length = channels.iter().any(Channel::is_length);
@@ -68,7 +68,8 @@ struct Title<'a> {
     text: Cow<'a, str>,
 }
 
-/// Returns N of a component `/N/data` or `/N/data/title`, which has this end.
+/// Returns the number N from the name of a component `/N/data` or `/N/data/title`. `end` is the
+/// part of the name after N.
 fn channel_number(name: &str, end: &str) -> Option<u32> {
     let name = name.strip_prefix('/')?;
     name.strip_suffix(end)?.parse().ok()
@@ -83,7 +84,7 @@ enum Value<'a> {
     Other,
 }
 
-/// Returns the content of the next object, after its name and its size.
+/// Returns the content of the next object, and skips its name and its size.
 fn object<'a>(bytes: &mut Bytes<'a>) -> Result<Bytes<'a>, SurfaceError> {
     bytes.text()?;
     let size = bytes.size(Number::U32)?;
@@ -261,7 +262,7 @@ mod tests {
         .concat()
     }
 
-    /// A file with channels of 2 × 2 heights in these units.
+    /// Returns a file with channels of 2 × 2 heights in these units.
     fn file(units: &[&str]) -> Vec<u8> {
         let channel = |(number, unit): (usize, &&str)| {
             let unit_of = |unit: &str| {
@@ -294,7 +295,8 @@ mod tests {
     fn channels_have_titles_and_units_of_older_programs() {
         let title = component("/1/data/title", b's', b"Retrace\0");
         let titled = |bytes: Vec<u8>| {
-            // The container begins after the signature, its name and its size.
+            // The content of the container begins after the signature, the name and the size of the
+            // container.
             let start = SIGNATURE.len() + "GwyContainer".len() + 1 + 4;
             let content = [&bytes[start..], &title].concat();
             [SIGNATURE, &object("GwyContainer", &content)].concat()
@@ -307,7 +309,7 @@ mod tests {
         );
         let named = read(&both, Wanted::Name("retrace")).unwrap();
         assert_eq!(named, read(&both, Wanted::Number(1)).unwrap());
-        // µ in Windows-1252.
+        // The unit may have µ in Windows-1252.
         let mut latin = file(&["\u{7f}m"]);
         let place = latin.iter().position(|byte| *byte == 0x7f).unwrap();
         latin[place] = 0xb5;

@@ -16,8 +16,8 @@ const MOST_LAYERS: usize = 256;
 /// Names of the columns of force curves.
 const OF_CURVES: [&str; 2] = ["Defl", "ZSnsr"];
 
-/// Reads the layer that is wanted; numbers count from 0. Without a number or a name, reads the only
-/// layer of heights.
+/// Reads the layer that is wanted. Numbers of layers count from 0. If neither a number nor a name
+/// is given, reads the only layer of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let wave = IgorWave::parse(bytes)?;
     let [x, y, layers, higher] = &wave.dimensions;
@@ -47,7 +47,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     let mut heights = wave.numbers(index.saturating_mul(points), points)?;
     reverse_rows(&mut heights, x.count);
     let spacing = Spacing::of(&wave)?;
-    // The wave states one unit for all layers, which is that of the heights.
+    // The wave states a single unit for all layers, and means the layers of heights.
     let unit = match labels[index].has_heights {
         true => Unit::stated(&wave.unit, Place::Part("unit of the wave".to_owned()))?,
         false => None,
@@ -65,7 +65,8 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     ))
 }
 
-/// Returns true for a force curve: columns with the names that Asylum gives them.
+/// Returns true for a force curve, whose columns have the names that the instruments of Asylum
+/// Research give them.
 fn is_curve(wave: &IgorWave<'_>) -> bool {
     let labels = &wave.dimensions[1].labels;
     OF_CURVES
@@ -73,8 +74,8 @@ fn is_curve(wave: &IgorWave<'_>) -> bool {
         .any(|name| labels.iter().any(|label| label == name))
 }
 
-/// Describes a layer. The only layer, and layers without names, have heights; others have heights
-/// if their names say so.
+/// Describes a layer. A single layer, and layers without names, are heights. Other layers are
+/// heights if their names say so.
 fn label(wave: &IgorWave<'_>, layer: usize, number: u32) -> Label {
     let layers = &wave.dimensions[2];
     let name = layers.labels.get(layer).cloned().unwrap_or_default();
@@ -94,8 +95,8 @@ struct Spacing {
 }
 
 impl Spacing {
-    /// Returns the distances that the dimensions state, or else those that follow from the size of
-    /// the scan in m in the note. Dimensions without a unit count their elements.
+    /// Returns the distances that the dimensions state. If the dimensions have no unit, they only
+    /// count their elements, and the distances follow from the size of the scan in the note, in m.
     fn of(wave: &IgorWave<'_>) -> Result<Self, SurfaceError> {
         let [x, y, ..] = &wave.dimensions;
         let place = |name: &str| Place::Part(format!("unit of dimension {name}"));
@@ -138,7 +139,8 @@ pub(super) mod tests {
 
     const LAYERS: [&str; 3] = ["HeightTrace", "HeightRetrace", "PhaseTrace"];
 
-    /// A map of 3 × 2 points with layers, whose numbers are 1 to 6 plus 10 for each layer, in 1e-9.
+    /// Returns a map of 3 × 2 points with layers. The numbers of layer n are 10 n + 1 to 10 n + 6,
+    /// times 1e-9.
     pub fn map<'a>(order: Order, labels: &'a [&'a str]) -> Written<'a> {
         let mut numbers = Vec::new();
         for layer in 0..labels.len() {
@@ -174,7 +176,7 @@ pub(super) mod tests {
             assert_eq!((found.format, found.columns), ("IBW", 3));
             assert_eq!(found.spacing, Some([2e-6, 1e-6]));
             assert_eq!(found.units, StatedUnits::METRES);
-            // The second row is the upper one.
+            // The second row of the file is the upper row of the map.
             let expected = [14, 15, 16, 11, 12, 13].map(|n: i16| f64::from(1e-9 * f32::from(n)));
             assert_eq!(found.heights, expected);
         }
@@ -185,7 +187,7 @@ pub(super) mod tests {
             ),
             "{error}"
         );
-        // The unit of the wave is not that of the phase.
+        // The phase does not have the unit of the wave.
         let phase = found(&map(Order::Little, &LAYERS), Wanted::Number(2)).unwrap();
         assert_eq!(phase.units.heights, None);
         let one = found(&map(Order::Little, &["UserIn0"]), Wanted::Heights).unwrap();
@@ -202,7 +204,7 @@ pub(super) mod tests {
             units.map(|unit| unit.map(Unit::name)),
             [Some("µm"), Some("nm")]
         );
-        // Without units the dimensions count.
+        // Without a unit, the dimensions only count their elements.
         wave.units = [""; 4];
         wave.steps = [1.0; 4];
         let by_note = found(&wave, Wanted::Heights).unwrap();

@@ -1,17 +1,18 @@
-//! Binary waves of Igor Pro: a header, numbers in up to four dimensions of which the first runs
-//! fastest, a note, and names of the elements of each dimension.
+//! Binary waves of Igor Pro: a header, numbers in up to four dimensions, a note, and names of the
+//! elements of each dimension. Neighbouring numbers in the file are neighbours in the first
+//! dimension.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
 
-/// Largest number of dimensions.
+/// Largest number of dimensions of a wave.
 const DIMENSIONS: usize = 4;
 
 /// Size in bytes of the name of an element.
 const LABEL_SIZE: usize = 32;
 
-/// Bytes between numbers and note in files before version 5, which also are the first numbers that
-/// the check sum counts.
+/// Number of bytes between the numbers and the note in files before version 5. The check sum of
+/// such a file also includes the same number of bytes after the headers.
 const PADDING: usize = 16;
 
 /// Flags of the type of the numbers.
@@ -23,14 +24,15 @@ mod flag {
 /// A version of the format.
 struct Version {
     number: u16,
-    /// Size of the header of the file.
+    /// Size in bytes of the header of the file.
     file_header: usize,
-    /// Size of the header of the wave, which follows.
+    /// Size in bytes of the header of the wave, which follows the header of the file.
     wave_header: usize,
     /// Offset of the size of the note; `None` in a file without a note.
     note_size: Option<usize>,
 }
 
+/// The versions of the format that can be read.
 const VERSIONS: [Version; 4] = [
     version(1, 8, 110, None),
     version(2, 16, 110, Some(6)),
@@ -52,8 +54,8 @@ const fn version(
     }
 }
 
-/// Offsets in the header of a wave of version 5. Those of the header of the file have the word
-/// `size`.
+/// Offsets in bytes in the headers of version 5. The offsets whose names contain `SIZE` count from
+/// the header of the file, and all others from the header of the wave.
 mod field {
     pub const POINTS: usize = 12;
     pub const TYPE: usize = 16;
@@ -67,7 +69,7 @@ mod field {
     pub const SIZES_OF_LABELS: usize = 36;
 }
 
-/// Offsets in the header of a wave before version 5.
+/// Offsets in bytes in the header of a wave before version 5.
 mod old_field {
     pub const UNIT: usize = 34;
     pub const UNIT_OF_X: usize = 38;
@@ -91,10 +93,10 @@ pub struct WaveDimension {
     pub labels: Vec<String>,
 }
 
-/// A wave whose numbers are still bytes.
+/// A binary wave of Igor: dimensions, units and note, with its numbers still encoded as bytes.
 #[derive(Debug)]
 pub struct IgorWave<'a> {
-    /// Dimensions, of which the first runs fastest.
+    /// Dimensions; neighbouring numbers in the file are neighbours in the first dimension.
     pub dimensions: [WaveDimension; DIMENSIONS],
     /// Unit of the numbers; empty if none is stated.
     pub unit: String,
@@ -111,7 +113,7 @@ struct Layout {
 }
 
 impl Layout {
-    /// Returns the layout by the version in the first two bytes; `None` for another file.
+    /// Returns the layout by the version in the first two bytes; `None` for a file that is no wave.
     fn of(bytes: &[u8]) -> Option<Self> {
         let first = [*bytes.first()?, *bytes.get(1)?];
         for version in &VERSIONS {
@@ -128,8 +130,8 @@ impl Layout {
         None
     }
 
-    /// Returns the sum of both headers as integers of 16 bits, which is 0 in a sound file. Before
-    /// version 5 the first numbers count too.
+    /// Returns the sum of both headers as integers of 16 bits, which is 0 in an intact file. Before
+    /// version 5 the sum includes the [`PADDING`] bytes after the headers.
     fn check_sum(&self, bytes: &[u8]) -> u16 {
         let size = self.version.file_header + self.version.wave_header;
         let counted = if self.is_old() { size + PADDING } else { size };
@@ -222,6 +224,8 @@ impl<'a> IgorWave<'a> {
         })
     }
 
+    /// Parses a file of version 5. The numbers are followed by the formula, the note, long units,
+    /// and the names of the elements, whose sizes are in the header of the file.
     fn parse_new(bytes: &'a [u8], layout: &Layout) -> Result<Self, SurfaceError> {
         let start = layout.version.file_header;
         let in_file = |offset: usize| Bytes::from(bytes, layout.order, offset);
@@ -258,7 +262,7 @@ impl<'a> IgorWave<'a> {
         }
         for dimension in &mut dimensions {
             let size = sizes_of_labels.size(Number::U32)?;
-            // The first one names the dimension.
+            // The first label is the name of the dimension itself.
             let labels = rest.take(size)?.chunks_exact(LABEL_SIZE).skip(1);
             dimension.labels = labels.map(text).collect();
         }
@@ -326,8 +330,8 @@ fn number_type(mut bytes: Bytes<'_>) -> Result<Number, SurfaceError> {
     Ok(kind)
 }
 
-/// Returns an error unless the counts of the dimensions, up to the first 0, give the number of
-/// points.
+/// Returns an error unless the product of the counts of the dimensions, up to the first count of 0,
+/// is the number of points.
 fn check_points(
     points: usize,
     counts: &[f64; DIMENSIONS],
@@ -346,7 +350,7 @@ fn check_points(
     Ok(())
 }
 
-/// Returns a text up to its first zero.
+/// Returns a text up to its first zero byte.
 fn text(bytes: &[u8]) -> String {
     let end = bytes.iter().position(|byte| *byte == 0);
     decoded(&bytes[..end.unwrap_or(bytes.len())]).into_owned()
@@ -362,7 +366,7 @@ fn replace_if_stated(unit: &mut String, long: &[u8]) {
 pub(super) mod tests {
     use super::*;
 
-    /// A wave of version 5 to be written.
+    /// Content of a wave of version 5 that a test writes.
     #[derive(Default)]
     pub struct Written<'a> {
         pub counts: [u32; DIMENSIONS],
@@ -371,12 +375,11 @@ pub(super) mod tests {
         pub units: [&'a str; DIMENSIONS],
         pub labels: [&'a [&'a str]; DIMENSIONS],
         pub note: &'a str,
-        /// Code of the type, and the bytes of the numbers.
+        /// Code of the type of the numbers.
         pub kind: u16,
         pub numbers: Vec<u8>,
     }
 
-    /// A header under construction.
     struct Header {
         bytes: Vec<u8>,
         order: Order,
@@ -395,7 +398,7 @@ pub(super) mod tests {
             self.bytes[offset..offset + text.len()].copy_from_slice(text);
         }
 
-        /// Sets the check sum so that the sum of all is 0.
+        /// Sets the check sum so that the sum of all integers of the headers is 0.
         fn sum(&mut self, offset: usize) {
             let layout = Layout::of(&self.bytes).unwrap();
             let sum = layout.check_sum(&self.bytes);

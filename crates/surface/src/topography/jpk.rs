@@ -1,5 +1,6 @@
-//! Images of JPK: TIFF with tags of the grid, of channels and of their calibrations, which are
-//! called slots. Rows begin at the bottom, unless the grid is reflected.
+//! Images of JPK: TIFF with tags of the grid, of the channels and of the calibrations of the
+//! channels, which the format calls slots. The first row in the file is the lowest row, unless the
+//! grid is reflected.
 
 use super::channel::{self, Label, Wanted};
 use super::reading::Reading;
@@ -13,7 +14,8 @@ use asperity_data::shown;
 /// Largest number of slots of a channel.
 const MOST_SLOTS: usize = 64;
 
-/// Difference between the same tags of a slot and of the next one.
+/// Difference between the number of a tag of one slot and the number of the same tag of the next
+/// slot.
 const SLOT: u16 = 0x30;
 
 /// Tags of the grid, in the first directory.
@@ -23,7 +25,7 @@ mod grid {
     pub const IS_REFLECTED: u16 = 0x8045;
 }
 
-/// Tags of a channel. The tags of slots are those of the first one.
+/// Tags of a channel. The tags of slots are those of the first slot.
 mod tag {
     pub const PHOTOMETRIC: u16 = 262;
     pub const NAME: u16 = 0x8050;
@@ -38,10 +40,11 @@ mod tag {
     pub const OFFSET: u16 = 0x80a5;
 }
 
-/// Largest code of images without colours.
+/// Largest photometric code of an image without colours. An image with colours is the thumbnail.
 const GREY: f64 = 1.0;
 
-/// Returns true for the directories of a file of JPK, whose first one states the size of the grid.
+/// Returns true for the directories of a file of JPK. The first directory of such a file states the
+/// size of the grid.
 pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
     let has = |directory: &Directory<'_>, tag: u16| matches!(directory.number(tag), Ok(Some(_)));
     directories
@@ -49,8 +52,8 @@ pub(super) fn is_jpk(directories: &[Directory<'_>]) -> bool {
         .is_some_and(|first| has(first, grid::WIDTH) && has(first, grid::HEIGHT))
 }
 
-/// Reads the channel that is wanted; numbers count from 0, without the thumbnail. Channels of
-/// heights are those in a unit of length whose name says so.
+/// Reads the channel that is wanted. Numbers of channels count from 0, without the thumbnail. A
+/// channel is one of heights if its unit is a length and its name says that it has heights.
 pub(super) fn read(
     directories: &[Directory<'_>],
     wanted: Wanted<'_>,
@@ -69,7 +72,7 @@ pub(super) fn read(
         }
     }
     let index = channel::chosen(&labels, "channel", wanted)?;
-    // There is a first directory, since it has the tags of the grid.
+    // The first directory exists, because [`is_jpk`] has found the tags of the grid in it.
     let grid = &directories[0];
     channels[index].reading(grid)
 }
@@ -85,7 +88,7 @@ struct Channel<'a> {
 #[derive(Default)]
 struct Slot {
     unit: String,
-    /// Kind of the scaling; empty if there is none.
+    /// Kind of the conversion of numbers to values, such as linear; empty if there is none.
     scaling: String,
     multiplier: Option<f64>,
     offset: f64,
@@ -184,7 +187,8 @@ pub(super) mod tests {
 
     const NUMBERS: [i32; 6] = [1, -2, 3, 40, 50, 60];
 
-    /// A file of a thumbnail, two channels of heights and a phase, on a grid of 6 µm × 2 µm.
+    /// Returns a file with a thumbnail, two channels of heights and a channel of phase, on a grid
+    /// of 6 µm × 2 µm.
     pub fn file(order: Order, bits: u16, is_reflected: bool) -> Vec<u8> {
         let writer = Writer { order };
         let mut file = writer.begin();
@@ -229,7 +233,7 @@ pub(super) mod tests {
             assert_eq!((found.format, found.columns), ("JPK", 3));
             assert_eq!(found.spacing, Some([2e-6, 1e-6]));
             let expected = |number: i32| f64::from(number + 1) * -2e-10 + 3e-6;
-            // The last row of the file is the upper one.
+            // The last row of the file is the upper row of the map.
             let upper_first = [40, 50, 60, 1, -2, 3].map(expected);
             assert_eq!(found.heights, upper_first);
             let reflected = tiff_maker::read(&file(order, bits, true), Wanted::Number(1)).unwrap();

@@ -1,4 +1,4 @@
-//! Headers of lines `key = value`.
+//! Headers that consist of lines `key = value`.
 
 use crate::error::{Place, SurfaceError, refused};
 use asperity_data::shown;
@@ -23,7 +23,7 @@ pub(super) struct Value<'a> {
 }
 
 impl KeyValues {
-    /// Reads one line of the header; `allowed` is for the message of an error.
+    /// Reads one line of the header. `allowed` says in an error what lines are allowed.
     pub fn take(
         &mut self,
         line_number: usize,

@@ -1,20 +1,23 @@
-//! Heights of few digits or bits, whose steps look like roughness.
+//! Warning of heights with few digits or bits, whose steps look like roughness.
 
 use asperity_data::format_quantity;
 use std::collections::HashSet;
 
-/// Largest number of levels that are counted: more are as good as none.
+/// Largest number of different heights (levels) that are counted. With more levels, the rounding of
+/// the heights is negligible.
 const MOST_LEVELS: usize = 256;
 
-/// Smallest number of points for each level: fewer points may all be on levels of their own.
+/// Smallest ratio of points to levels for which a message is possible. With fewer points, each may
+/// have a height of its own by chance.
 const LEAST_POINTS: usize = 4;
 
-/// Share of the squared differences between neighbours that rounding to levels adds, from which on
-/// a message states it.
+/// Share of the mean square difference between neighbours that results from rounding to levels,
+/// from which on a message is returned.
 const LARGE: f64 = 0.1;
 
-/// Returns a message about heights (m) in rows of `columns` points that have few levels. Rounding
-/// to steps s adds errors of mean square s²/12 to each of two neighbours.
+/// Returns a message if the heights (m), in rows of `columns` points, have few levels; else `None`.
+/// Rounding to multiples of a step s adds an error with the mean square s²/12 to each height, and
+/// s²/6 to the squared difference of two neighbours.
 pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     let levels = few_levels(heights)?;
     let step = levels
@@ -35,11 +38,11 @@ pub(super) fn warning(heights: &[f64], columns: usize) -> Option<String> {
     ))
 }
 
-/// Returns the different heights in ascending order; `None` if there are too many.
+/// Returns the different heights in ascending order; `None` if there are more than [`MOST_LEVELS`].
 fn few_levels(heights: &[f64]) -> Option<Vec<f64>> {
     let mut found = HashSet::new();
     for height in heights.iter().filter(|height| height.is_finite()) {
-        // 0 and -0 are one level.
+        // The sum turns −0 into 0, so that both are the same level.
         found.insert((height + 0.0).to_bits());
         if found.len() > MOST_LEVELS {
             return None;
@@ -50,7 +53,8 @@ fn few_levels(heights: &[f64]) -> Option<Vec<f64>> {
     Some(levels)
 }
 
-/// Returns the mean square difference of measured neighbours in rows; NaN if there are none.
+/// Returns the mean square difference of neighbouring measured heights in rows; NaN if no measured
+/// heights are neighbours.
 fn mean_square_difference(heights: &[f64], columns: usize) -> f64 {
     let mut sum = 0.0;
     let mut count = 0_u32;

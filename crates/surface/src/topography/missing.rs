@@ -7,7 +7,8 @@ use std::ops::Range;
 /// Smallest share of points that must be measured for the others to be interpolated.
 const LEAST_MEASURED: f64 = 0.5;
 
-/// Number of passes over the missing points at each resolution.
+/// Number of times that the missing points are replaced by the means of their neighbours, at each
+/// resolution.
 const PASSES: usize = 12;
 
 pub(super) fn count(heights: &[f64]) -> usize {
@@ -49,8 +50,9 @@ fn extend(range: &mut Range<usize>, place: usize) {
 /// row. Returns the indices of the interpolated heights.
 ///
 /// In a profile a missing height lies on the straight line between the nearest measured points on
-/// both sides, or equals the nearest one at an end. In a map it is the mean of its neighbours, like
-/// a soap film attached to the measured points: see [`fill`].
+/// both sides, or equals the nearest one at an end. In a map it is nearly the mean of its
+/// neighbours, so that the interpolated surface has the shape of a soap film attached to the
+/// measured points: see [`fill`].
 pub(super) fn interpolate(heights: &mut [f64], columns: usize) -> Result<Vec<usize>, SurfaceError> {
     let share = 1.0 - count(heights) as f64 / heights.len() as f64;
     if share < LEAST_MEASURED {
@@ -90,10 +92,11 @@ fn fill_profile(heights: &mut [f64]) {
     }
 }
 
-/// Fills the missing points at these indices from all sides. It begins with the means of blocks of
-/// 2 × 2 points, filled in the same way. It then replaces each height several times by the mean of
-/// its neighbours. This nearly solves Laplace's equation in the gaps, with zero slope across the
-/// borders of the map.
+/// Fills the missing points at these indices from all sides. The initial heights come from a map of
+/// half the resolution, the means of blocks of 2 × 2 points, whose missing points are filled in the
+/// same way. Each missing height is then replaced [`PASSES`] times by the mean of its neighbours.
+/// The result nearly solves Laplace's equation in the gaps, with zero slope across the borders of
+/// the map.
 fn fill(heights: &mut [f64], columns: usize, places: &[usize]) -> Result<(), OutOfMemory> {
     if places.is_empty() {
         return Ok(());
@@ -165,7 +168,7 @@ fn mean_of_neighbours(heights: &[f64], columns: usize, index: usize) -> f64 {
     mean.value()
 }
 
-/// Mean of a few heights; NaN of none.
+/// Mean of a few heights; NaN without a height.
 #[derive(Default)]
 struct Mean {
     sum: f64,
@@ -208,13 +211,14 @@ mod tests {
 
     #[test]
     fn wide_gaps_are_filled_from_all_sides() {
-        // A plane solves Laplace's equation; beyond its rim the surface is level.
+        // A plane solves Laplace's equation, except near the borders of the map, where the
+        // interpolated surface has no slope.
         let columns = 60;
         let plane = |index: usize| (index % columns) as f64 + 2.0 * (index / columns) as f64;
         let place = |index: usize| (index % columns, index / columns);
         let is_hole = |index: usize| {
             let (x, y) = place(index);
-            // Also a row and a column without any measured point.
+            // The holes are a rectangle, and a row and a column without any measured point.
             (20..40).contains(&x) && (15..35).contains(&y) || x == 50 || y == 10
         };
         let mut heights: Vec<f64> = (0..columns * 50)
@@ -228,7 +232,7 @@ mod tests {
         );
         let off = |index: usize| (heights[index] - plane(index)).abs();
         let largest = (0..heights.len()).map(off).fold(0.0, f64::max);
-        // Of 140 from corner to corner.
+        // The plane rises by 140 from corner to corner.
         assert!(largest < 1.0, "{largest}");
     }
 

@@ -1,8 +1,8 @@
-//! Measured surfaces: files of instruments and programs, read into heights in m.
+//! Measured surfaces: readers of the files of instruments and programs, which return heights in m.
 //!
-//! [`read`](crate::read) recognises the format by the content, not by the name. Units are never
-//! guessed: if a file states none, [`ReadOptions`](crate::ReadOptions) has to state one. Every
-//! error names the place in the file and what is allowed there. A file of n bytes after
+//! [`read`](crate::read) recognises the format of a file by its content, and not by its name. Units
+//! are never guessed: if a file states none, [`ReadOptions`](crate::ReadOptions) has to state one.
+//! Every error names the place in the file and what is allowed there. A file of n bytes after
 //! decompression takes at most 1 MiB + 64 n bytes of memory. Decompression ends at 1 MiB + 32 bytes
 //! for each byte of the file, or at the number of heights that a header states, at most 1 GiB.
 

@@ -13,10 +13,10 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURE: &[u8] = b"\\*File list";
 
-/// Signature of scans in liquid at a controlled electrode potential.
+/// First bytes of a file of a scan in liquid at a controlled electrode potential.
 pub(super) const SIGNATURE_OF_ELECTROCHEMISTRY: &[u8] = b"\\*EC File list";
 
-/// Last words of the line that follows the header.
+/// Last words of the header.
 const END: &[u8] = b"File list end";
 
 /// Limit of the length of a header in bytes.
@@ -24,16 +24,16 @@ const LONGEST_HEADER: usize = 1 << 18;
 
 const MOST_CHANNELS: usize = 256;
 
-/// Height of a step of the 2¹⁶ of files without a unit of heights, in m over the number in
+/// Range of the heights of files without a unit of heights, in m: this constant times the number in
 /// `Z magnify image`.
 const PER_MAGNIFICATION: f64 = 1.0e-7;
 
-/// Relative difference between the distances along and between rows from which on a message states
-/// both.
+/// Relative difference between the distance of points along the rows and the distance of rows, from
+/// which on a message states both distances.
 const DIFFERENT: f64 = 0.01;
 
-/// Reads the channel that is wanted; numbers count from 0. Without a number or a name, reads the
-/// only channel of heights.
+/// Reads the channel that is wanted. Numbers of channels count from 0. If neither a number nor a
+/// name is given, reads the only channel of heights.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let header = header(bytes)?;
     let sections: Vec<&str> = header.split("\n\\*").collect();
@@ -53,7 +53,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     images[index].reading(bytes)
 }
 
-/// Returns the text of the header, without the line that follows it.
+/// Returns the text of the header, without its last line.
 fn header(bytes: &[u8]) -> Result<Cow<'_, str>, SurfaceError> {
     let head = &bytes[..bytes.len().min(LONGEST_HEADER)];
     let end = head
@@ -166,7 +166,6 @@ struct HeightRange {
     range: f64,
 }
 
-/// Size of a scan.
 struct ScanSize {
     unit: Unit,
     width: f64,
@@ -182,7 +181,8 @@ struct Image<'a> {
 }
 
 impl Image<'_> {
-    /// Describes the channel. It has heights if they are lengths and if its name says so.
+    /// Describes the channel. It counts as a channel of heights if its numbers are lengths and its
+    /// name says that they are heights.
     fn label(&self) -> Label {
         let name = title(self.section);
         Label {
@@ -194,7 +194,7 @@ impl Image<'_> {
         }
     }
 
-    /// Returns the range of the heights; `None` if they are no lengths.
+    /// Returns the range of the heights; `None` if the numbers of the channel are no lengths.
     fn height_range(&self) -> Option<HeightRange> {
         let scale = entry(self.section, "Z scale").and_then(Value::parse);
         let scale = scale.unwrap_or_default();
@@ -222,6 +222,8 @@ impl Image<'_> {
         })
     }
 
+    /// Reads the heights of the channel, and reverses the order of the rows, because the file
+    /// begins with the lowest row.
     fn reading(&self, bytes: &[u8]) -> Result<Reading, SurfaceError> {
         let columns = self.count("Samps/line")?;
         let rows = self.count("Number of lines")?;
@@ -240,7 +242,7 @@ impl Image<'_> {
         let size = self.scan_size()?;
         let along = size.width / columns as f64;
         let between = size.height / rows as f64;
-        // Scans at one place, and of lost settings, state a size of 0.
+        // A scan of a single place, and a scan whose settings are lost, state a size of 0.
         let has_size = along > 0.0 && between > 0.0;
         let steps = 2.0_f64.powi(8 * number.size() as i32);
         let units = StatedUnits::new(Some(size.unit), Some(heights.unit));
@@ -263,7 +265,7 @@ impl Image<'_> {
         Ok(reading)
     }
 
-    /// Returns the type of the integers of this many points.
+    /// Returns the type of the integers, for `points` points in `length` bytes.
     fn number_type(&self, points: usize, length: usize) -> Result<Number, SurfaceError> {
         // Some versions state 2 bytes and store 4.
         let size_by_length = [2, 4]
@@ -289,7 +291,8 @@ impl Image<'_> {
             let allowed = "width and height with a unit of length";
             return Err(self.wrong("Scan size", allowed));
         };
-        // A second size is the one of a square, unless it differs.
+        // If the file states one size, or the same size twice, the height follows from the aspect
+        // ratio.
         if size.height == size.width || size.height == 0.0 {
             size.height = size.width / self.aspect_ratio().unwrap_or(1.0);
         }
@@ -302,7 +305,7 @@ impl Image<'_> {
         (ratio > 0.0).then_some(ratio)
     }
 
-    /// Returns the number of a key, which is to be above 0.
+    /// Returns the number of a key. Returns an error unless the number is a positive integer.
     fn count(&self, key: &str) -> Result<usize, SurfaceError> {
         let word = entry(self.section, key).and_then(|text| text.split_ascii_whitespace().next());
         match word.and_then(|word| word.parse().ok()) {
@@ -345,8 +348,8 @@ mod tests {
     use super::super::options::ReadOptions;
     use super::*;
 
-    /// A file with the entries of a scan and of its images; each image has the integers of two rows
-    /// of three points.
+    /// Returns a file with the entries of a scan and of its images. Each image has the integers of
+    /// two rows of three points.
     fn file(scan: &str, images: &[&str], numbers: &[u8]) -> Vec<u8> {
         let mut header = format!("\\*File list\r\n\\Version: 0x07200000\r\n{scan}");
         for (index, image) in images.iter().enumerate() {
@@ -443,7 +446,7 @@ mod tests {
                 .starts_with("points are 1.0000 µm apart along rows and 1.5000 µm between"),
             "{warnings:?}"
         );
-        // Four bytes, though the header states two.
+        // Each height has four bytes, although the header states two.
         let long: Vec<u8> = NUMBERS
             .iter()
             .flat_map(|number| (i32::from(*number) << 16).to_le_bytes())
@@ -459,7 +462,7 @@ mod tests {
         let plain = file(SCAN, &[HEIGHT], &short());
         let head = plain.strip_prefix(SIGNATURE).unwrap();
         let mut in_liquid = [SIGNATURE_OF_ELECTROCHEMISTRY, head].concat();
-        // The offset of the heights stays.
+        // Three bytes are removed, so that the offset of the heights remains the same.
         in_liquid.drain(1_000..1_003);
         assert_eq!(heights(&in_liquid), heights(&plain));
 

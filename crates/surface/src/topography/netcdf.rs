@@ -9,19 +9,19 @@ use super::transpose::transposed;
 use super::unit::Unit;
 use crate::error::{Place, SurfaceError, refused};
 
-/// First bytes of a file, before the version.
+/// First bytes of a file, which the number of the version follows.
 pub(super) const SIGNATURE: &[u8] = b"CDF";
 
-/// Mark of the list of dimensions.
+/// Number that precedes the list of dimensions.
 const DIMENSIONS: usize = 10;
 
-/// Mark of the list of variables.
+/// Number that precedes the list of variables.
 const VARIABLES: usize = 11;
 
-/// Mark of a list of attributes.
+/// Number that precedes a list of attributes.
 const ATTRIBUTES: usize = 12;
 
-/// Type code of characters; all other types are numbers.
+/// Code of the type of characters; all other types are numbers.
 const CHARACTERS: usize = 2;
 
 struct Variable<'a> {
@@ -34,7 +34,7 @@ struct Variable<'a> {
     begin: usize,
 }
 
-/// What the attributes of a variable state of its values.
+/// What the attributes of a variable state about its values.
 struct Conversion<'a> {
     /// Text of the unit; empty if the variable has none.
     unit: &'a [u8],
@@ -60,7 +60,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
         return Err(refused(Place::File, "no variable `heights`", allowed));
     };
     let values = dataset.unmasked(heights)?;
-    // Each variable has its own unit, or none.
+    // Each variable has a unit of its own or none.
     let height_unit = heights.unit()?;
     let mut reading = match heights.dimensions[..] {
         [dimension] => profile(&dataset, dimension, values, height_unit),
@@ -123,7 +123,7 @@ fn map(
         let spacing = both(fast_distance, slow_distance);
         return Ok(Reading::even("NetCDF", values, fast_count, spacing, units));
     }
-    // Rows are along x.
+    // The slow dimension is x, so the matrix is transposed to give rows along x.
     let turned = transposed(&values, fast_count)?;
     let columns = dataset.length(slow)?;
     let units = StatedUnits {
@@ -153,7 +153,7 @@ impl<'a> Dataset<'a> {
                 return Err(refused(place, found, "1 or 2, the classic format"));
             }
         };
-        // Number of records.
+        // Skips the number of records.
         header.take(4)?;
         let dimensions = list(&mut header, DIMENSIONS, |header| {
             name(header)?;
@@ -172,8 +172,8 @@ impl<'a> Dataset<'a> {
         self.variables.iter().find(|variable| variable.name == name)
     }
 
-    /// Returns the positions along a dimension. The variable may be named after either axis,
-    /// whatever the dimension is named.
+    /// Returns the variable with the positions along a dimension. The variable is called `x` or
+    /// `y`; the name of the dimension does not matter.
     fn positions_over(&self, dimension: usize) -> Option<&Variable<'a>> {
         self.variables.iter().find(|variable| {
             [&b"x"[..], b"y"].contains(&variable.name) && variable.dimensions == [dimension]
@@ -188,8 +188,9 @@ impl<'a> Dataset<'a> {
         }
     }
 
-    /// Returns true if the positions along a dimension state that the surface is periodic.
-    /// SurfaceTopography states it beside x alone, for both axes.
+    /// Returns true if an attribute of the positions along a dimension states that the surface is
+    /// periodic. The program SurfaceTopography writes this attribute only for x, and means both
+    /// axes.
     fn is_periodic(&self, dimension: usize) -> bool {
         self.positions_over(dimension)
             .is_some_and(|positions| positions.conversion.is_periodic)
@@ -238,7 +239,8 @@ impl<'a> Dataset<'a> {
         Ok(values)
     }
 
-    /// Returns the heights, with NaN also for the points that a variable `mask` leaves out.
+    /// Returns the heights, with NaN for missing points and for points that a variable `mask`
+    /// excludes.
     fn unmasked(&self, heights: &Variable) -> Result<Vec<f64>, SurfaceError> {
         let mut values = self.values(heights)?;
         let Some(mask) = self.variable(b"mask") else {
@@ -263,7 +265,8 @@ impl Variable<'_> {
     }
 }
 
-/// Reads a list: its mark, the number of its entries, and the entries.
+/// Reads a list. A list consists of the number `mark` that precedes it, the number of its entries,
+/// and the entries.
 fn list<'a, T>(
     header: &mut Bytes<'a>,
     mark: usize,
@@ -279,7 +282,8 @@ fn list<'a, T>(
         let allowed = format!("{mark}, or an empty list");
         return Err(refused(place, format!("mark {found}"), allowed));
     }
-    // No memory is reserved for the number, which the file may overstate.
+    // No memory is reserved for `count` entries, because the file may state a number that is far
+    // too large.
     let mut entries = Vec::new();
     for _ in 0..count {
         entries.push(entry(header)?);
@@ -287,7 +291,7 @@ fn list<'a, T>(
     Ok(entries)
 }
 
-/// Returns `count` bytes, and skips their padding to a multiple of four.
+/// Returns `count` bytes, and skips the bytes that fill them up to a multiple of four.
 fn padded<'a>(header: &mut Bytes<'a>, count: usize) -> Result<&'a [u8], SurfaceError> {
     let bytes = header.take(count)?;
     header.take(count.next_multiple_of(4) - count)?;
@@ -371,9 +375,9 @@ fn variable<'a>(header: &mut Bytes<'a>, offsets: Number) -> Result<Variable<'a>,
         dimensions.push(header.size(Number::U32)?);
     }
     let conversion = Conversion::new(list(header, ATTRIBUTES, attribute)?);
-    // The values of text are never read.
+    // The values of a text variable are never read, so its type does not matter.
     let number = number_type(header)?.unwrap_or(Number::U8);
-    // Bytes of the values, which follow from the dimensions.
+    // Skips the size of the values in bytes, which also follows from the dimensions.
     header.take(4)?;
     let begin = header.size(offsets)?;
     Ok(Variable {

@@ -14,9 +14,10 @@ use asperity_data::{SIGNATURE, emptied, shown};
 
 const FORMAT: &str = "NumPy array";
 
-/// Place of the header in a file of version 1.
+/// Place of the header for messages: its offset in a file of version 1.
 const HEADER: Place = Place::Byte(10);
 
+/// Reads a profile or a map from an array, see the documentation of this module.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let (header, mut data) = Header::read(bytes)?;
     if header.is_profile() {
@@ -45,7 +46,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Creates heights without units and distances.
+/// Creates a surface without units and distances.
 fn even(heights: Vec<f64>, columns: usize) -> Reading {
     Reading::even(FORMAT, heights, columns, None, StatedUnits::default())
 }
@@ -61,7 +62,7 @@ pub fn columns(bytes: &[u8]) -> Result<(Vec<String>, Vec<Vec<f64>>), SurfaceErro
     Ok((names, columns))
 }
 
-/// A field of the points of an array.
+/// A field of the elements of an array.
 struct Field {
     /// Name of the field; empty in an array of plain numbers.
     name: String,
@@ -69,7 +70,7 @@ struct Field {
 }
 
 struct Header {
-    /// Fields of a point; a single one in an array of plain numbers.
+    /// Fields of each element; an array of plain numbers has a single field.
     fields: Vec<Field>,
     order: Order,
     is_column_major: bool,
@@ -95,7 +96,7 @@ impl Header {
         Ok((header, data))
     }
 
-    /// Returns true for points of two fields, or of two numbers.
+    /// Returns true for elements with two fields, and for an array of n × 2 numbers.
     fn is_profile(&self) -> bool {
         self.fields.len() == 2 || matches!(self.shape[..], [2..=usize::MAX, 2])
     }
@@ -108,7 +109,7 @@ impl Header {
         points
     }
 
-    /// Returns the columns of the array: the fields of the points, or the shorter of two axes.
+    /// Returns the columns of the array: its fields, or the shorter of its two axes.
     fn columns(&self, data: Bytes<'_>) -> Result<Vec<Vec<f64>>, SurfaceError> {
         match (&self.fields[..], &self.shape[..]) {
             ([field], &[rows, columns]) => self.columns_of_axes(data, field, rows, columns),
@@ -117,6 +118,8 @@ impl Header {
         }
     }
 
+    /// Returns the columns of an array with two axes. The shorter axis counts the columns, so an
+    /// array of two long rows has two columns.
     fn columns_of_axes(
         &self,
         mut data: Bytes<'_>,
@@ -125,7 +128,7 @@ impl Header {
         columns: usize,
     ) -> Result<Vec<Vec<f64>>, SurfaceError> {
         let values = data.numbers(self.points(), field.number)?;
-        // Differences of indices from row to row, and from column to column.
+        // Steps of the index in `values` from row to row and from column to column.
         let mut row_step = columns;
         let mut column_step = 1;
         if self.is_column_major {
@@ -194,7 +197,7 @@ impl<'a> HeaderText<'a> {
         Ok(Header {
             fields,
             order,
-            // A list of points with fields has one axis and no order of axes.
+            // An array with fields has a single axis, so the order of axes means nothing.
             is_column_major: is_column_major && !has_fields,
             shape,
         })
@@ -211,7 +214,8 @@ impl<'a> HeaderText<'a> {
         }
     }
 
-    /// Reads the fields of a point, and the order of their bytes, which is the same for all.
+    /// Reads the fields of an element, and the order of the bytes, which has to be the same for all
+    /// fields.
     fn fields(&self, descr: &str, has_fields: bool) -> Result<(Vec<Field>, Order), SurfaceError> {
         let types = if has_fields {
             field_types(descr).ok_or_else(|| self.wrong("fields that are not understood"))?
@@ -332,7 +336,7 @@ mod tests {
 
     #[test]
     fn numbers_have_any_order_of_bytes_and_fields_of_points_are_positions_and_heights() {
-        // 1.0 and -2.0 of 16 bits.
+        // The bytes are 1.0 and −2.0 as numbers of 16 bits.
         for (descr, bytes) in [("'>f2'", [0x3c, 0, 0xc0, 0]), ("'<f2'", [0, 0x3c, 0, 0xc0])] {
             assert_eq!(
                 read(&array(descr, false, "(2,)", &bytes)).unwrap().heights,

@@ -17,6 +17,7 @@ use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::path::Path;
 
+/// First bytes of a file that is compressed by gzip.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 /// A binary format that is known by its first bytes.
@@ -25,11 +26,10 @@ struct BinaryFormat {
     reader: Reader,
 }
 
-/// Reader of a format.
 enum Reader {
-    /// Of a format with one surface, without a name.
+    /// Reader of a format whose files hold a single surface without a name.
     Single(fn(&[u8]) -> Result<Reading, SurfaceError>),
-    /// Of a format with channels.
+    /// Reader of a format whose files hold several channels, of which one is chosen.
     Channels(fn(&[u8], Wanted<'_>) -> Result<Reading, SurfaceError>),
 }
 
@@ -61,7 +61,8 @@ const fn with_channels(
     BinaryFormat { signature, reader }
 }
 
-/// All other formats except SDF, waves of Igor and archives are text.
+/// Binary formats with their first bytes. Any other file is SDF, a wave of Igor, an archive or
+/// text.
 const BINARY_FORMATS: [BinaryFormat; 15] = [
     single(asperity_data::SIGNATURE, npy::read),
     single(gsf::SIGNATURE, gsf::read),
@@ -127,8 +128,8 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Topography, SurfaceE
     Err(refused(Place::File, found, "one").with(Remedy::SurfaceName))
 }
 
-/// Reads a surface from the content of a file. From a container it reads all measurements of a
-/// surface.
+/// Reads a surface from the content of a file. If the file is a container, all measurements of a
+/// surface in it are read.
 pub fn parse_all(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>, SurfaceError> {
     if bytes.starts_with(ZIP) {
         return parse_archive(bytes, options);
@@ -155,8 +156,8 @@ fn parse_archive(bytes: &[u8], options: &ReadOptions) -> Result<Vec<Topography>,
     parse_measurements(archive, measurements, options)
 }
 
-/// Reads the measurements of a surface in a container. Those that cannot be read are left out with
-/// a warning, unless none can be read.
+/// Reads the measurements of a surface in a container. A measurement that cannot be read is left
+/// out with a warning. It is an error if no measurement can be read.
 fn parse_measurements(
     mut archive: Archive<'_>,
     measurements: Vec<Measurement>,
@@ -178,7 +179,8 @@ fn parse_measurements(
                 continue;
             }
         };
-        // What the options can supply, such as a unit, is asked for and not left out.
+        // A missing unit, distance or height is an error, and not a reason to leave the measurement
+        // out, because an option can supply it.
         let mut surface = reading.resolve_part(&options).map_err(within)?;
         surface.warnings.extend(measurement.tip_radius());
         surface.detrend = measurement.detrend();
@@ -232,8 +234,7 @@ fn check_unnamed(options: &ReadOptions) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed).with(Remedy::NoSurfaceName))
 }
 
-/// Returns the content of a file whose bytes are given. The bytes are decompressed if the file is
-/// compressed by gzip.
+/// Returns the bytes of a file, decompressed if the file is compressed by gzip.
 pub fn unpacked(bytes: &[u8]) -> Result<Cow<'_, [u8]>, SurfaceError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes.into());
@@ -277,7 +278,8 @@ mod tests {
         }
     }
 
-    /// A file of the inputs of fuzzing, with some bytes replaced where they occur first.
+    /// Returns a file of the seeds for fuzzing, with the first occurrence of the bytes `from`
+    /// replaced by `to`.
     fn file(name: &str, from: &[u8], to: &[u8]) -> Vec<u8> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
             .join("../../fuzz/seeds/surface")
@@ -290,7 +292,7 @@ mod tests {
         [&content[..at], to, &content[at + from.len()..]].concat()
     }
 
-    /// Options that suit a file without units and distances.
+    /// Returns the options with which a seed without units or distances can be read.
     fn bare(name: &str) -> ReadOptions {
         let has_no_unit = name.ends_with(".npy") || name == "no-data.xyz";
         let unit = has_no_unit.then_some(Unit::METRE);
@@ -326,10 +328,10 @@ mod tests {
         let read = |name: &str, from: &[u8], to: &[u8], options: &ReadOptions| {
             parse(&file(name, from, to), options).unwrap()
         };
-        // µm in an MS-DOS code page.
+        // µm may be written in an MS-DOS code page.
         let micrometres = read("plain.sur", b"um", b"\xe6m", &bare(""));
         assert_eq!(micrometres, read("plain.sur", b"", b"", &bare("")));
-        // Rows along x become rows along y.
+        // The order of the dimensions is exchanged, so that rows along x become rows along y.
         let (along_x, along_y) = (
             &b"heights\0\0\0\0\x02\0\0\0\0\0\0\0\x01"[..],
             &b"heights\0\0\0\0\x02\0\0\0\x01\0\0\0\0"[..],
@@ -343,7 +345,8 @@ mod tests {
             (turned.heights[1], turned.heights[6]),
             (straight.heights[4], straight.heights[1])
         );
-        // SurfaceTopography states beside x whether the surface is periodic.
+        // The program SurfaceTopography states in an attribute of x whether the surface is
+        // periodic.
         assert!(!straight.periodic);
         let stated = |number: u8| {
             let mut attribute = b"9Q\xb7\x17\0\0\0\x08periodic\0\0\0\x04\0\0\0\x01\0\0\0".to_vec();
@@ -466,7 +469,7 @@ mod tests {
             writeln!(errors, "{name}, {}: {error}", to.escape_ascii()).unwrap();
         }
         insta::assert_snapshot!(errors);
-        // What is missing at the end is missed at a place.
+        // A file that is cut off is refused with the offset at which bytes are missing.
         for name in ["map.gwy", "map.nc", "compressed.sur", "binary.sdf"] {
             let whole = file(name, b"", b"");
             for end in 13..whole.len() {
@@ -542,7 +545,7 @@ mod tests {
         let path = folder.path().join("profile");
         let error = read(folder.path(), &metres()).unwrap_err().to_string();
         assert!(error.contains("this is a folder"), "{error}");
-        // A sparse file takes no room on the disk.
+        // The file is sparse, so it takes no room on the disk.
         std::fs::File::create(&path)
             .unwrap()
             .set_len(MOST_BYTES as u64 + 1)
@@ -648,7 +651,7 @@ mod tests {
             (3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0][..])
         );
         assert_eq!((found.cropped.counts(), found.interpolated()), ([2, 3], 0));
-        // Rows, columns and points keep their numbers.
+        // Rows, columns and points keep the numbers that they have in the file.
         let (row, column) = (
             read(map, Some(Cut::Row(3))).unwrap(),
             read(map, Some(Cut::Column(2))).unwrap(),
@@ -675,7 +678,7 @@ mod tests {
             (profile.cropped.counts(), profile.into_profile()),
             ([2, 0], Ok((vec![1.0, 2.0, 3.0], vec![5.0, 6.0, 4.0])))
         );
-        // A single measured row is no profile.
+        // A map with a single measured row does not become a profile.
         let error = read("nan nan nan nan\n1 2 3 4\nnan nan nan nan\n", None).unwrap_err();
         assert!(error.contains("8 of 12 points are missing"), "{error}");
     }

@@ -3,7 +3,7 @@
 use super::cut::Cut;
 use super::unit::Unit;
 
-/// Options for reading a surface: units and distances that a file may omit, the part of the file to
+/// Options for reading a surface: units and distances that a file may lack, the part of the file to
 /// read, and corrections of the heights.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {

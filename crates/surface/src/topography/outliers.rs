@@ -1,28 +1,31 @@
-//! Corrections of heights by medians: removal of outliers, which are heights far from the heights
-//! around them, such as spikes of an instrument and grains of dust, and levelling of rows.
+//! Corrections of heights by medians. Outliers are removed: heights far from the heights around
+//! them, such as spikes of an instrument and grains of dust. Rows are levelled.
 
 use asperity_data::{OutOfMemory, gathered, median};
 
-/// Number of points on either side, along each axis, with which a point is compared.
+/// Number of points on either side, along each axis, with whose heights the height of a point is
+/// compared.
 const REACH: usize = 2;
 
-/// Smallest distance of an outlier from the median around it, in standard deviations of these
-/// distances.
+/// Smallest distance of an outlier from the median of the heights around it, divided by the
+/// standard deviation of such distances.
 const FAR: f64 = 4.0;
 
-/// Standard deviation over median absolute deviation of the normal distribution.
+/// Ratio of the standard deviation to the median absolute deviation, for the normal distribution.
 const PER_MEDIAN_DEVIATION: f64 = 1.482_602_218_505_602;
 
 /// Marks outliers in rows of `columns` points as missing (NaN), by the identifier of Hampel, and
-/// returns their number. The distance of an outlier from the median of the points around it exceeds
-/// [`FAR`] standard deviations, which follow from the median of all distances. The tilt of the
-/// surface is allowed for, also at borders, where one side has fewer points.
+/// returns their number. A height is an outlier if its distance from the median of the heights
+/// around it exceeds [`FAR`] standard deviations. The standard deviation follows from the median of
+/// all these distances. A tilt of the surface does not change the result, also not at borders,
+/// where one side has fewer points.
 pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usize, OutOfMemory> {
     let distances = LevelledMap::new(heights, columns)?.distances()?;
     let known = || distances.iter().filter(|distance| distance.is_finite());
     let mut sizes = gathered(known().count(), known().map(|distance| distance.abs()))?;
     let most = FAR * PER_MEDIAN_DEVIATION * median(&mut sizes).unwrap_or(0.0);
-    // Where most distances are zero, as between few digits, nothing is known of their spread.
+    // If most distances are zero, as for heights with few digits, the standard deviation of the
+    // distances is unknown.
     if most <= 0.0 {
         return Ok(0);
     }
@@ -36,7 +39,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], columns: usize) -> Result<usi
     Ok(count)
 }
 
-/// Heights in rows, and their tilt.
+/// Heights in rows, and the tilt of the surface.
 struct LevelledMap<'a> {
     heights: &'a [f64],
     columns: usize,
@@ -77,14 +80,15 @@ impl<'a> LevelledMap<'a> {
             self.collect_around(index, &mut around);
             match median(&mut around) {
                 Some(median) => self.level(index) - median,
-                // A corner has no points around it.
+                // A corner has no points on both sides, so nothing is compared with it.
                 None => 0.0,
             }
         });
         gathered(self.heights.len(), distances)
     }
 
-    /// Collects the levelled heights around a point, as many on either side.
+    /// Collects the levelled heights around a point. Along each axis it takes equal numbers of
+    /// points on both sides, so that a remaining tilt does not change the median.
     fn collect_around(&self, index: usize, around: &mut Vec<f64>) {
         let row = index / self.columns;
         let column = index % self.columns;
@@ -103,7 +107,8 @@ impl<'a> LevelledMap<'a> {
     }
 }
 
-/// Returns the number of points on either side of a place with which it is compared.
+/// Returns the number of points on either side of a place, out of `count` places, with which the
+/// place is compared.
 fn reach(place: usize, count: usize) -> usize {
     REACH.min(place).min(count - 1 - place)
 }

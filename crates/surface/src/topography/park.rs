@@ -13,14 +13,14 @@ use crate::error::{SurfaceError, refused};
 /// Number that marks a file of Park.
 const MARK: f64 = 235_082_497.0;
 
-/// Version from which on the header states the type of the heights, which are integers of 16 bits
-/// before.
+/// Version from which on the header states the type of the heights. In earlier versions the heights
+/// are integers of 16 bits.
 const WITH_TYPE: f64 = 16_777_218.0;
 
 /// Unit of the size of the scan.
 const MICROMETRE: &str = "µm";
 
-/// Tags of Park.
+/// Numbers of the tags that Park Systems uses in TIFF.
 mod tag {
     pub const MARK: u16 = 50_432;
     pub const VERSION: u16 = 50_433;
@@ -28,7 +28,7 @@ mod tag {
     pub const HEADER: u16 = 50_435;
 }
 
-/// Offsets of the fields of the header.
+/// Offsets in bytes of the fields of the header.
 mod field {
     pub const NAME: usize = 4;
     pub const COLUMNS: usize = 100;
@@ -38,8 +38,9 @@ mod field {
     pub const TYPE: usize = 348;
 }
 
-/// Number of letters, of two bytes each, of the name of the channel and of the unit.
+/// Number of letters of the name of the channel. Each letter has two bytes.
 const NAME_LETTERS: usize = 32;
+/// Number of letters of the unit. Each letter has two bytes.
 const UNIT_LETTERS: usize = 8;
 
 /// Returns true for the directories of a file of Park.
@@ -49,7 +50,7 @@ pub(super) fn is_park(directories: &[Directory<'_>]) -> bool {
         .is_some_and(|first| matches!(first.number(tag::MARK), Ok(Some(MARK))))
 }
 
-/// Reads the only channel, which may be asked for by its name.
+/// Reads the only channel of the file. Returns an error if the options ask for another channel.
 pub(super) fn read(
     directories: &[Directory<'_>],
     wanted: Wanted<'_>,
@@ -120,7 +121,7 @@ struct Header {
     scale: f64,
     offset: f64,
     unit: String,
-    /// Number of the type of the heights; `None` in a shorter header.
+    /// Code of the type of the heights; `None` if the header is too short to have it.
     kind: Option<f64>,
 }
 
@@ -145,7 +146,7 @@ impl Header {
             rows: counts.size(Number::U32)?,
             size: at(field::SIZE)?.array(Number::F64)?,
             gain,
-            // A scale of 0 is none.
+            // A scale of 0 means that the file states no scale.
             scale: if scale == 0.0 { 1.0 } else { scale },
             offset,
             unit: text(at(field::UNIT)?, UNIT_LETTERS)?,
@@ -180,7 +181,7 @@ impl Header {
     }
 }
 
-/// Returns a text of two bytes for each letter, up to a zero.
+/// Returns a text of at most `letters` letters of two bytes each, up to the first zero.
 fn text(mut bytes: Bytes<'_>, letters: usize) -> Result<String, SurfaceError> {
     let letters = bytes.numbers(letters, Number::U16)?;
     let letters = letters.iter().map(|letter| *letter as u16);
@@ -199,8 +200,9 @@ pub(super) mod tests {
         order: Order::Little,
     };
 
-    /// A file of 3 × 2 heights on 6 µm × 2 µm, of integers of 16 bits (0), of 32 bits (1) or of real
-    /// numbers (2), with a header of a length that suits the version.
+    /// Returns a file of 3 × 2 heights on 6 µm × 2 µm. The heights are integers of 16 bits (`kind`
+    /// 0), integers of 32 bits (1) or real numbers (2). The length of the header is that of the
+    /// version.
     pub fn file(version: u32, kind: u32, unit: &str) -> Vec<u8> {
         let mut header = vec![0; if version == 16_777_217 { 356 } else { 580 }];
         let mut put = |offset: usize, bytes: &[u8]| {
@@ -244,7 +246,7 @@ pub(super) mod tests {
 
     #[test]
     fn heights_follow_from_gain_scale_and_offset() {
-        // The last row of the file is the upper one.
+        // The last row of the file is the upper row of the map.
         let upper_first = [40.0, 50.0, 60.0, 1.0, -2.0, 3.0];
         let expected = upper_first.map(|number| 0.5 * (number * 0.25 + 10.0));
         for (version, kind) in [

@@ -2,15 +2,16 @@
 
 use asperity_data::between;
 
-/// Largest allowed position and height in m, and largest slope between neighbours. Beyond them,
-/// lengths and mean squares could overflow.
+/// Largest allowed magnitude of a position and a height in m, and of a slope between neighbouring
+/// points. With larger values, lengths and mean squares could overflow.
 pub(super) const LARGEST: f64 = 1.0e9;
 
-/// Share of the spacing by which points of an even grid may be displaced because of rounding.
+/// Largest displacement of a point from its place on an even grid that counts as rounding, as a
+/// share of the spacing.
 pub(crate) const UNEVEN: f64 = 1.0e-3;
 
-/// Returns the index of the first position that lies off the even grid with this first position (m)
-/// and distance (m).
+/// Returns the index of the first position that does not lie on the even grid with the first
+/// position `first` in m and the spacing `distance` in m; `None` if all positions lie on the grid.
 pub(crate) fn first_uneven(positions: &[f64], first: f64, distance: f64) -> Option<usize> {
     let most = UNEVEN * distance.abs();
     let is_even = |index: usize, position: f64| {
@@ -26,8 +27,8 @@ pub(super) fn mean_distance(positions: &[f64]) -> f64 {
 }
 
 /// Returns the heights above `level` (m) at ascending places (m), by linear interpolation between
-/// at least two points. At a point it is its own height, bit for bit. Beyond the first and the last
-/// point it is the height of that point.
+/// at least two points. At a point the result is exactly the height of the point. Beyond the first
+/// and the last point it is the height of this point.
 pub(crate) fn interpolated(
     positions: &[f64],
     heights: &[f64],

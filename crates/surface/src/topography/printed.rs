@@ -4,17 +4,18 @@ use super::positions::first_uneven;
 use crate::error::SurfaceError;
 use asperity_data::gathered;
 
-/// Smallest number of positions whose digits show an even grid. Fewer may be uneven by intention.
+/// Smallest number of positions that are moved onto an even grid. Fewer positions may be uneven by
+/// intention.
 const LEAST_PRINTED: usize = 32;
 
-/// Relative difference between the distance of points and the last printed digit below which a
-/// missing point looks like a rounded distance.
+/// Largest relative difference between the distance of points and the last printed digit at which
+/// the positions are left unchanged, because a missing point then looks like a rounded distance.
 const LIKE_DIGIT: f64 = 0.1;
 
-/// Limit of the number of cuts in the search for an even grid.
+/// Largest number of times that the search for an even grid narrows the range of distances.
 const MOST_CUTS: usize = 64;
 
-/// Largest exponent of a printed number that is counted.
+/// Largest magnitude of the exponent of a printed number that is taken into account.
 const LARGEST_EXPONENT: i32 = 400;
 
 /// Digits with which the numbers of a column are printed: the largest numbers of decimals and of
@@ -31,7 +32,7 @@ impl Digits {
         significant: 15,
     };
 
-    /// Creates the digits of numbers with at most this many of them.
+    /// Creates the digits for numbers with at most this many decimals and significant digits.
     #[cfg(test)]
     pub fn at_most(decimals: i32, significant: i32) -> Digits {
         Digits {
@@ -51,7 +52,7 @@ impl Digits {
                     decimals += i32::from(is_after_mark);
                     significant += i32::from(byte != b'0' || significant > 0);
                 }
-                // The last mark is the decimal mark: marks before it separate thousands.
+                // The last point or comma is the decimal mark. Others before it separate thousands.
                 b'.' | b',' => {
                     is_after_mark = true;
                     decimals = 0;
@@ -69,7 +70,8 @@ impl Digits {
         self.significant = self.significant.max(significant);
     }
 
-    /// Returns half of the last printed digit of a number, plus some rounding errors.
+    /// Returns the largest error of a printed number: half a unit of its last digit, plus some
+    /// rounding errors of floating-point numbers.
     pub fn half(self, value: f64) -> f64 {
         let digits_before_mark = if value == 0.0 {
             i32::MIN / 2
@@ -95,17 +97,17 @@ pub(super) struct Grid {
     pub distance: f64,
 }
 
-/// A bound of the first position of a grid with a given distance.
+/// A bound for the first position of a grid with a given distance between points.
 struct Bound {
     first: f64,
-    /// Number of the point that gives the bound.
+    /// Number of the point from which the bound follows.
     number: f64,
-    /// Bound of the position of this point.
+    /// Bound for the exact position of this point.
     position: f64,
 }
 
 impl Bound {
-    /// Creates a bound that no point gives.
+    /// Creates a bound that follows from no point.
     fn unknown(first: f64) -> Self {
         Bound {
             first,
@@ -122,6 +124,8 @@ struct Bounds {
 }
 
 impl Bounds {
+    /// Computes the bounds that the printed digits of all points set for the first position of a
+    /// grid with the spacing `distance`.
     fn new(points: &[GridPoint], digits: Digits, distance: f64) -> Self {
         let mut bounds = Bounds {
             lower: Bound::unknown(f64::NEG_INFINITY),
@@ -180,7 +184,8 @@ pub(super) fn printed_grid(points: &[GridPoint], digits: Digits) -> Option<Grid>
                 distance,
             });
         }
-        // The two points of the bounds agree only with distances on one side of this one.
+        // The two points that give the bounds agree only with distances that are larger, or only
+        // with distances that are smaller, than the distance that was tried.
         let bound = (lower.position - upper.position) / (lower.number - upper.number);
         if lower.number > upper.number {
             low = low.max(bound);
@@ -194,8 +199,8 @@ pub(super) fn printed_grid(points: &[GridPoint], digits: Digits) -> Option<Grid>
     None
 }
 
-/// Moves positions onto an even grid if that changes none by more than its printed digits.
-/// Otherwise they remain unchanged.
+/// Moves positions onto an even grid if each position changes by no more than its last printed
+/// digit allows. Otherwise the positions remain unchanged.
 pub(super) fn move_to_printed_grid(
     positions: &mut [f64],
     digits: Digits,
@@ -284,12 +289,12 @@ mod tests {
                     .all(|(one, other)| (one - other).abs() <= half)
             );
         }
-        // Really uneven, or few.
+        // Positions remain unchanged if they are really uneven or few.
         let (before, digits) = printed(&|i| f64::from(i) + f64::from(i * i % 7) * 0.03, 2);
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();
         assert_eq!(positions, before);
-        // A point is missing.
+        // If a point is missing, the positions remain unchanged.
         let (before, digits) = printed(&|i| f64::from(i + u32::from(i > 70)), 0);
         let mut positions = before.clone();
         move_to_printed_grid(&mut positions, digits).unwrap();

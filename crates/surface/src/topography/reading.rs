@@ -10,18 +10,19 @@ pub(super) struct Reading {
     pub format: &'static str,
     /// Heights row by row; a missing point is not finite.
     pub heights: Vec<f64>,
-    /// Number of points of a row, or of all points for a profile.
+    /// Number of points in a row; for a profile, the number of all points.
     pub columns: usize,
     /// Positions of a profile, ascending; `None` for evenly spaced points.
     pub positions: Option<Vec<f64>>,
     /// Distances of evenly spaced points along and between rows, if the file states them.
     pub spacing: Option<[f64; 2]>,
     pub units: StatedUnits,
-    /// Place of the first missing point, if the reader can name it better than by its number.
+    /// Place of the first missing point, if the reader knows more of it than the number of the
+    /// point, such as its line.
     pub first_missing: Option<Place>,
     /// True if the file states that the surface is periodic at its borders.
     pub periodic: bool,
-    /// Messages about oddities of the file.
+    /// Messages for the user about something unusual in the file.
     pub warnings: Vec<Note>,
 }
 
@@ -58,8 +59,8 @@ impl Reading {
         reading
     }
 
-    /// Creates a profile at positions in the order of the file. A profile scanned backwards is
-    /// reversed.
+    /// Creates a profile from positions and heights in the order of the file. If the positions
+    /// descend, the order is reversed.
     pub fn profile(
         format: &'static str,
         mut positions: Vec<f64>,

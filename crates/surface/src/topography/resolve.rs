@@ -16,8 +16,8 @@ use std::ops::Range;
 pub(super) const MOST_POINTS: usize = 1 << 28;
 
 impl Reading {
-    /// Converts heights and positions to m, and returns the surface or the row or column of it that
-    /// the options choose.
+    /// Converts heights and positions to m. Returns the surface, or the row or column that the
+    /// options choose.
     pub fn resolve_part(self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         let mut surface = self.resolve(options)?;
         if let Some(cut) = options.cut {
@@ -30,7 +30,8 @@ impl Reading {
         }
     }
 
-    /// Converts heights and positions to m.
+    /// Converts heights and positions to m, corrects the heights as the options demand, and returns
+    /// the whole surface.
     pub fn resolve(mut self, options: &ReadOptions) -> Result<Topography, SurfaceError> {
         check_points(self.heights.len())?;
         let units = Units::new(self.units, self.positions.is_some(), options);
@@ -90,7 +91,7 @@ impl Reading {
         let rows = self.heights.len() / columns;
         let [across, down] = missing::measured_part(&self.heights, columns);
         let is_whole = across.len() * down.len() == self.heights.len();
-        // A map stays a map.
+        // A map with at least two rows and two columns must keep two of each.
         let is_too_narrow = |part: &Range<usize>, count: usize| part.len() < count.min(2);
         if is_whole || is_too_narrow(&across, columns) || is_too_narrow(&down, rows) {
             return Cropped::default();
@@ -107,7 +108,8 @@ impl Reading {
             positions.drain(..across.start);
         }
         self.columns = across.len();
-        // A line of the file may be the line of a point that is left out.
+        // The first missing point may be one of those that are left out, so its place is no longer
+        // valid.
         self.first_missing = None;
         Cropped {
             before: [across.start, down.start],
@@ -115,8 +117,8 @@ impl Reading {
         }
     }
 
-    /// Returns true if points are missing. Returns an error if they are part of what is read and
-    /// are not to be interpolated.
+    /// Returns true if points are missing. Returns an error if missing points are in the part that
+    /// is read, and the options do not interpolate them.
     fn has_missing(&self, cropped: &Cropped, options: &ReadOptions) -> Result<bool, SurfaceError> {
         let points = self.heights.len();
         let missing = missing::count(&self.heights);
@@ -137,7 +139,8 @@ impl Reading {
         })
     }
 
-    /// Returns true for a point of the row or column that is read.
+    /// Returns true for a point of the row or the column that the options choose; for all points if
+    /// they choose none.
     fn is_read(&self, index: usize, cropped: &Cropped, cut: Option<Cut>) -> bool {
         let [columns_before, rows_before] = cropped.before;
         let column = index % self.columns + columns_before + 1;
@@ -164,8 +167,8 @@ impl Reading {
         Ok(Layout::Positions(positions))
     }
 
-    /// Returns the distance in m of evenly spaced points along (0) or between (1) the rows: as the
-    /// file states, else as the options state.
+    /// Returns the distance in m between evenly spaced points along the rows (`axis` 0), or between
+    /// the rows (1). It is the distance in the file, or else the distance of the options.
     fn distance(
         &self,
         axis: usize,
@@ -193,7 +196,8 @@ fn check_points(points: usize) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns an error if a length (m) for which `counts` is true exceeds [`LARGEST`].
+/// Returns an error if a length (m) exceeds [`LARGEST`]. Only lengths for which `counts` is true
+/// are checked.
 fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(), SurfaceError> {
     let is_beyond = |length: &f64| counts(*length) && (length.is_nan() || length.abs() > LARGEST);
     let Some(index) = lengths.iter().position(is_beyond) else {
@@ -207,7 +211,8 @@ fn check_range(name: &str, lengths: &[f64], counts: fn(f64) -> bool) -> Result<(
 fn check_positions(positions: &[f64]) -> Result<(), SurfaceError> {
     check_range("position", positions, |_| true)?;
     for (index, pair) in positions.windows(2).enumerate() {
-        // Units divide, and neighbours closer than the last digit coincide.
+        // The conversion of units is a division, after which two neighbours may be equal if they
+        // differed only in the last bit.
         if pair[0] >= pair[1] {
             let found = format!("x = {:e} m after {:e} m", pair[1], pair[0]);
             let allowed = "positions that ascend, or descend";

@@ -14,7 +14,8 @@ use std::ops::RangeInclusive;
 struct HeightType {
     name_in_bcr: &'static str,
     number: Number,
-    /// Smallest and largest value, for real numbers to the digits that texts have.
+    /// Smallest value of the type. For real numbers, the smallest and the largest value have only
+    /// the digits that texts have.
     smallest: f64,
     largest: f64,
 }
@@ -53,11 +54,11 @@ const UTF_8_MARK: &[u8] = b"\xef\xbb\xbf";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
-    /// BCR, the proposal of 1993.
+    /// BCR, the predecessor of the standard, proposed in 1993.
     Bcr,
-    /// ISO 25178-71, also its draft.
+    /// ISO 25178-71 and its draft.
     Iso1,
-    /// ISO 25178-71 from 2017 on, with larger maps.
+    /// ISO 25178-71 from 2017 on, which has 32-bit numbers of points and so allows larger maps.
     Iso2,
 }
 
@@ -76,7 +77,7 @@ pub(super) fn is_sdf(bytes: &[u8]) -> bool {
 }
 
 /// Returns true for the name of an institute and a version, as in `NIST-1.0` and `NPL-V1.0`.
-/// Institutes write the version of BCR under names of their own.
+/// Institutes write files of the version BCR, but with their own name.
 fn is_of_institute(version: &[u8]) -> bool {
     let head = &version[..version.len().min(LONGEST_NAME + 1)];
     let Some(letters) = head.iter().position(|byte| *byte == b'-') else {
@@ -122,13 +123,13 @@ fn version(name: &[u8]) -> Result<Version, SurfaceError> {
     }
 }
 
-/// Size of a map, and lengths of its numbers.
+/// Size of a map, the distances of its points, and the unit of its numbers.
 struct Layout {
     columns: usize,
     rows: usize,
     /// Distances along and between rows in m.
     spacing: [f64; 2],
-    /// Unit of the heights in m.
+    /// Height in m that a number 1 in the file means.
     unit: f64,
 }
 
@@ -157,10 +158,11 @@ fn height_type_named(name: &str, place: Place) -> Result<HeightType, SurfaceErro
 }
 
 impl HeightType {
-    /// Returns the range of heights that mark missing points. It is around the smallest value in
-    /// ISO, around the largest one in BCR and in types without negative values.
+    /// Returns the range of heights that mark missing points. In ISO this is the smallest value of
+    /// the type, and in BCR and for types without negative values the largest value.
     fn missing(&self, version: Version) -> RangeInclusive<f64> {
-        // Texts round the largest and the smallest real number to few digits.
+        // A text rounds the largest and the smallest real number to few digits, so any real number
+        // beyond the limit is a mark too.
         let is_real = matches!(self.number, Number::F32 | Number::F64);
         let reach = if is_real { f64::INFINITY } else { 0.0 };
         if version == Version::Bcr || self.smallest == 0.0 {
@@ -197,7 +199,7 @@ fn read_text(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     };
     let missing = match entries.value("DataType") {
         Some(value) => height_type_named(value.text, value.place)?.missing(version),
-        // Nothing but BAD, since no height is infinite.
+        // Without a type of heights only the word BAD marks a missing point: no height is infinite.
         None => f64::INFINITY..=f64::INFINITY,
     };
     let heights = heights(lines, layout.points(), &missing)?;
@@ -225,13 +227,13 @@ fn entries<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<KeyValues, 
     Err(refused(Place::File, "a header without an end", allowed))
 }
 
-/// Heights of the text form, in its integer or real steps.
+/// Heights of the text form, before multiplication by the scale of the header.
 struct TextHeights {
     values: Vec<f64>,
     first_missing: Option<Place>,
 }
 
-/// Reads the heights up to `*`, which are to be as many as `points`.
+/// Reads the heights up to `*`. Returns an error unless there are `points` heights.
 fn heights<'a>(
     lines: impl Iterator<Item = Line<'a>>,
     points: usize,
@@ -276,7 +278,7 @@ fn heights<'a>(
 /// Reads the binary form, little-endian.
 fn read_binary(bytes: &[u8], version: Version) -> Result<Reading, SurfaceError> {
     let mut data = Bytes::new(bytes, Order::Little);
-    // Version, manufacturer, dates.
+    // Skips the fields of the version, the manufacturer and two dates.
     data.take(8 + 10 + 12 + 12)?;
     let count = if version == Version::Iso2 {
         Number::U32
@@ -377,7 +379,7 @@ mod tests {
             assert_eq!(found(content.as_bytes()), Ok(expected.clone()), "{name}");
         }
         let heights = [1_i16, 2, 3, 4, 5, 6].map(i16::to_le_bytes).concat();
-        // The field of the version has 8 bytes.
+        // The names are filled up to 8 bytes, the size of the field of the version.
         for name in ["NPL-1.0", "BC-1.0 "] {
             let content = binary(name, 5, &heights);
             assert!(is_sdf(&content), "{name}");

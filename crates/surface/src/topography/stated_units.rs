@@ -1,5 +1,5 @@
-//! Units of positions and heights: what the file states, else what the user states, else a
-//! convention.
+//! Units of positions and heights. The unit that the file states is used; if there is none, the
+//! unit of the options; if there is none either, the unit of a convention.
 
 use super::options::ReadOptions;
 use super::unit::Unit;
@@ -32,30 +32,32 @@ impl StatedUnits {
     }
 }
 
-/// The units of a file and the units of the options, from which each quantity has one.
+/// The units that a file and the options state, from which the unit of each quantity is chosen.
 pub(super) struct Units<'a> {
     stated: StatedUnits,
     options: &'a ReadOptions,
-    /// Unit of the options that applies to positions whose unit the file states. Another one than
-    /// the file states is an error.
+    /// Unit of the options that is compared with the unit of the positions in the file. It is an
+    /// error if both differ. `None` if the option is not meant for the positions.
     option_of_positions: Option<Unit>,
-    /// Unit of the options that applies to the heights.
+    /// Unit of the options that is used for the heights, or compared with their unit in the file.
+    /// `None` if no option is meant for the heights.
     option_of_heights: Option<Unit>,
 }
 
 impl<'a> Units<'a> {
-    /// Decides which of the options apply to what the file states. `has_positions` is true for a
-    /// profile with a position of each point.
+    /// Decides for which quantities the units of the options are meant. `has_positions` is true for
+    /// a profile with a position for each point.
     pub fn new(stated: StatedUnits, has_positions: bool, options: &'a ReadOptions) -> Self {
         let mut option_of_positions = options.unit;
         let mut option_of_heights = options.height_unit.or(options.unit);
         if options.height_unit.is_none() {
-            // An option for what the file does not state contradicts nothing that it states.
+            // If the file states only one of the two units, the option is meant for the other
+            // quantity, and is not compared with the stated unit.
             match (stated.along, stated.heights) {
                 (None, Some(_)) => option_of_heights = None,
                 (Some(_), None) => option_of_positions = None,
-                // Distances of a grid are lengths, such as 500 nm, whatever the unit of the
-                // heights is.
+                // The distance of the points of a grid is a single length, such as 500 nm. Its unit
+                // may differ from the unit of the heights, for which the option is then meant.
                 (Some(_), Some(unit)) => {
                     if !has_positions && options.unit == Some(unit) {
                         option_of_positions = None;
@@ -97,8 +99,8 @@ impl<'a> Units<'a> {
         unit.ok_or_else(|| no_unit(name, None))
     }
 
-    /// Returns the unit of a quantity: as the file states, else as the options state, else by
-    /// convention.
+    /// Returns the unit of a quantity: the unit in the file, or else the unit of the options, or
+    /// else the unit of the convention.
     fn chosen(
         &self,
         name: &str,
@@ -117,8 +119,8 @@ impl<'a> Units<'a> {
     }
 }
 
-/// Returns the error of a quantity without a unit. `of_positions` is a unit that the file states
-/// for the positions alone.
+/// Returns the error for a quantity without a unit. `of_positions` is the unit of the positions, if
+/// the file states this unit but none for the heights.
 fn no_unit(quantity: &'static str, of_positions: Option<Unit>) -> SurfaceError {
     SurfaceError::NoUnit {
         place: Place::File,

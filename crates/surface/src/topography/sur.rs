@@ -1,5 +1,5 @@
-//! The format SUR of Digital Surf: a header of 512 bytes, comments, and integer heights, plain or
-//! compressed.
+//! The format SUR of Digital Surf: a header of 512 bytes, a comment, a private part, and integer
+//! heights, which may be compressed.
 
 use super::bytes::{Bytes, Number, Order, decoded, unpacked_size};
 use super::reading::Reading;
@@ -18,10 +18,11 @@ pub(super) const COMPRESSED: &[u8] = b"DSCOMPRESSED";
 /// Size of the header in bytes, without the comment and the private part after it.
 const HEADER: usize = 512;
 
-/// The mark of missing points is this much below the smallest height, in integer steps.
+/// Difference between the smallest height and the mark of missing points, in integer steps.
 const MISSING_BELOW: f64 = 2.0;
 
-/// Limit of the number of compressed parts: each takes some microseconds, even for a single byte.
+/// Largest number of compressed parts. It limits the time, because the decompression of each part
+/// takes some microseconds, even if the part is a single byte.
 const MOST_PARTS: usize = 1 << 16;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
@@ -40,7 +41,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     Ok(reading.scaled(|height| Some(height) == header.missing, header.scale))
 }
 
-/// What the header states of the heights.
+/// What the header states about the heights.
 struct Header {
     columns: usize,
     rows: usize,
@@ -48,7 +49,7 @@ struct Header {
     number: Number,
     /// Height that marks a missing point.
     missing: Option<f64>,
-    /// Height of an integer step, in the unit of the heights.
+    /// Height of one integer step, in the unit of the heights.
     scale: f64,
     spacing: [f64; 2],
     units: StatedUnits,
@@ -66,10 +67,11 @@ impl Header {
             let found = format!("a study of type {study}");
             return Err(refused(Place::Byte(18), found, "1, a profile, or 2, a map"));
         }
-        // Names, material, acquisition, range.
+        // Skips the names of the object and the operator, and the codes of material, acquisition
+        // and range.
         data.take(30 + 30 + 6)?;
         let has_missing = data.size(Number::U16)? == 1;
-        // Absolute heights, gauge resolution, reserved.
+        // Skips the flag of absolute heights, the resolution and a reserved field.
         data.take(2 + 4 + 4)?;
         let number = match data.size(Number::U16)? {
             16 => Number::I16,
@@ -84,14 +86,15 @@ impl Header {
         let rows = count(data)?;
         data.take(4)?;
         let [along, between, scale] = data.array(Number::F32)?;
-        // Names of the axes.
+        // Skips the names of the axes.
         data.take(3 * 16)?;
         let units = StatedUnits {
             along: unit(data)?,
             between: unit(data)?,
             heights: unit(data)?,
         };
-        // Units of axes and ratios of units, imprint; further on times.
+        // Skips the units of the axes, the ratios of the units and the flag of an imprint. Times
+        // follow after the flag of inversion.
         data.take(3 * 16 + 3 * 4 + 2)?;
         let is_inverted = data.size(Number::U16)? != 0;
         data.take(334 - 292)?;
@@ -121,7 +124,7 @@ fn count(data: &mut Bytes<'_>) -> Result<usize, SurfaceError> {
 }
 
 /// Returns the unit in the next field, which is padded with spaces or zeros. Old files write µ in
-/// an MS-DOS code page, which in Windows-1252 reads as æ.
+/// an MS-DOS code page, as a byte that is æ in Windows-1252.
 fn unit(data: &mut Bytes<'_>) -> Result<Option<Unit>, SurfaceError> {
     let place = data.place();
     let field = data.take(16)?;
@@ -177,7 +180,8 @@ mod tests {
     use flate2::write::ZlibEncoder;
     use std::io::Write;
 
-    /// A map of flat heights in µm, 2 µm apart along the rows and 3 nm between them.
+    /// Returns a file of a map of flat heights in µm. The points are 2 µm apart along the rows, and
+    /// the rows 3 nm.
     fn flat(columns: u32, rows: u32) -> Vec<u8> {
         let mut header = vec![0; 512];
         let (columns_at, bits) = (columns.to_le_bytes(), 32_u32.to_le_bytes());

@@ -12,12 +12,14 @@ use strum::IntoStaticStr;
 pub(super) enum Layout {
     /// Positions of the points of a profile, ascending.
     Positions(Vec<f64>),
-    /// Distances along and between rows; both are equal for a profile.
+    /// Distance between neighbouring points of a row, and distance between neighbouring rows. For a
+    /// profile both values are the distance between its points.
     Even([f64; 2]),
 }
 
-/// Numbers of columns and rows at the borders of a map that have no measured point and are left
-/// out. For a profile the numbers of columns are numbers of points at its ends.
+/// Numbers of columns and rows at the borders of a map that have no measured point and are
+/// therefore left out. For a profile the numbers of columns are the numbers of unmeasured points at
+/// its two ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cropped {
     pub(super) before: [usize; 2],
@@ -25,14 +27,14 @@ pub struct Cropped {
 }
 
 impl Cropped {
-    /// Returns the number of columns and the number of rows left out, each counted at two opposite
-    /// borders together.
+    /// Returns the number of columns and the number of rows left out, each as the sum over two
+    /// opposite borders.
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|axis| self.before[axis] + self.after[axis])
     }
 
-    /// Returns the index in the file of a remaining point. `index` counts the remaining points in
-    /// rows of `columns` points.
+    /// Returns the index that a point has in the file, where the left-out columns and rows are
+    /// counted too. `index` is the index of the point without them, in rows of `columns` points.
     pub(super) fn place_in_file(&self, index: usize, columns: usize) -> usize {
         let [columns_before, rows_before] = self.before;
         let [columns_left_out, _] = self.counts();
@@ -56,16 +58,17 @@ pub struct Topography {
     pub cropped: Cropped,
     /// Indices of the points with interpolated heights.
     pub(crate) interpolated: Vec<usize>,
-    /// Positions before resampling in m; empty for a surface that was not resampled.
+    /// Positions in m that the points had before resampling; empty for a surface that was not
+    /// resampled.
     pub(super) resampled: Vec<f64>,
-    /// True if the rows were levelled one by one.
+    /// True if the median height of each row was subtracted from the row.
     pub(crate) aligned: bool,
     /// Name of the measurement in an archive of several measurements; empty for a surface that has
     /// a file of its own.
     pub name: String,
-    /// Polynomial to remove, as a container states, and whether the surface is periodic at its
-    /// borders, as a container or the file states.
+    /// Polynomial that has to be removed before the analysis, if a container states it.
     pub(crate) detrend: Option<Detrend>,
+    /// True if the surface is periodic at its borders, as a container or the file states.
     pub(crate) periodic: bool,
     /// Messages for the user, each about something unusual in the file.
     pub warnings: Vec<Note>,
@@ -75,7 +78,7 @@ impl Topography {
     /// Returns an error if the surface has a slope above [`LARGEST`].
     pub(super) fn check_slopes(&self) -> Result<(), SurfaceError> {
         for index in 1..self.heights.len() {
-            // A row begins here, and its first point has none before it.
+            // The first point of a row has no point before it.
             if index % self.columns == 0 {
                 continue;
             }
@@ -93,8 +96,8 @@ impl Topography {
         Ok(())
     }
 
-    /// Returns the number of points whose heights are interpolated, missing points and replaced
-    /// outliers together.
+    /// Returns the number of points whose heights are interpolated. These are missing points and
+    /// replaced outliers.
     pub fn interpolated(&self) -> usize {
         self.interpolated.len()
     }
@@ -117,10 +120,11 @@ impl Topography {
         !self.resampled.is_empty()
     }
 
-    /// Copies the heights in m. With `quarters` above zero the copy differs by an estimate of the
-    /// error of interpolation. Points at this number of quarters of length and width from the
-    /// interpolated points are then interpolated too. A resampled profile gets back what resampling
-    /// to its former positions and back would take.
+    /// Copies the heights in m. If `quarters` is above zero, the copy is changed by about as much
+    /// as the interpolation may have falsified the heights. For this, as many measured points are
+    /// interpolated as were missing: those at a distance of `quarters` quarters of the length and
+    /// the width from the missing ones. A resampled profile also gets an estimate of the short
+    /// waves that resampling has removed.
     pub(crate) fn copied_heights(&self, quarters: usize) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = gathered(self.heights.len(), self.heights.iter().copied())?;
         if quarters == 0 {
@@ -146,7 +150,7 @@ impl Topography {
     }
 
     /// Adds to the heights of a resampled profile an estimate of the short waves that resampling
-    /// took.
+    /// has removed. The estimate comes from a second resampling, to the former positions and back.
     fn add_lost_waves(&self, heights: &mut [f64], spacing: f64) -> Result<(), SurfaceError> {
         let points = self.columns;
         let former = &self.resampled;
@@ -156,7 +160,8 @@ impl Topography {
         let at_former = gathered(points, at_former)?;
         let smoother = interpolated(former, &at_former, 0.0, places.iter().copied());
 
-        // What was lost before is not lost again: the more, the more the distances between points
+        // The second resampling removes less than the first one did, because the waves removed
+        // first are already missing. The correction is larger the more the distances between points
         // vary.
         let squares = former
             .windows(2)
@@ -214,7 +219,7 @@ impl Topography {
     }
 
     /// Returns the distance between neighbouring points along the rows and the distance between
-    /// rows, in m. Both are equal for a profile.
+    /// rows, in m. For a profile both values are the distance between its points.
     ///
     /// # Errors
     /// Returns an error if a point of a profile is off an even grid by more than 0.1 % of the mean
@@ -323,7 +328,7 @@ mod tests {
             (even.spacing(), &even.heights[..]),
             (Ok([1.0; 2]), &[0.0, 2.0, 4.0, 6.0][..])
         );
-        // A straight line stays, a corner is sharper.
+        // A straight line is unchanged, and a corner becomes sharper.
         assert_eq!(even.copied_heights(1), Ok(vec![0.0, 2.0, 4.0, 6.0]));
         let corner = profile(&[0.0, 1.0, 2.5, 3.0], &[0.0, 0.0, 6.0, 6.0])
             .resampled()

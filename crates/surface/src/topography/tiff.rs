@@ -1,5 +1,5 @@
-//! TIFF as far as makers of microscopes use it: directories of tags, and images of one number for
-//! each point, without compression.
+//! The parts of the format TIFF that makers of microscopes use: directories of tags, and
+//! uncompressed images with one number for each point.
 
 use super::bytes::{Bytes, Number, Order, decoded};
 use crate::error::{Place, SurfaceError, refused};
@@ -8,16 +8,18 @@ use std::borrow::Cow;
 
 pub(super) const SIGNATURES: [&[u8]; 2] = [b"II*\0", b"MM\0*"];
 
-/// Largest number of directories, which also ends a chain of directories that is a circle.
+/// Largest number of directories that are read. The limit also ends the reading of a file whose
+/// directories refer to each other in a circle.
 const MOST_DIRECTORIES: usize = 1_024;
 
 /// Size in bytes of a tag in a directory.
 const TAG_SIZE: usize = 12;
 
-/// Largest size in bytes of a value that is in the directory itself.
+/// Largest size in bytes of a value that is stored in the directory itself; larger values are
+/// elsewhere in the file.
 const INLINE: usize = 4;
 
-/// Tags of images.
+/// Numbers of the tags of images.
 mod tag {
     pub const WIDTH: u16 = 256;
     pub const LENGTH: u16 = 257;
@@ -63,13 +65,14 @@ pub(super) struct Directory<'a> {
 
 /// Value of a tag: numbers, or the bytes of a text.
 struct Value<'a> {
-    /// Type of the numbers; `None` for a type that is no number.
+    /// Type of the numbers; `None` if the value is not a list of numbers.
     kind: Option<Number>,
     count: usize,
     content: Bytes<'a>,
 }
 
-/// Returns the type of the numbers of a tag.
+/// Returns the type of the numbers of a tag from its code in TIFF; `None` for a type that is not a
+/// number.
 fn number_of(kind: usize) -> Option<Number> {
     match kind {
         1 | 7 => Some(Number::U8),
@@ -145,7 +148,8 @@ impl<'a> Directory<'a> {
         Ok(self.value(tag)?.map(|value| value.content))
     }
 
-    /// Returns a number of the image that is a size or a code; `otherwise` if the tag is missing.
+    /// Returns the number of a tag that states a size or a code. Returns `otherwise` if the tag is
+    /// missing.
     fn code(&self, tag: u16, otherwise: usize) -> Result<usize, SurfaceError> {
         let number = self.number(tag)?;
         Ok(number.map_or(otherwise, |number| number as usize))
@@ -204,7 +208,8 @@ impl<'a> Directory<'a> {
         let (Some(offsets), Some(sizes)) = strips else {
             return Err(self.refused("an image without numbers".to_owned(), "strips of numbers"));
         };
-        // Strips may overlap, so that their sizes alone do not limit the memory.
+        // The strips of an image may overlap, so the size of the file is compared with the size of
+        // the image.
         let size = points.saturating_mul(kind.size());
         if points == 0 || size > self.bytes.len() {
             let found = format!("an image of {points} points in {} bytes", self.bytes.len());
@@ -258,7 +263,7 @@ impl<'a> Strips<'a> {
 }
 
 impl Value<'_> {
-    /// Returns the next of the numbers as a size or an offset.
+    /// Returns the next number of the value as a size or an offset.
     fn next_size(&mut self) -> Result<Option<usize>, SurfaceError> {
         match self.kind {
             Some(kind) if self.content.left() >= kind.size() => self.content.size(kind).map(Some),
@@ -271,14 +276,14 @@ impl Value<'_> {
 pub(super) mod tests {
     use super::*;
 
-    /// Content of a tag.
+    /// Content of a tag that a test writes.
     pub struct Tag {
         pub tag: u16,
         pub kind: u16,
         pub content: Vec<u8>,
     }
 
-    /// A file under construction, in either order of bytes.
+    /// Writes a file in either order of bytes.
     pub struct Writer {
         pub order: Order,
     }
@@ -327,8 +332,8 @@ pub(super) mod tests {
             }
         }
 
-        /// Returns the tags of an image of these integers of 16 or 32 bits, in strips of one row of
-        /// three points, which follow the numbers written so far.
+        /// Appends an image of integers of 16 or 32 bits to the file, in strips of one row of three
+        /// points. Returns the tags of this image.
         pub fn image(&self, file: &mut Vec<u8>, numbers: &[i32], bits: u16) -> Vec<Tag> {
             let row = 3 * u32::from(bits) / 8;
             let mut offsets = Vec::new();
@@ -353,7 +358,6 @@ pub(super) mod tests {
             ]
         }
 
-        /// Begins a file.
         pub fn begin(&self) -> Vec<u8> {
             let signature = match self.order {
                 Order::Little => SIGNATURES[0],
@@ -362,7 +366,7 @@ pub(super) mod tests {
             [signature, &[0; 4]].concat()
         }
 
-        /// Writes a directory, with `link` as the place of its offset. Returns the place of the
+        /// Writes a directory, and writes its offset at the place `link`. Returns the place for the
         /// offset of the next directory.
         pub fn directory(&self, file: &mut Vec<u8>, link: usize, tags: &[Tag]) -> usize {
             let mut entries = Vec::new();
@@ -397,7 +401,7 @@ pub(super) mod tests {
         order: Order::Little,
     };
 
-    /// The numbers of a file with one image of these tags.
+    /// Reads the numbers of a file with one image, after `change` has changed its tags.
     fn image(change: impl FnOnce(&mut Vec<Tag>)) -> Result<Vec<f64>, String> {
         let mut file = LITTLE.begin();
         let mut tags = LITTLE.image(&mut file, &[1, -2, 3, 4, 5, 6], 16);
@@ -444,7 +448,7 @@ pub(super) mod tests {
         let tags = LITTLE.image(&mut file, &[1, 2, 3], 16);
         let link = LITTLE.directory(&mut file, 4, &tags);
         assert_eq!(directories(&file).unwrap().len(), 1);
-        // The directory is its own successor.
+        // The directory names itself as the next directory.
         let own = file[4..8].to_vec();
         file[link..].copy_from_slice(&own);
         assert_eq!(directories(&file).unwrap().len(), MOST_DIRECTORIES);

@@ -1,11 +1,11 @@
-//! Choice of the maker of a TIFF file, by the tags of its first image.
+//! Recognition of the maker of a TIFF file by the tags of its first image.
 
 use super::channel::Wanted;
 use super::reading::Reading;
 use super::{jpk, park, tiff};
 use crate::error::{Place, SurfaceError, refused};
 
-/// Reads the image that is wanted of a file of JPK or of Park.
+/// Reads the wanted channel of a TIFF file of JPK or Park Systems.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let directories = tiff::directories(bytes)?;
     if park::is_park(&directories) {

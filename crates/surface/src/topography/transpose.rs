@@ -1,9 +1,9 @@
-//! Maps whose heights are column by column.
+//! Reordering of maps whose file has the heights column by column, or begins with the lowest row.
 
 use asperity_data::{OutOfMemory, gathered};
 
-/// Returns the values row by row of a matrix that is given column by column, in columns of this
-/// many values.
+/// Returns the values of a matrix row by row. The given values are column by column, with
+/// `column_length` values in each column.
 pub(super) fn transposed(values: &[f64], column_length: usize) -> Result<Vec<f64>, OutOfMemory> {
     let rows =
         (0..column_length).flat_map(|row| values.iter().skip(row).step_by(column_length).copied());

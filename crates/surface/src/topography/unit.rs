@@ -5,7 +5,7 @@ use asperity_data::shown;
 use std::fmt;
 use std::str::FromStr;
 
-/// A unit with its spellings.
+/// A unit of length with its spellings.
 struct KnownUnit {
     unit: Unit,
     other_names: &'static str,
@@ -18,6 +18,7 @@ const fn known(name: &'static str, per_metre: f64, other_names: &'static str) ->
     }
 }
 
+/// All units of length that can be read.
 const UNITS: [KnownUnit; 7] = [
     known("m", 1.0, "meter metre meters metres"),
     known("cm", 1e2, "centimeter centimetre"),
@@ -32,19 +33,20 @@ const UNITS: [KnownUnit; 7] = [
     known("pm", 1e12, "picometer picometre"),
 ];
 
-/// Number of letters up to which the name of a unit is a symbol, in which capitals matter.
+/// Largest number of letters of a symbol of a unit. In a symbol, capitals and small letters differ.
 const LONGEST_SYMBOL: usize = 3;
 
 /// A unit of length that a file or an option may state, such as µm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     name: &'static str,
-    /// Exact power of ten, so that a division rounds once.
+    /// Number of units in a metre: an exact power of ten, so that the conversion to m, a division,
+    /// rounds only once.
     per_metre: f64,
 }
 
 impl Unit {
-    /// Names of all units of length that can be read, for messages of errors.
+    /// Names of all units of length that can be read, for error messages.
     pub const ALLOWED: &str = "m, cm, mm, µm (or um), nm, Å, pm";
 
     /// The unit metre.
@@ -109,8 +111,8 @@ impl KnownUnit {
 impl FromStr for Unit {
     type Err = SurfaceError;
 
-    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`; words are
-    /// not.
+    /// Reads the name of a unit. Symbols are case-sensitive, because `Mm` is not `mm`. Words, such
+    /// as `Metre`, are not case-sensitive.
     fn from_str(text: &str) -> Result<Unit, SurfaceError> {
         Unit::named(text, Place::File)
     }

@@ -1,5 +1,5 @@
-//! VK4 and VK3 of Keyence: a table of offsets, the conditions of the measurement, and up to three
-//! images of heights as unsigned integers, row by row from the top.
+//! The formats VK4 and VK3 of Keyence: a table of offsets, the conditions of the measurement, and
+//! up to three images of heights as unsigned integers, row by row from the top.
 
 use super::bytes::{Bytes, Number, Order};
 use super::channel::{self, Label, Wanted};
@@ -10,25 +10,26 @@ use crate::error::{Place, SurfaceError, refused};
 
 pub(super) const SIGNATURES: [&[u8]; 2] = [b"VK4_", b"VK3_"];
 
-/// Offset of the table of offsets.
+/// Offset in the file, in bytes, of the table of offsets.
 const TABLE: usize = 12;
 
-/// Offset in the table of the conditions of the measurement.
+/// Place in the file, in bytes, of the offset of the conditions of the measurement.
 const CONDITIONS: usize = TABLE;
 
-/// Offset in the table of the first of three images of heights.
+/// Place in the file, in bytes, of the offset of the first of three images of heights.
 const HEIGHTS: usize = TABLE + 6 * 4;
 
+/// Largest number of images of heights in a file.
 const MOST_IMAGES: u32 = 3;
 
-/// Offset in the conditions of the distances between points along x and y and of the step of the
-/// heights, all in pm.
+/// Offset in the conditions, in bytes, of three numbers in pm: the distances between points along x
+/// and along y, and the step of the heights.
 const SCALES: usize = 42 * 4;
 
-/// Size of the table of colours between the header of an image and its numbers.
+/// Size in bytes of the table of colours between the header of an image and its numbers.
 const PALETTE: usize = 3 * 256;
 
-/// Reads the image of heights that is wanted; numbers count from 0.
+/// Reads the image of heights that is wanted. Numbers of images count from 0.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let mut table = Bytes::from(bytes, Order::Little, HEIGHTS)?;
     let mut labels = Vec::new();
@@ -50,7 +51,7 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     image(bytes, offsets[index], &scales)
 }
 
-/// Distances between points and the step of the heights in pm.
+/// Distances between points, and height of one integer step, all in pm.
 struct Scales {
     along: f64,
     between: f64,
@@ -113,7 +114,7 @@ fn image(bytes: &[u8], offset: usize, scales: &Scales) -> Result<Reading, Surfac
 pub(super) mod tests {
     use super::*;
 
-    /// A file with one or two images of heights in rows of three points.
+    /// Returns a file with one or two images of heights in rows of three points.
     pub fn file(signature: &[u8], bits: u32, images: usize) -> Vec<u8> {
         let table_size: usize = if signature == b"VK3_" { 17 } else { 18 } * 4;
         let conditions = TABLE + table_size;
@@ -129,7 +130,7 @@ pub(super) mod tests {
         }
         for image in 0..images {
             let offset = file.len();
-            // The second of the three images is missing.
+            // The second of the three possible images is missing.
             put(&mut file, HEIGHTS + 8 * image, offset);
             for number in [3, 2, bits, 0, 6 * bits / 8, 0, 255] {
                 file.extend(number.to_le_bytes());

@@ -14,13 +14,15 @@ use md5::{Digest, Md5};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::fmt;
 
+/// Largest size of `main.xml` in bytes.
 const LONGEST_INDEX: usize = 1 << 26;
 
-/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The
-/// parser compares each attribute with all others of its element, and each declaration with all
-/// that the element inherits.
+/// Limit of the number of attributes of `main.xml`, including declarations of namespaces. The time
+/// of the parser grows with the square of this number, because it compares each attribute with all
+/// others of its element, and each declaration with all that the element inherits.
 const MOST_ATTRIBUTES: usize = 256;
 
+/// Name of the index in the archive.
 pub(super) const INDEX: &str = "main.xml";
 
 /// Index of the heights in arrays of coordinates, after x and y.
@@ -29,7 +31,7 @@ const Z: usize = 2;
 pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     let content = archive.unpacked(INDEX, LONGEST_INDEX)?;
     let encoding = declared_encoding(&content).unwrap_or(UTF_8);
-    // A byte order mark overrules the declaration.
+    // If the content begins with a byte order mark, `decode` follows it and not the declaration.
     let (index, ..) = encoding.decode(&content);
     check_index(&index)?;
     let options = ParsingOptions {
@@ -45,7 +47,7 @@ pub(super) fn read(mut archive: Archive<'_>) -> Result<Reading, SurfaceError> {
     }
 }
 
-/// Returns the encoding that the XML declaration states, if it is one that contains ASCII.
+/// Returns the encoding that the XML declaration states, if ASCII is a part of this encoding.
 fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
     let declaration = content.strip_prefix(b"<?xml")?;
     let declaration = declaration.split(|byte| *byte == b'>').next()?;
@@ -58,7 +60,8 @@ fn declared_encoding(content: &[u8]) -> Option<&'static Encoding> {
 /// Returns an error for an index whose parsing would take far more time or memory than its length
 /// suggests.
 fn check_index(index: &str) -> Result<(), SurfaceError> {
-    // The parser reserves memory for each of these signs; an element has four characters.
+    // The parser reserves memory for each `<` and each `=`. The shortest element, `<a/>`, has four
+    // characters.
     let signs = index.bytes().filter(|byte| b"<=".contains(byte)).count();
     if signs > index.len() / 4 {
         let found = "more than a quarter of the characters are < or =";
@@ -78,7 +81,8 @@ fn wrong(found: impl fmt::Display, allowed: &str) -> SurfaceError {
 }
 
 struct Axis<'a> {
-    /// True if each point has its own coordinate; otherwise the distance is the increment.
+    /// True if the file has a coordinate for each point. Otherwise the points are equally spaced,
+    /// with the increment as distance.
     is_absolute: bool,
     increment: Option<f64>,
     offset: f64,
@@ -195,8 +199,9 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(Reading::even("X3P", heights, columns, spacing, units))
     }
 
-    /// Returns a message about binary content whose MD5 is not the one that the index states, as
-    /// ISO 25178-72 demands. `element` is the name of the element that states it.
+    /// Returns a message about binary content whose MD5 checksum differs from the checksum that the
+    /// index states. ISO 25178-72 demands equal checksums. `element` is the name of the element
+    /// that states the checksum.
     fn changed(&self, name: &str, content: &[u8], element: &str) -> Option<String> {
         let stated = trimmed(find(self.root, element)?);
         let is_checksum = stated.len() == 32 && stated.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -236,8 +241,8 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(coordinates)
     }
 
-    /// Reads the coordinates of a binary file of the archive, point by point. Points marked invalid
-    /// in the bit field are missing.
+    /// Reads the coordinates from a binary file of the archive, point by point. Points that a bit
+    /// field marks as invalid are missing.
     fn linked(
         &mut self,
         archive: &mut Archive<'_>,
@@ -278,7 +283,7 @@ impl<'a, 'input> Surface<'a, 'input> {
         Ok(coordinates)
     }
 
-    /// Returns the coordinates that a binary file has for each point, in their order.
+    /// Returns the coordinates that a binary file has for each point, in the order of the file.
     fn stored_coordinates(&self) -> Result<Vec<StoredCoordinate>, SurfaceError> {
         let mut stored = Vec::new();
         for (index, axis) in self.axes.iter().enumerate() {
@@ -343,7 +348,8 @@ struct StoredCoordinate {
     number: Number,
 }
 
-/// Returns the content of a file of the archive, which is to have exactly this many bytes.
+/// Returns the content of a file of the archive. Returns an error unless it has exactly `size`
+/// bytes.
 fn exactly(
     archive: &mut Archive<'_>,
     name: &str,
@@ -358,8 +364,8 @@ fn exactly(
     Err(refused(Place::Part(name.to_owned()), found, allowed))
 }
 
-/// Removes the coordinates of the points without a bit in the bit field. What is stored for such a
-/// point, its position included, means nothing.
+/// Removes the coordinates of the points whose bit in the bit field is 0. The stored coordinates of
+/// such a point, also its position, mean nothing.
 fn remove_invalid(coordinates: &mut Coordinates, valid: &[u8]) {
     for values in coordinates {
         for (index, value) in values.iter_mut().enumerate() {
@@ -387,8 +393,8 @@ fn sorted(coordinates: Coordinates) -> Result<Coordinates, SurfaceError> {
     Ok([x?, y?, heights?])
 }
 
-/// Returns the profile, if the points are in one row with the same y, or else the map of points
-/// with positions of their own. A point without a position is left out.
+/// Returns a profile if the points are in one row with the same y, or else a map of points at the
+/// given positions. A point without a position is left out.
 fn scattered(mut coordinates: Coordinates, columns: usize) -> Result<Reading, SurfaceError> {
     let is_one_row = columns == coordinates[Z].len();
     let [x, y, _] = &coordinates;
@@ -431,7 +437,8 @@ fn trimmed<'a>(node: Node<'a, '_>) -> &'a str {
     node.text().unwrap_or_default().trim()
 }
 
-/// Returns the text of the first element of this name below a node; empty if there is none.
+/// Returns the text of the first element of this name below a node. The text is empty if there is
+/// no such element.
 fn text<'a>(node: Node<'a, '_>, name: &str) -> &'a str {
     find(node, name).map_or("", trimmed)
 }
@@ -482,7 +489,8 @@ mod tests {
         in_folders(main.as_bytes(), ["", ""])
     }
 
-    /// The surface with an index in one folder, and its files in another one.
+    /// Reads a surface from an archive with the index in one folder and the other files in another
+    /// folder.
     fn in_folders(main: &[u8], [folder, bindata]: [&str; 2]) -> Result<Reading, String> {
         let heights = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
         let name = |folder: &str, name: &str| format!("{folder}{name}");
@@ -544,7 +552,8 @@ mod tests {
             .flat_map(u16::to_le_bytes)
             .collect();
         assert!(same(&in_folders(&in_utf_16, ["", ""]).unwrap(), &plain));
-        // The scale of heights that is not stated is 1, the distance between points is asked for.
+        // If the file states no scale of heights, the scale is 1. If it states no distance between
+        // points, the distance remains unknown.
         let no_scale =
             with(&MAIN.replacen("<Increment>1e-9</Increment>", "<Increment/>", 1)).unwrap();
         assert_eq!(no_scale.heights[0], 1.0 + 5e-9);
@@ -566,7 +575,7 @@ mod tests {
                 1,
             ))
         };
-        // Of the twelve bytes of heights, by the program md5sum.
+        // The checksum of the twelve bytes of heights was computed with the program md5sum.
         let right = "f6050cdac59263109f2a853227bed520";
         let in_capitals = right.to_uppercase();
         for checksum in [right, &in_capitals, "", "none"] {
@@ -654,7 +663,7 @@ mod tests {
         };
         let found = read(&absolute, &matrix(3, 1), "1;5 3;6 7;7").unwrap();
         assert_eq!((found.positions.unwrap()[2] * 1e6, found.columns), (7.0, 3));
-        // A point without a position is left out, of a list in any order.
+        // A list may be in any order, and its point without a position is left out.
         let points = "<ListDimension>7</ListDimension>";
         let found = read(&both, points, "1;0;1 0;0;0 0;1;3 1;1;4 2;1;5  2;0;2").unwrap();
         assert_eq!((found.columns, found.spacing.unwrap()[0] * 1e6), (3, 1.0));
@@ -665,7 +674,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         assert_eq!(steps(&found.heights), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
-        // With rows that are even: positions along them.
+        // The positions along even rows are absolute.
         let found = read(&absolute, &matrix(2, 2), "0;1 3;2 0;3 3;4").unwrap();
         assert_eq!(
             (
@@ -764,7 +773,7 @@ mod tests {
                 .collect()
         };
         let with_root = |more: &str| MAIN.replacen(" xmlns:p=", &format!("{more} xmlns:p="), 1);
-        // Three attributes are those of the document itself.
+        // The document itself has three attributes.
         assert!(with(&with_root(&declared(MOST_ATTRIBUTES - 3))).is_ok());
         let nested: String = (0..40_000)
             .map(|i| format!("<a xmlns:n{i}=\"u{i}\">"))

@@ -1,5 +1,5 @@
-//! DAT of Zygo MetroPro: a header of fixed fields, intensities, then integer heights in fractions of
-//! a wavelength, row by row from the top.
+//! The format DAT of Zygo MetroPro: a header of fixed fields, intensities, and integer heights in
+//! fractions of a wavelength, row by row from the top.
 
 use super::bytes::{Bytes, Number, Order};
 use super::reading::Reading;
@@ -15,10 +15,10 @@ pub(super) const SIGNATURES: [&[u8]; 3] = [
 /// Smallest integer that marks a missing point.
 const MISSING: f64 = 2_147_483_640.0;
 
-/// Number of steps of a wavelength, by the resolution in the header.
+/// Number of integer steps in a wavelength, indexed by the code of the resolution in the header.
 const STEPS: [f64; 3] = [4_096.0, 32_768.0, 131_072.0];
 
-/// Offsets of the fields of the header.
+/// Offsets in bytes of the fields of the header.
 mod field {
     pub const HEADER_SIZE: usize = 6;
     pub const INTENSITY_BYTES: usize = 60;
@@ -31,7 +31,8 @@ mod field {
     pub const SIGN: usize = 232;
 }
 
-/// Reads the heights, which are in m. The distance between points is unknown if the header has 0.
+/// Reads the heights and converts them to m. If the distance between points in the header is 0, it
+/// is unknown.
 pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     let number = |offset: usize, kind: Number| Bytes::from(bytes, Order::Big, offset)?.number(kind);
     let mut counts = Bytes::from(bytes, Order::Big, field::COLUMNS)?;
@@ -71,7 +72,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Reading, SurfaceError> {
     Ok(reading.scaled(|height| height >= MISSING, signed_scale))
 }
 
-/// Returns the number of steps of a wavelength.
+/// Returns the number of integer steps in a wavelength.
 fn steps(bytes: &[u8]) -> Result<f64, SurfaceError> {
     let mut header = Bytes::from(bytes, Order::Big, field::PHASE_RESOLUTION)?;
     let place = header.place();
@@ -91,8 +92,8 @@ fn steps(bytes: &[u8]) -> Result<f64, SurfaceError> {
 pub(super) mod tests {
     use super::*;
 
-    /// A file with these integers in rows of three points, 2 µm apart, with intensities before
-    /// them.
+    /// Returns a file with intensities and these integer heights, in rows of three points at
+    /// distances of 2 µm.
     pub fn file(signature: usize, resolution: i16, sign: i16, heights: &[i32]) -> Vec<u8> {
         let size: usize = if signature == 2 { 4_096 } else { 834 };
         let mut header = vec![0; size];
@@ -102,7 +103,7 @@ pub(super) mod tests {
         put(0, SIGNATURES[signature]);
         put(4, &(signature as u16 + 1).to_be_bytes());
         put(6, &(size as u32).to_be_bytes());
-        // Two intensities, of one bucket.
+        // The file has two intensities in one image of intensities.
         put(52, &[0, 2, 0, 1, 0, 1]);
         put(60, &4_u32.to_be_bytes());
         put(68, &3_u16.to_be_bytes());
@@ -169,7 +170,7 @@ pub(super) mod tests {
         for end in 4..whole.len() {
             assert!(read(&whole[..end]).is_err(), "{end}");
         }
-        // An unknown distance is asked for.
+        // A distance of 0 means that the distance is unknown.
         let mut no_distance = whole.clone();
         no_distance[184..188].fill(0);
         assert_eq!(read(&no_distance).unwrap().spacing, None);

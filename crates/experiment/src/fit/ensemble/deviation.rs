@@ -1,4 +1,5 @@
-//! Whether random profiles describe the curves, and the effect of errors of the roughness.
+//! Test whether random profiles describe the measured curves, and effect of errors of the roughness
+//! on the result.
 
 use super::posterior::Predictions;
 use super::summary::{MeanSummaries, Measurement, NAMES, SUMMARIES, Summaries};
@@ -9,15 +10,15 @@ use asperity_scene::{Roughness, RunError};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-/// Number of ensembles drawn from the random profiles of the table.
+/// Number of ensembles of profiles that are drawn from the random profiles of the table.
 const DRAWS: usize = 1000;
-/// Share of the drawn ensembles that count as described.
+/// Share of the drawn ensembles that the test accepts as described.
 const DESCRIBED: f64 = 0.99;
-/// Step of a logarithm for the derivatives of the means.
+/// Step of ln(γ/E*) and ln E* in the numerical derivatives of the means.
 const STEP: f64 = 0.05;
-/// Step of the logarithm of the rms height.
+/// Step of the logarithm of the rms height in a numerical derivative.
 const HEIGHT_STEP: f64 = 0.05;
-/// Step of the Hurst exponent.
+/// Step of the Hurst exponent in a numerical derivative.
 const HURST_STEP: f64 = 0.05;
 
 /// Difference between the measured curves and the random profiles in one summary. A summary is a
@@ -37,7 +38,7 @@ pub struct SummaryDeviation {
     pub deviates: bool,
 }
 
-/// Derivatives of two means with respect to ln γ and to ln E*.
+/// Derivatives of the two mean predictions with respect to ln γ and to ln E*.
 #[derive(Clone, Copy)]
 struct Slopes {
     by_work: [f64; 2],
@@ -48,13 +49,14 @@ impl Slopes {
     fn at(scatter: &Scatter, place: Place) -> Self {
         Slopes {
             by_work: derivative(scatter, place, 1.0, 0.0),
-            // At a constant γ, γ/E* falls as E* grows.
+            // If E* grows at constant γ, the range γ/E* decreases by the same factor.
             by_modulus: derivative(scatter, place, -1.0, 1.0),
         }
     }
 }
 
-/// Returns the derivatives of both means along a direction in ln(γ/E*) and ln E*.
+/// Returns the derivatives of both means along a direction. `range` and `modulus` are the
+/// components of the direction in ln(γ/E*) and ln E*.
 fn derivative(scatter: &Scatter, place: Place, range: f64, modulus: f64) -> [f64; 2] {
     let means_at = |sign: f64| {
         let place = Place {
@@ -68,9 +70,9 @@ fn derivative(scatter: &Scatter, place: Place, range: f64, modulus: f64) -> [f64
     [0, 1].map(|index| (high[index] - low[index]) / (2.0 * STEP))
 }
 
-/// How predicted values and parameters change together at a place.
+/// Relation between changes of the predicted values and changes of the parameters, at a place.
 pub(crate) struct Response {
-    /// Derivatives of both predicted values.
+    /// Derivatives of both predicted values with respect to the parameters.
     slopes: Slopes,
     inverse: InverseCovariance,
     is_modulus_free: bool,
@@ -99,8 +101,8 @@ impl Response {
         [self.along_work(change) / self.along_work(work), 0.0]
     }
 
-    /// Returns the product of a change and the derivatives with respect to ln γ, weighted by the
-    /// inverse of the covariance.
+    /// Returns the scalar product of a change and the derivatives with respect to ln γ, weighted by
+    /// the inverse of the covariance matrix.
     fn along_work(&self, change: [f64; 2]) -> f64 {
         let work = self.slopes.by_work;
         let weighted = self.inverse.times(change);
@@ -108,7 +110,7 @@ impl Response {
     }
 }
 
-/// Summary over the random profiles at a place.
+/// Mean and other properties of one summary over the random profiles at a place.
 struct Expected {
     mean: f64,
     standard_deviation: f64,
@@ -127,7 +129,7 @@ impl Expected {
     }
 }
 
-/// Random profile at one node of a table.
+/// Summaries and predictions of a random profile at one node of a table.
 struct Profile {
     summaries: Summaries,
     /// Predicted ln γ and ln E*.
@@ -135,8 +137,8 @@ struct Profile {
 }
 
 /// Compares the means of all summaries with the means of the table at the most probable place.
-/// `predicted` has the predicted values of each random profile at each node. Ensembles drawn from
-/// the table show how large a deviation must be to count.
+/// `predicted` has the predicted values of each random profile at each node. Ensembles of profiles
+/// drawn from the table show how large a deviation must be to be significant.
 pub(crate) fn deviations(
     table: &Table,
     predicted: &[Vec<[f64; 2]>],
@@ -190,7 +192,7 @@ struct Draws<'a> {
     expected: &'a [Expected],
     response: &'a Response,
     curves: usize,
-    /// Means over all profiles.
+    /// Means of the summaries over all profiles.
     mean_summaries: Summaries,
     mean_predicted: [f64; 2],
 }
@@ -213,8 +215,8 @@ impl<'a> Draws<'a> {
         }
     }
 
-    /// Returns the largest deviation of a summary, in standard errors, that nearly all ensembles
-    /// stay below.
+    /// Returns the deviation, in standard errors, that the largest deviation of a summary exceeds
+    /// only in 1 % of the ensembles.
     fn threshold(&self) -> f64 {
         let count = self.profiles.len();
         let mut generator = ChaCha8Rng::seed_from_u64(count as u64);
@@ -229,8 +231,8 @@ impl<'a> Draws<'a> {
         quantile(&largest, DESCRIBED).unwrap_or(f64::INFINITY)
     }
 
-    /// Returns the largest deviation of a summary of an ensemble, in standard errors, that no
-    /// change of the parameters explains.
+    /// Returns the largest deviation of a summary of an ensemble, in standard errors, after
+    /// subtraction of the part that a change of the parameters explains.
     fn largest_deviation(&self, chosen: &[&Profile]) -> f64 {
         let change =
             [0, 1].map(|index| mean_prediction(chosen, index) - self.mean_predicted[index]);
@@ -284,7 +286,8 @@ pub(crate) struct Shifts<'a> {
 }
 
 impl Shifts<'_> {
-    /// Returns the derivatives at a place; `None` for a measured roughness.
+    /// Returns the derivatives of the result at a place; `None` if the scene has no self-affine
+    /// roughness.
     pub fn at(&self, place: Place) -> Result<Option<RoughnessShifts>, ExperimentError> {
         let Some(Roughness::SelfAffine { hurst, .. }) = self.workers.specimen.scene.roughness
         else {
@@ -312,7 +315,8 @@ impl Shifts<'_> {
     ) -> Result<[f64; 2], ExperimentError> {
         let low = self.mean_prediction(place, |roughness| change(roughness, -step))?;
         let high = self.mean_prediction(place, |roughness| change(roughness, step))?;
-        // A model whose values are larger needs parameters that make them smaller again.
+        // If a change of the roughness increases the predicted values, the parameters have to
+        // change so that these values decrease again. So the difference has the opposite sign.
         let shift = self
             .response
             .explain([0, 1].map(|index| low[index] - high[index]));
@@ -350,7 +354,7 @@ impl Shifts<'_> {
     }
 }
 
-/// Adds a change to the logarithm of the height of a roughness.
+/// Adds a change to the logarithm of the rms height of a roughness.
 fn change_height(roughness: &mut Roughness, change: f64) {
     if let Roughness::SelfAffine {
         rms_height,

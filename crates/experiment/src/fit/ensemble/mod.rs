@@ -1,11 +1,13 @@
-//! One work of adhesion from many curves of a rough body whose profile is unknown. The curves are
-//! compared with curves computed for random profiles of the spectrum of the scene.
+//! Estimate of one work of adhesion from many curves of a rough body whose profile is unknown. The
+//! measured curves are compared with curves computed for random profiles that have the spectrum of
+//! the scene.
 //!
-//! Each measured curve becomes a few numbers, its summaries ([`summary`]). Curves of random
-//! profiles have summaries at all nodes of a table ([`table`]). From the table polynomials are
-//! learned that predict the parameters, and the mean prediction over the measured curves is
-//! compared with the predictions over all profiles ([`posterior`]). The result also has the effect
-//! of errors of the roughness, and whether the profiles describe the curves ([`deviation`]).
+//! Each measured curve is reduced to a few numbers, its summaries ([`summary`]). A table holds the
+//! summaries of curves that are computed for random profiles, at several values of the parameters,
+//! the nodes ([`table`]). Polynomials that predict the parameters from the summaries are learned
+//! from this table. The mean prediction over the measured curves is compared with the predictions
+//! over all profiles ([`posterior`]). The result also states the effect of errors of the roughness,
+//! and whether the profiles describe the curves ([`deviation`]).
 
 pub(crate) mod deviation;
 pub(crate) mod posterior;
@@ -29,31 +31,33 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::thread::{Builder, scope};
 
-/// Smallest number of random profiles. With fewer the covariance is too uncertain.
+/// Smallest allowed number of random profiles. With fewer profiles, the covariance of the
+/// predictions is too uncertain.
 const FEWEST_LINES: u64 = 16;
-/// First nodes of the table in ln(γ/E*).
+/// Nodes in ln(γ/E*) of the first table, before it grows.
 const RANGES: Axis = Axis {
     step: 0.2,
     nodes: 16,
 };
-/// First nodes of the table in ln E*.
+/// Nodes in ln E* of the first table, before it grows.
 const MODULI: Axis = Axis {
     step: 0.462,
     nodes: 4,
 };
-/// Number of nodes in ln(γ/E*) by which a table that is too short grows.
+/// Number of nodes in ln(γ/E*) that are added to a table that is too short.
 const MORE_RANGES: usize = 4;
-/// Number of nodes in ln E* by which a table that is too short grows.
+/// Number of nodes in ln E* that are added to a table that is too short.
 const MORE_MODULI: usize = 1;
-/// Largest number of times that a table grows.
+/// Largest number of times that nodes are added to a table.
 const MOST_GROWTH: usize = 6;
 /// Relative difference up to which two stiffnesses count as equal.
 const SAME_STIFFNESS: f64 = 0.01;
 /// Half-width of the 95 % interval of a normal distribution, in standard deviations.
 const NORMAL: f64 = 1.96;
-/// Largest standard error of the roughness for which the results change in proportion to the error.
+/// Largest allowed standard error of the roughness. For larger errors the results would not change
+/// in proportion to the error.
 const MOST_ERROR: f64 = 0.5;
-/// Numbers of curves whose precision is stated.
+/// Numbers of measured curves for which the expected precision is stated.
 const PROSPECTS: [u64; 3] = [16, 64, 256];
 
 /// Options of [`fit_ensemble`], which compares measured curves with random
@@ -63,7 +67,8 @@ pub struct EnsembleOptions {
     /// Number of random profiles whose computed curves are compared with the measured curves, at
     /// least 16.
     pub lines: u64,
-    /// True if the effective modulus is to be found too; false if its value in the scene is used.
+    /// True if the effective modulus is a free parameter too; false if its value in the scene is
+    /// used.
     pub is_modulus_free: bool,
     /// Standard error of the rms height of the scene divided by this height; `None` if it is not
     /// stated.
@@ -72,17 +77,17 @@ pub struct EnsembleOptions {
     pub hurst_error: Option<f64>,
 }
 
-/// Result of [`fit_ensemble`]: the work of adhesion and the effective modulus
-/// of one rough body, from curves measured at several places of it.
+/// Result of [`fit_ensemble`]: the work of adhesion and the effective modulus of one rough body,
+/// from curves measured at several places on it.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct EnsembleFit {
-    /// Work of adhesion γ, J/m². Its interval begins at 0 if [`Self::work_at_most`] has a value.
+    /// Work of adhesion γ in J/m². Its interval begins at 0 if [`Self::work_at_most`] has a value.
     pub work: IntervalEstimate,
     /// Upper bound of γ in J/m² if curves without adhesion would have the same summaries; otherwise
     /// `None`.
     pub work_at_most: Option<f64>,
-    /// Effective modulus E*, Pa. A given modulus has an interval of zero width.
+    /// Effective modulus E* in Pa. A given modulus has an interval of zero width.
     pub modulus: IntervalEstimate,
     /// True if the scene gives the effective modulus.
     pub modulus_is_given: bool,
@@ -93,14 +98,14 @@ pub struct EnsembleFit {
     pub correlation: f64,
     /// Sources of the uncertainty of the work of adhesion.
     pub shares: Shares,
-    /// Precision that the work of adhesion would have with 16, 64 and 256 measured curves. Only
-    /// those of these numbers are listed that exceed the present number of curves.
+    /// Precision that the work of adhesion would have with 16, 64 and 256 measured curves. Numbers
+    /// that do not exceed the present number of curves are left out.
     pub prospects: Vec<Prospect>,
     /// Effect of a wrong roughness of the scene on γ and E*; `None` if the scene has a measured
     /// roughness, or if γ has an upper bound only.
     pub roughness: Option<RoughnessShifts>,
-    /// Sentence on the stiffness of the instrument if the scene and the files of the curves do not
-    /// agree on it; otherwise `None`.
+    /// Sentence on the stiffness of the instrument, if the scene and the files of the curves state
+    /// different values; otherwise `None`.
     #[serde(skip)]
     pub instrument: Option<String>,
     /// Premises of the model that the scene with the found values does not meet, each with the
@@ -111,7 +116,7 @@ pub struct EnsembleFit {
     pub lines: u64,
     /// Number of force curves computed on these profiles.
     pub computed: usize,
-    /// Mean preload (largest force) of the measured curves, N.
+    /// Mean preload (largest force) in N of the measured curves.
     pub preload: f64,
     /// Standard deviation of the preloads divided by their mean; `None` if the preloads differ only
     /// by noise.
@@ -162,13 +167,14 @@ pub struct Prospect {
     pub half_width: f64,
 }
 
-/// Finds the work of adhesion of a rough body from curves measured at different places of it.
+/// Finds the work of adhesion of a rough body from curves measured at different places on it.
 /// `curves` has pairs of a name and a curve. If [`EnsembleOptions::is_modulus_free`] is true, the
 /// effective modulus is found too.
 ///
-/// The curves are compared with curves computed for random profiles that have the roughness of the
-/// scene. `simulation` has the folder of the measured files that the scene names, or the measured
-/// roughness in their place ([`Simulation::with_measured`]). `control` reports the number of curves computed so far, and can stop the search.
+/// The measured curves are compared with curves computed for random profiles that have the
+/// roughness of the scene. `simulation` has the folder of the measured files that the scene names,
+/// or the measured roughness in their place ([`Simulation::with_measured`]). `control` reports the
+/// number of curves computed so far, and can stop the search.
 ///
 /// # Errors
 /// Returns an error if the profile of the scene is not random, if a curve occurs twice or lacks an
@@ -189,7 +195,7 @@ pub fn fit_ensemble(
     }
     let (sender, receiver) = channel();
     let compare = move || {
-        // The receiver lives until all is computed.
+        // Sending cannot fail, because the receiver exists until all curves are computed.
         let report = move |computed: usize| {
             let _ = sender.send(computed);
         };
@@ -209,7 +215,7 @@ pub fn fit_ensemble(
     })
 }
 
-/// Does the work of [`fit_ensemble`] on this thread and `jobs` others.
+/// Finds the parameters as [`fit_ensemble`] describes, on this thread and `jobs` other threads.
 fn compare(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -273,6 +279,8 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
+    /// Estimates the parameters with their intervals, and tests whether random profiles describe
+    /// the measured curves.
     fn fit(&self) -> Result<EnsembleFit, ExperimentError> {
         let posterior = self.predictions.posterior();
         let best = posterior.best();
@@ -281,8 +289,8 @@ impl Comparison<'_> {
         let mut work_at_most = None;
         let mut roughness = None;
         if beyond.contains(&End::LowRange) {
-            // Curves without adhesion do not change with γ, and no change of γ makes up for a
-            // change of the roughness.
+            // If curves without adhesion describe the data too, the computed curves hardly change
+            // with γ. No change of γ can then balance a change of the roughness.
             work_at_most = Some(posterior.most_work());
         } else {
             roughness = self.roughness_shifts(best, &response)?;
@@ -358,7 +366,8 @@ impl Comparison<'_> {
         }
     }
 
-    /// Returns the effective modulus with all errors.
+    /// Returns the effective modulus with the interval of all its errors, including those of the
+    /// roughness.
     fn modulus(
         &self,
         posterior: &Posterior,
@@ -377,7 +386,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Computes a table around a place.
+/// Computes the first table, around a pair of parameters.
 fn first_table(
     workers: &Workers<'_>,
     centre: Place,
@@ -392,7 +401,8 @@ fn first_table(
     Table::new(workers, lines, ranges, moduli)
 }
 
-/// Extends a table until the parameters lie within it, and returns the predictions from it.
+/// Extends a table until the parameters lie within it, and returns the predictions that are learned
+/// from this table.
 fn grown_predictions(
     table: &mut Table,
     workers: &Workers<'_>,
@@ -418,8 +428,9 @@ fn grown_predictions(
 }
 
 impl EnsembleOptions {
-    /// Returns the half-width of a 95 % interval due to the stated errors of the roughness, for
-    /// derivatives with respect to ln h and H.
+    /// Returns half the width of the 95 % interval of a quantity that results from the stated
+    /// errors of the roughness. `by_height` and `by_hurst` are the derivatives of the quantity with
+    /// respect to ln h and H.
     fn half_width_by(&self, by_height: f64, by_hurst: f64) -> f64 {
         let height_error = self.height_error.unwrap_or_default();
         let hurst_error = self.hurst_error.unwrap_or_default();
@@ -429,9 +440,10 @@ impl EnsembleOptions {
 
 /// Precision of the work of adhesion.
 struct Precision {
-    /// Half-width of the interval of ln γ for a roughness without error.
+    /// Half the width of the 95 % interval of ln γ for a roughness without error.
     half_width: f64,
-    /// Half-width of the interval of ln γ due to the stated errors of the roughness.
+    /// Half the width of the 95 % interval of ln γ that results from the stated errors of the
+    /// roughness alone.
     of_roughness: f64,
     /// Number of measured curves.
     curves: f64,
@@ -440,12 +452,14 @@ struct Precision {
 }
 
 impl Precision {
-    /// Returns the variance of a mean prediction, in units of the variance of one profile.
+    /// Returns the variance of the mean prediction over `curves` curves, in units of the variance
+    /// over the random profiles.
     fn variance(&self, curves: f64) -> f64 {
         1.0 / curves + 1.0 / self.lines
     }
 
-    /// Returns the sources of the uncertainty of the work of adhesion, which has all errors.
+    /// Returns the sources of the uncertainty of the work of adhesion. The interval of `work`
+    /// includes all errors.
     fn shares(&self, work: IntervalEstimate) -> Shares {
         let square = self.half_width.powi(2);
         let variance = self.variance(self.curves);
@@ -457,7 +471,7 @@ impl Precision {
         }
     }
 
-    /// Returns the precision with more curves.
+    /// Returns the expected precision for larger numbers of curves.
     fn prospects(&self) -> Vec<Prospect> {
         let square = self.half_width.powi(2);
         let variance = self.variance(self.curves);
@@ -475,9 +489,9 @@ impl Precision {
     }
 }
 
-/// Returns the premises of the model that a few random profiles do not meet with the parameters of
-/// a place and a preload in N. If no profile can be computed, the premises are those that are known
-/// from the fields of the scene.
+/// Returns the premises of the model that some random profiles do not meet. A few profiles are
+/// computed with the parameters of a place and a preload in N. If no profile can be computed, the
+/// result has only the premises that can be checked with the fields of the scene.
 fn warnings_at(workers: &Workers<'_>, place: Place, preload: f64) -> Vec<CountedWarning> {
     let mut simulation = workers.simulation.another();
     let mut warnings = Vec::new();
@@ -502,8 +516,8 @@ fn warnings_at(workers: &Workers<'_>, place: Place, preload: f64) -> Vec<Counted
     warnings
 }
 
-/// Returns the scene of a random profile that is loaded to a preload in N with the parameters of a
-/// place; `None` if they are not allowed.
+/// Returns the scene of a random profile with the parameters of a place, loaded to a preload in N;
+/// `None` if the scene does not allow these values.
 fn profile_at(
     specimen: &Specimen<'_>,
     place: Place,
@@ -528,8 +542,8 @@ fn profile_at(
     scene.ok()
 }
 
-/// Returns the scene with the stiffness of the instrument that the files state, and this change in
-/// words.
+/// Returns the scene with the stiffness of the instrument that the files state, and a sentence on
+/// this change.
 fn with_instrument(
     curves: &[(String, MeasuredCurve)],
     document: &Document,
@@ -556,7 +570,7 @@ fn stiffness_of(document: &Document) -> f64 {
     document.scene().loading_stiffness.unwrap_or(f64::INFINITY)
 }
 
-/// Returns an error for curves, a scene or options that allow no comparison.
+/// Returns an error if the curves, the scene or the options allow no comparison.
 fn check(
     curves: &[(String, MeasuredCurve)],
     scene: &Scene,
@@ -636,8 +650,8 @@ mod tests {
         )
     }
 
-    /// Rough spheres of 1024 springs; the work of adhesion of the curve with number `foreign` is a
-    /// fifth.
+    /// Returns curves of rough spheres on 1024 springs. The curve with the number `foreign` has a
+    /// fifth of the work of adhesion of the others.
     fn curves(count: u64, foreign: Option<u64>) -> (Scene, Vec<(String, MeasuredCurve)>) {
         let mut scene = scene("rough-sphere");
         scene.numerics.points = 2048;
@@ -658,8 +672,8 @@ mod tests {
         (scene, curves)
     }
 
-    /// The start of the scene does not matter, nor the number of threads; a place with another work
-    /// of adhesion is named.
+    /// The result depends neither on the values in the scene nor on the number of threads. A place
+    /// with another work of adhesion is named.
     #[test]
     fn the_work_of_adhesion_is_found_and_a_foreign_place_named() {
         let (scene, all) = curves(12, Some(5));
@@ -699,7 +713,7 @@ mod tests {
             (fit.shares.places + fit.shares.profiles - 1.0).abs() < 1e-12
                 && fit.shares.roughness == 0.0
         );
-        // More height needs more adhesion.
+        // A larger rms height needs a larger work of adhesion.
         let shifts = fit.roughness.unwrap();
         assert!((0.3..3.0).contains(&shifts.work_by_height), "{shifts:?}");
         let other = Scene {
@@ -722,7 +736,7 @@ mod tests {
         );
     }
 
-    /// Curves without adhesion give an upper bound of γ and no other number that depends on it.
+    /// Curves without adhesion give an upper bound of γ, and no other number that depends on γ.
     #[test]
     fn curves_without_adhesion_have_an_upper_bound_of_it() {
         let (scene, _) = curves(0, None);
@@ -762,7 +776,7 @@ mod tests {
         );
     }
 
-    /// A profile that is shorter than the contact is named.
+    /// A warning names a profile that is shorter than the contact.
     #[test]
     fn a_contact_that_fills_its_profile_is_named() {
         let (scene, all) = curves(2, None);
@@ -779,7 +793,7 @@ mod tests {
         assert_eq!(fit.warnings.iter().find(ends), Some(&expected));
     }
 
-    /// The premises are those of the profiles that are computed with the found values.
+    /// The warnings are those of the profiles that are computed with the found values.
     #[test]
     fn the_premises_are_those_of_single_profiles() {
         let (mut scene, all) = curves(2, None);

@@ -1,5 +1,6 @@
-//! The probability of the parameters. Polynomials, learned from computed curves, predict the
-//! parameters of a curve from its summaries, and the mean prediction over the measured curves is
+//! The probability of the parameters γ and E*, given several measured curves. Polynomials, learned
+//! from computed curves, predict the parameters of a curve from its summaries: numbers computed
+//! from the curve, such as its pull-off force. The mean prediction over the measured curves is
 //! compared with the predictions over random profiles.
 
 use super::summary::{
@@ -13,38 +14,45 @@ use asperity_data::{Cholesky, mean, standard_deviation};
 pub(crate) const WORK: usize = 0;
 /// Index of ln E* among the parameters and the axes of a grid.
 pub(crate) const MODULUS: usize = 1;
-/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are cut
-/// off.
+/// Largest deviation of a summary from its mean, in standard deviations. Larger deviations are
+/// reduced to this value.
 const LARGEST: f64 = 4.0;
-/// Penalty of the size of the coefficients, divided by the mean weight of the curves.
+/// Penalty on the squares of the coefficients (ridge regression), divided by the mean diagonal
+/// element of the matrix of the normal equations.
 const RIDGE: f64 = 1e-5;
 /// Number of cells of a grid along each axis.
 const CELLS: usize = 96;
-/// Largest probability at one value of an axis. A normal distribution has it if the step is a fifth
-/// of its standard deviation.
+/// Largest allowed probability of one value of an axis: a coarser grid is replaced by a finer one.
+/// A normal distribution has this probability at its mean if the step of the axis is a fifth of the
+/// standard deviation.
 const MOST_AT_VALUE: f64 = 0.08;
-/// Probability at one value of an axis below which this value is beyond the distribution.
+/// Probability of one value of an axis below which the value counts as outside the distribution.
 const NEGLIGIBLE: f64 = 1e-7;
-/// Number of values that a finer grid keeps beyond the values with a probability. On a coarse grid
-/// the largest probability of a narrow ridge may be some values away from its summit.
+/// Number of values that a finer grid keeps on each side, beyond the values with more than
+/// negligible probability. The margin is needed because on a coarse grid the largest probability of
+/// a narrow ridge may be some values away from the true maximum.
 const MARGIN: usize = 8;
-/// Largest number of grids, each of which is finer or wider than the one before.
+/// Largest number of grids that are tried, each finer or wider than the previous one.
 const MOST_GRIDS: usize = 60;
-/// Smallest step of a grid, which rounding allows.
+/// Smallest step of a grid. With a smaller step the values of an axis would differ only by rounding
+/// errors.
 const LEAST_STEP: f64 = 1e-12;
-/// Share of the probability within `EDGE` of an end of the table, above which the table is too
-/// short.
+/// Largest probability of values within [`EDGE`] of an end of the table. If the probability is
+/// larger, the table is too short.
 const MOST_AT_END: f64 = 2e-3;
-/// Width of the edge of the table, on the scale of natural logarithms.
+/// Width of the edge of the table, as a difference of natural logarithms.
 const EDGE: f64 = 0.1;
-/// Density divided by the largest density above which a value is not excluded: exp(−1.96²/2).
+/// Smallest probability density, divided by the largest density, of a value that is not excluded at
+/// the level of 5 %: exp(−1.96²/2).
 const NOT_EXCLUDED: f64 = 0.146_5;
-/// Quantiles of the result and of its 95 % interval.
+/// Quantiles of the lower end of the 95 % interval, of the estimate (the median), and of the upper
+/// end.
 const QUANTILES: [f64; 3] = [0.025, 0.5, 0.975];
-/// Squared distance of a curve from the others that one curve of a thousand exceeds, if E* is
-/// given: quantile of χ² for one value.
+/// Squared Mahalanobis distance from the mean of the random profiles that one curve of a thousand
+/// exceeds by chance, if E* is given: a quantile of χ² with one degree of freedom.
 const FOREIGN_OF_WORK: f64 = 10.8;
-/// The same distance if E* is free: quantile of χ² for two values.
+/// The same limit as [`FOREIGN_OF_WORK`] if E* is free: a quantile of χ² with two degrees of
+/// freedom.
 const FOREIGN_OF_BOTH: f64 = 13.8;
 /// Smallest pull-off force that is reported, in standard deviations of the noise.
 const LEAST_PULL_OFF: f64 = 5.0;
@@ -69,11 +77,12 @@ struct Standard {
 /// Two polynomials of second degree in the summaries. Each is learned from one half of the random
 /// profiles, and predicts the parameters of the other half.
 struct Polynomials {
-    /// For each summary.
+    /// Mean and standard deviation of each summary.
     standards: Vec<Standard>,
-    /// Coefficients of both parameters, learned from the even and from the odd profiles.
+    /// Coefficients for both parameters: first those learned from the profiles with even numbers,
+    /// then those learned from the profiles with odd numbers.
     halves: [Vec<[f64; 2]>; 2],
-    /// Mean of the parameters.
+    /// Mean of the parameters of the computed curves.
     centre: [f64; 2],
 }
 
@@ -105,7 +114,7 @@ impl Polynomials {
             let work = example.parameters[WORK] - self.centre[WORK];
             let modulus = example.parameters[MODULUS] - self.centre[MODULUS];
             for (row, term) in terms.iter().enumerate() {
-                // The lower triangle is enough.
+                // The matrix is symmetric, so only its lower triangle is computed.
                 let sums = &mut products[row * count..][..=row];
                 for (sum, other) in sums.iter_mut().zip(&terms) {
                     *sum += term * other;
@@ -129,7 +138,8 @@ impl Polynomials {
             .collect()
     }
 
-    /// Returns 1, the standardised summaries and all their products.
+    /// Returns the terms of a polynomial of second degree: 1, the standardised summaries, and all
+    /// products of two of them.
     fn terms(&self, description: &Description) -> Vec<f64> {
         let mut factors = Vec::with_capacity(self.standards.len() + 1);
         factors.push(1.0);
@@ -146,7 +156,7 @@ impl Polynomials {
         terms
     }
 
-    /// Predicts by the polynomial that was learned from one half.
+    /// Predicts ln γ and ln E* by the polynomial that was learned from one half of the profiles.
     fn by_half(&self, terms: &[f64], half: usize) -> [f64; 2] {
         [WORK, MODULUS].map(|parameter| {
             let products = terms
@@ -157,13 +167,14 @@ impl Polynomials {
         })
     }
 
-    /// Predicts ln γ and ln E* of a curve of a random profile, by the polynomial learned from the
-    /// other half.
+    /// Predicts ln γ and ln E* of a computed curve by the polynomial of the half that does not
+    /// contain its random profile, so that the prediction has no bias from learning.
     fn of_line(&self, line: u64, description: &Description) -> [f64; 2] {
         self.by_half(&self.terms(description), 1 - (line % 2) as usize)
     }
 
-    /// Predicts ln γ and ln E* of another curve, as the mean of both polynomials.
+    /// Predicts ln γ and ln E* of a curve that belongs to no profile of the table, as the mean of
+    /// both polynomials.
     fn of_curve(&self, description: &Description) -> [f64; 2] {
         let terms = self.terms(description);
         let even = self.by_half(&terms, 0);
@@ -219,7 +230,8 @@ impl IntervalEstimate {
         }
     }
 
-    /// Returns the estimate of a parameter that has an upper bound only.
+    /// Returns the estimate of a parameter of which only the upper bound `most` is known. Its
+    /// interval begins at 0.
     pub(crate) fn at_most(self, most: f64) -> Self {
         IntervalEstimate {
             value: self.value.min(most),
@@ -228,8 +240,8 @@ impl IntervalEstimate {
         }
     }
 
-    /// Adds further errors in quadrature, given as the half-width of a 95 % interval of the natural
-    /// logarithm.
+    /// Adds an independent error to the interval. `half_width` is half the width of the 95 %
+    /// interval of this error, on the scale of the natural logarithm.
     pub(crate) fn widened(self, half_width: f64) -> Self {
         let factor_below = (self.low / self.value).ln().hypot(half_width).exp();
         let factor_above = (self.high / self.value).ln().hypot(half_width).exp();
@@ -249,17 +261,17 @@ struct Likelihood {
     lines: f64,
 }
 
-/// Ends of a table.
+/// Ranges of the parameters in a table.
 #[derive(Clone, Copy)]
 struct Limits {
     /// Smallest and largest ln(γ/E*).
     ranges: Extent,
-    /// Smallest and largest ln E*, which are one value if E* is given.
+    /// Smallest and largest ln E*. Both are equal if E* is given.
     moduli: Extent,
 }
 
 impl Limits {
-    /// Returns the values of ln γ and ln E* in the table.
+    /// Returns the ranges of ln γ and ln E* that contain all values in the table.
     fn extents(self) -> [Extent; 2] {
         let works = Extent {
             low: self.ranges.low + self.moduli.low,
@@ -268,7 +280,7 @@ impl Limits {
         [works, self.moduli]
     }
 
-    /// Returns true for a place near an end of the table.
+    /// Returns true if a place, a pair of parameters, is near this end of the table.
     fn is_near(self, place: Place, end: End) -> bool {
         let is_modulus_free = self.moduli.high > self.moduli.low;
         match end {
@@ -299,13 +311,15 @@ struct Extent {
 pub(crate) struct Posterior {
     /// Evenly spaced values of ln γ and of ln E*.
     axes: [Vec<f64>; 2],
-    /// Probability of each pair of values, all values of ln E* of one ln γ together.
+    /// Probability of each pair of values. All pairs with the first value of ln γ come first, in
+    /// the order of ln E*.
     weights: Vec<f64>,
     limits: Limits,
 }
 
 impl Likelihood {
-    /// Prepares the comparison with a table, or with the part of it that has a known ln E*.
+    /// Prepares the comparison with a table. If ln E* is known, only pairs with this value are
+    /// compared.
     fn new(table: &Table, scatter: &Scatter, known: Option<f64>) -> Self {
         let moduli = match known {
             Some(modulus) => Extent {
@@ -328,9 +342,9 @@ impl Likelihood {
     /// `prediction`. The prior is flat over ln γ and ln E*. The error of the mean comes from the
     /// number of curves and from the number of random profiles.
     ///
-    /// The grid begins with the whole table. It is cut to the values that have a probability, and
-    /// widened where the probability does not end, until no value of a parameter has much of the
-    /// probability.
+    /// The first grid covers the whole table. The next grids are narrowed to the values with more
+    /// than negligible probability, or widened where the probability does not end within the grid,
+    /// until no value of a parameter has more than a small part of the probability.
     fn posterior(&self, prediction: [f64; 2], curves: f64) -> Posterior {
         let observed = Observed {
             prediction,
@@ -379,8 +393,9 @@ impl Likelihood {
         }
     }
 
-    /// Returns the logarithm of the probability density, up to a constant. A power in place of an
-    /// exponential allows for the uncertain covariance of few profiles (Student's t-distribution).
+    /// Returns the logarithm of the probability density at a place, up to a constant. It is
+    /// Student's t-distribution, and not a normal distribution, because the covariance from few
+    /// profiles is uncertain.
     fn logarithm(&self, observed: &Observed, place: Place) -> f64 {
         let Extent { low, high } = self.limits.ranges;
         let rounding = 1e-9;
@@ -407,7 +422,7 @@ impl Extent {
         self.high - self.low
     }
 
-    /// Evenly spaced values; one value if the width is 0.
+    /// Returns evenly spaced values; a single value if the width is 0.
     fn values(self) -> Vec<f64> {
         if self.width() == 0.0 {
             return vec![self.low];
@@ -445,8 +460,8 @@ impl Posterior {
         sums
     }
 
-    /// Returns the values of an axis that the next grid should have, within `whole`: the same
-    /// values if this grid is fine and wide enough.
+    /// Returns the range of an axis for the next grid, within `whole`. The range is unchanged if
+    /// this grid is fine and wide enough.
     fn next_extent(&self, axis: usize, whole: Extent) -> Extent {
         let values = &self.axes[axis];
         let last = values.len() - 1;
@@ -483,7 +498,7 @@ impl Posterior {
         }
     }
 
-    /// Returns the most probable place.
+    /// Returns the most probable pair of parameters.
     pub fn best(&self) -> Place {
         let weights = self.weights.iter().enumerate();
         let best = weights.max_by(|(_, weight), (_, next)| weight.total_cmp(next));
@@ -497,7 +512,8 @@ impl Posterior {
         }
     }
 
-    /// Returns γ in J/m² for the parameter [`WORK`], and E* in Pa for the parameter [`MODULUS`].
+    /// Returns the estimate of a parameter: of γ in J/m² for [`WORK`], or of E* in Pa for
+    /// [`MODULUS`].
     pub fn estimate(&self, parameter: usize) -> IntervalEstimate {
         let probabilities = self.along(parameter);
         let [low, value, high] =
@@ -505,8 +521,8 @@ impl Posterior {
         IntervalEstimate { value, low, high }
     }
 
-    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %: its probability
-    /// density is at least exp(−1.96²/2) times the largest one.
+    /// Returns the largest γ in J/m² that is not excluded at the level of 5 %. The probability
+    /// density of this γ is exp(−1.96²/2) times the largest density.
     pub fn most_work(&self) -> f64 {
         let densities = self.along(WORK);
         let largest = densities.iter().copied().fold(0.0, f64::max);
@@ -516,7 +532,7 @@ impl Posterior {
         self.axes[WORK][last.unwrap_or(densities.len() - 1)].exp()
     }
 
-    /// Returns the mean of a function of ln γ and ln E*.
+    /// Returns the mean of a function of ln γ and ln E* over the probability distribution.
     fn mean(&self, value_of: impl Fn(f64, f64) -> f64) -> f64 {
         let [works, moduli] = &self.axes;
         let mut sum = 0.0;
@@ -544,7 +560,8 @@ impl Posterior {
         }
     }
 
-    /// Returns the ends of the table beyond which the parameters may lie.
+    /// Returns the ends of the table near which there is so much probability that the parameters
+    /// may lie beyond.
     pub fn beyond(&self) -> Vec<End> {
         let mut ends = vec![
             End::LowRange,
@@ -556,7 +573,7 @@ impl Posterior {
         ends
     }
 
-    /// Returns the probability of places near an end of the table.
+    /// Returns the probability of all pairs of parameters near an end of the table.
     fn probability_near(&self, end: End) -> f64 {
         let mut sum = 0.0;
         for (place, weight) in self.nodes().zip(&self.weights) {
@@ -580,7 +597,8 @@ fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
         if remainder <= *cell {
             let from = probabilities[index];
             let to = probabilities[index + 1];
-            // The positive root of from·x + (to − from)·x²/2 = remainder.
+            // `root` is part of the positive solution x of from·x + (to − from)·x²/2 = remainder,
+            // written so that it loses no digits if `from` and `to` are nearly equal.
             let root = (from * from + 2.0 * (to - from) * remainder)
                 .max(0.0)
                 .sqrt();
@@ -602,18 +620,18 @@ fn quantile(values: &[f64], probabilities: &[f64], share: f64) -> f64 {
 pub struct CurveOfEnsemble {
     /// Name of the curve, as it was given to [`fit_ensemble`](crate::fit_ensemble).
     pub name: String,
-    /// Preload of the curve, which is its largest force, N.
+    /// Preload of the curve in N, which is its largest force.
     pub preload: f64,
-    /// Largest tensile force of the retraction as a positive number, N; `None` if it is at most 5
-    /// times the noise of the force.
+    /// Largest tensile force of the retraction in N, as a positive number; `None` if it is at most
+    /// 5 times the noise of the force.
     pub pull_off_force: Option<f64>,
-    /// Energy dissipated in the loop, J: area between approach and retraction over the displacement
-    /// of the instrument.
+    /// Energy in J that is dissipated in the loop: area between approach and retraction over the
+    /// displacement of the instrument.
     pub loop_area: f64,
-    /// Stiffness at the beginning of the retraction, N/m: half the preload, divided by the change
+    /// Stiffness in N/m at the beginning of the retraction: half the preload, divided by the change
     /// of the displacement while the force falls from the preload to half the preload.
     pub stiffness: f64,
-    /// Work of adhesion found from this single curve, J/m².
+    /// Work of adhesion in J/m² that is found from this single curve.
     pub work: IntervalEstimate,
     /// True if the interval of [`Self::work`] ends where the values end for which curves were
     /// computed. The true interval is then wider.
@@ -638,7 +656,8 @@ pub(crate) struct Predictions {
 }
 
 impl Predictions {
-    /// Learns from a table. `known` is ln E* if it is given.
+    /// Learns the polynomials from a table, and predicts the parameters of all computed and
+    /// measured curves. `known` is ln E* if E* is given.
     pub fn new(table: &Table, measured: &Measurement, known: Option<f64>) -> Self {
         let examples = examples(table, measured);
         let polynomials = Polynomials::learned(&examples);
@@ -667,7 +686,7 @@ impl Predictions {
         }
     }
 
-    /// Predicts ln γ and ln E* of another computed curve of a random profile.
+    /// Predicts ln γ and ln E* of a further computed curve of a random profile of the table.
     pub fn of_line(&self, line: usize, curve: &Summaries, measured: &Measurement) -> [f64; 2] {
         let description = measured.describe(*curve, line);
         let prediction = self.polynomials.of_line(line as u64, &description);
@@ -688,8 +707,9 @@ impl Predictions {
         self.likelihood.posterior(self.mean_of_curves(), curves)
     }
 
-    /// Returns the standard deviation of the measured curves divided by the standard deviation of
-    /// the random profiles; `None` for few curves.
+    /// Returns the ratio of two standard deviations of the predictions: over the measured curves,
+    /// and over the random profiles at the most probable place. `None` for fewer than
+    /// [`FEWEST_FOR_SCATTER`] curves.
     pub fn scatter_ratio(&self, best: Place) -> Option<f64> {
         let count = self.of_curves.len();
         if count < FEWEST_FOR_SCATTER {
@@ -706,7 +726,7 @@ impl Predictions {
         Some((sum / (count as f64 - 1.0) / values).sqrt())
     }
 
-    /// Returns the results of each curve used without the others.
+    /// Returns the results of each curve as if it were the only measured curve.
     pub fn rows(
         &self,
         curves: &[(String, MeasuredCurve)],
@@ -733,7 +753,8 @@ impl Predictions {
         rows
     }
 
-    /// Returns true if a measured curve is far from the random profiles at the best place.
+    /// Returns true if the prediction of a measured curve is farther from the mean of the random
+    /// profiles at the most probable place than chance explains.
     fn is_foreign(&self, index: usize, best: Place) -> bool {
         let moments = self.scatter.at(best);
         let inverse = moments.inverse();
@@ -748,7 +769,7 @@ impl Predictions {
     }
 }
 
-/// Returns the computed curves of a table, line by line.
+/// Returns the computed curves of a table, profile by profile.
 fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
     let places = table.places();
     let mut examples = Vec::with_capacity(table.lines.len() * places.len());
@@ -764,7 +785,8 @@ fn examples(table: &Table, measured: &Measurement) -> Vec<Example> {
     examples
 }
 
-/// Returns a prediction, with 0 for ln E* if the table has one modulus.
+/// Returns the prediction. If the table has one modulus, its ln E* is replaced by 0, because it
+/// means nothing.
 fn without_modulus_if(has_one_modulus: bool, prediction: [f64; 2]) -> [f64; 2] {
     if has_one_modulus {
         [prediction[WORK], 0.0]
@@ -779,7 +801,7 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
 
-    /// A relation of second degree is learned, by each half from its own lines.
+    /// Each polynomial learns a relation of second degree from the profiles of its half.
     #[test]
     fn a_polynomial_of_second_degree_is_learned() {
         let mut generator = ChaCha8Rng::seed_from_u64(1);
@@ -797,7 +819,8 @@ mod tests {
         let curves: Vec<_> = (0..2000)
             .map(|index| {
                 let of = random();
-                // The lines of one half are off by 1: the other half does not learn it.
+                // The parameters of one half of the profiles are off by 1, which the polynomial of
+                // the other half does not learn.
                 let [work, modulus] = parameters(&of);
                 Example {
                     line: index % 16,
@@ -824,8 +847,9 @@ mod tests {
         }
     }
 
-    /// Learned values that are the parameters themselves, whose deviations over the profiles have
-    /// this standard deviation and this correlation of ln γ and ln E*.
+    /// Returns a likelihood in which the predictions are the parameters plus deviations. Over the
+    /// profiles the deviations have the standard deviation `deviation` and the correlation
+    /// `correlation` between ln γ and ln E*.
     fn likelihood(
         deviation: f64,
         correlation: f64,
@@ -841,7 +865,7 @@ mod tests {
         };
         let places: Vec<Place> = table.places();
         table.lines = vec![vec![[0.0; SUMMARIES]; places.len()]; lines];
-        // Two uncorrelated values of each profile, of this standard deviation.
+        // Each profile has two uncorrelated deviations of this size.
         let size = deviation * ((lines - 1) as f64 / lines as f64).sqrt();
         let sign = |is_positive: bool| if is_positive { size } else { -size };
         let scatter = Scatter::of(&table, |line, node| {
@@ -858,7 +882,8 @@ mod tests {
         Likelihood::new(&table, &scatter, known)
     }
 
-    /// Asserts that an interval of a parameter is that of a normal distribution.
+    /// Asserts that the estimate of a parameter and its interval are those of a normal
+    /// distribution.
     fn assert_normal(found: IntervalEstimate, mean: f64, error: f64) {
         assert!(
             found.low < found.value && found.value < found.high,
@@ -877,8 +902,8 @@ mod tests {
         }
     }
 
-    /// For scatters from a ten-thousandth of a step of the table to a whole step, alone and with
-    /// strong correlation, the intervals are those of normal distributions.
+    /// The intervals are those of normal distributions. The scatter is from a ten-thousandth of a
+    /// step of the table to a whole step, without correlation and with strong correlation.
     #[test]
     fn intervals_have_the_errors_of_curves_and_profiles() {
         for deviation in [1e-5, 1e-4, 1e-3, 5e-3, 0.02, 0.1, 0.2] {
@@ -928,8 +953,8 @@ mod tests {
         assert_eq!(quantile(&[5.0], &[1.0], 0.5), 5.0);
     }
 
-    /// A probability that the table cuts off, or that fills the whole table, has an interval within
-    /// the table.
+    /// If the table cuts off the probability, or the probability fills the whole table, the
+    /// interval lies within the table.
     #[test]
     fn intervals_end_with_the_table() {
         for (deviation, work, modulus) in [

@@ -1,21 +1,22 @@
-//! Measured curves as a few logarithms. The same code serves computed curves.
+//! Reduction of a force curve to its summaries: the logarithms of a few forces, distances and
+//! energies. Measured and computed curves are reduced by the same code.
 
 use crate::curve::MeasuredCurve;
 use crate::error::{ExperimentError, refused};
 use asperity_data::{mean, median, standard_deviation};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Smallest number of points of a branch.
+/// Smallest number of points of a branch, which is the approach or the retraction.
 const FEWEST: usize = 20;
 /// Smallest number of points of the part of a branch without contact.
 const FEWEST_FREE: usize = 5;
-/// Mean force at the end of the retraction, in standard deviations of its noise, above which the
-/// body is still in contact.
+/// Magnitude of the mean force at the end of the retraction, in standard deviations of the mean by
+/// noise, above which the body is still in contact.
 const IN_CONTACT: f64 = 5.0;
-/// Smallest noise divided by the largest force. Computed curves are not more accurate.
+/// Smallest assumed noise, divided by the largest force. Computed curves are not more accurate than
+/// this.
 const LEAST_NOISE: f64 = 1e-4;
-/// Share of the largest force by which a force without contact may differ from zero because of
-/// drift.
+/// Largest force without contact, as a share of the largest force, that may result from drift.
 const NEAR_ZERO: f64 = 0.03;
 /// Number of summaries of a curve, without its preload.
 pub(crate) const SUMMARIES: usize = 11;
@@ -37,25 +38,29 @@ pub(crate) const NAMES: [&str; SUMMARIES] = [
 pub(crate) const PULL_OFF: usize = 0;
 /// Index of the area of the loop in the summaries.
 pub(crate) const LOOP_AREA: usize = 1;
-/// Index of the way back to half of the preload in the summaries.
+/// Index, in the summaries, of the distance from the turning point back to half of the preload.
 pub(crate) const WAY_TO_HALF: usize = 3;
-/// Smallest pull-off force, in units of the noise.
+/// Smallest pull-off force in a summary, in units of the noise; smaller forces are replaced by it,
+/// because they are noise.
 const FLOOR: f64 = 3.0;
-/// Smallest tension that does work, in units of the noise.
+/// Tension, in units of the noise, that is subtracted before the work of the tension is computed,
+/// so that noise alone does no work.
 const TENSION: f64 = 2.0;
-/// Largest force after loss of contact, in units of the noise.
+/// Largest magnitude of the force after loss of contact, in units of the noise.
 const LOST: f64 = 5.0;
-/// Scatter of the preloads divided by the scatter due to noise, above which the preloads differ.
+/// Scatter of the preloads, divided by the scatter that results from noise, above which the
+/// preloads count as different.
 const DIFFERENT: f64 = 2.0;
-/// Factor within which the noise of all curves must agree to be replaced by the median.
+/// Largest factor between the noise of a curve and the median noise of all curves for which all are
+/// replaced by the median.
 const ONE_NOISE: f64 = 1.5;
 
-/// Point of a branch.
+/// Point of an approach or a retraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Point {
-    /// Displacement relative to the turning point, m, at most about 0.
+    /// Displacement minus the displacement at the turning point, in m; at most about 0.
     pub displacement: f64,
-    /// Force, N.
+    /// Force in N.
     pub force: f64,
 }
 
@@ -63,7 +68,7 @@ pub(crate) struct Point {
 pub(crate) struct Branches {
     pub approach: Vec<Point>,
     pub retraction: Vec<Point>,
-    /// Standard deviation of the noise of the force, N.
+    /// Standard deviation of the noise of the force in N.
     pub noise: f64,
     /// Number of points at the beginning of the approach that give the zero and the noise of the
     /// force.
@@ -71,10 +76,12 @@ pub(crate) struct Branches {
 }
 
 impl Branches {
-    /// Takes approach and retraction out of a measured curve.
+    /// Returns the approach and the first retraction of a measured curve, with the zero of the
+    /// force and the noise from the first half of the part before contact.
     ///
     /// # Errors
-    /// The curve lacks an approach or a retraction, or ends before the contact is lost.
+    /// Returns an error if the curve lacks an approach or a retraction, or ends before the contact
+    /// is lost.
     pub fn of(curve: &MeasuredCurve) -> Result<Self, ExperimentError> {
         let mut approach = branch_of(curve, 0);
         let mut retraction = branch_of(curve, 1);
@@ -83,8 +90,8 @@ impl Branches {
             let allowed = "an approach, which begins before contact, and its retraction";
             return refused(found, allowed);
         }
-        // The first contacts of a rough body are weak, and may lie in the part that seems to be
-        // free.
+        // Only the first half of the part before contact is used, because the first contacts of a
+        // rough body are weak and may lie in the second half.
         let free = curve.free / 2;
         let before = &approach[..free.min(approach.len())];
         let before: Vec<f64> = before.iter().map(|point| point.force).collect();
@@ -121,12 +128,14 @@ impl Branches {
         mean.abs() > (IN_CONTACT * error).max(NEAR_ZERO * largest)
     }
 
-    /// Returns the force at the turning point in N, as the mean over the ends of both branches.
+    /// Returns the force at the turning point in N: the mean of the last force of the approach and
+    /// the first force of the retraction.
     pub fn preload(&self) -> f64 {
         0.5 * (self.approach[self.approach.len() - 1].force + self.retraction[0].force)
     }
 
-    /// Returns the standard deviation of the preload due to the noise, in N.
+    /// Returns the standard deviation in N of the preload by noise. It is smaller than the noise by
+    /// √2, because the preload is a mean of two forces.
     pub fn preload_error(&self) -> f64 {
         self.noise * FRAC_1_SQRT_2
     }
@@ -150,9 +159,9 @@ fn branch_of(curve: &MeasuredCurve, number: usize) -> Vec<Point> {
 /// Natural logarithms of forces in N, distances in m and energies in J.
 pub(crate) type Summaries = [f64; SUMMARIES];
 
-/// Computes the summaries of a curve whose preload in N is known. Distances are counted from the
-/// turning point, so that the displacement at first touch has no effect. Places between points are
-/// interpolated, because summaries that count points would change in steps with the parameters.
+/// Computes the summaries of a curve whose preload in N is known. Distances count from the turning
+/// point, so that an error of the contact point has no effect. They are interpolated between
+/// points, because otherwise the summaries would change with the parameters in steps.
 pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     let approach = &branches.approach;
     let retraction = &branches.retraction;
@@ -162,7 +171,7 @@ pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     let range = retraction[0].displacement - retraction[retraction.len() - 1].displacement;
     let spacing = range.abs() / count;
     let least_force = FLOOR * noise;
-    // Noise of an integral over all points.
+    // Smallest work: the integral over the displacement of noise at all points.
     let least_work = least_force * spacing * count.sqrt();
     let tension = |force: f64| (-force - TENSION * noise).max(0.0);
 
@@ -193,7 +202,7 @@ pub(crate) fn summaries(branches: &Branches, preload: f64) -> Summaries {
     .map(f64::ln)
 }
 
-/// Integrates a function of the force over the displacement, J.
+/// Integrates a function of the force over the displacement. The result is in J.
 fn work(branch: &[Point], force_of: impl Fn(f64) -> f64) -> f64 {
     branch
         .windows(2)
@@ -204,8 +213,8 @@ fn work(branch: &[Point], force_of: impl Fn(f64) -> f64) -> f64 {
         .sum()
 }
 
-/// Returns the displacement in m at which the force first falls below a level; the last
-/// displacement if it never does.
+/// Returns the displacement in m at which the force first falls below a level in N. If the force
+/// never does, returns the last displacement.
 fn below(branch: &[Point], level: f64) -> f64 {
     let next = branch
         .iter()
@@ -214,8 +223,8 @@ fn below(branch: &[Point], level: f64) -> f64 {
     crossing(branch[next.saturating_sub(1)], branch[next], level)
 }
 
-/// Returns the displacement in m at which the magnitude of the force is above a level for the last
-/// time.
+/// Returns the displacement in m at which the magnitude of the force falls below a level in N for
+/// the last time.
 fn loss(branch: &[Point], level: f64) -> f64 {
     let last = branch
         .iter()
@@ -226,7 +235,7 @@ fn loss(branch: &[Point], level: f64) -> f64 {
 }
 
 impl Point {
-    /// Returns the point with the magnitude of its force.
+    /// Returns the same point with the magnitude of its force.
     fn magnitude(self) -> Self {
         Point {
             force: self.force.abs(),
@@ -235,7 +244,8 @@ impl Point {
     }
 }
 
-/// Returns the displacement between two points at which the force has a value.
+/// Returns the displacement in m between two points at which the force has the value `level` in N,
+/// by linear interpolation.
 fn crossing(from: Point, to: Point, level: f64) -> f64 {
     let change = to.force - from.force;
     let share = if change == 0.0 {
@@ -248,13 +258,14 @@ fn crossing(from: Point, to: Point, level: f64) -> f64 {
 
 /// Largest tension of a branch.
 struct LargestTension {
-    /// Tension as a positive force, N.
+    /// Tension as a positive force in N.
     force: f64,
-    /// Displacement, m.
+    /// Displacement at the largest tension, relative to the turning point, in m.
     displacement: f64,
 }
 
-/// Returns the largest tension, from the parabola through neighbouring points.
+/// Returns the largest tension: the minimum of the parabola through the lowest point and its two
+/// neighbours.
 fn largest_tension(branch: &[Point]) -> LargestTension {
     let points = branch.iter().enumerate();
     let lowest = points.min_by(|(_, point), (_, next)| point.force.total_cmp(&next.force));
@@ -279,17 +290,17 @@ fn largest_tension(branch: &[Point]) -> LargestTension {
     tension
 }
 
-/// How a curve was measured.
+/// Properties of a measured curve that the computed curves take over.
 pub(crate) struct Protocol {
-    /// Measured force at the turning point, N.
+    /// Measured force in N at the turning point.
     pub preload: f64,
-    /// Standard deviation of the error of the preload, N.
+    /// Standard deviation of the error of the preload in N.
     pub preload_error: f64,
-    /// Standard deviation of the noise of the force, N.
+    /// Standard deviation of the noise of the force in N.
     pub noise: f64,
-    /// Displacements of the approach relative to the turning point, m.
+    /// Displacements of the approach in m, relative to the turning point.
     pub approach: Vec<f64>,
-    /// Displacements of the retraction relative to the turning point, m.
+    /// Displacements of the retraction in m, relative to the turning point.
     pub retraction: Vec<f64>,
     /// Number of points at the beginning of the approach that give the zero of the force.
     pub free: usize,
@@ -318,7 +329,8 @@ pub(crate) struct MeanSummaries {
     pub curves: usize,
 }
 
-/// Summaries of a curve, and the logarithm of its preload if the preloads differ.
+/// Summaries of a curve, and the logarithm of its preload if the preloads of the measured curves
+/// differ.
 #[derive(Clone, Copy)]
 pub(crate) struct Description {
     pub summaries: Summaries,
@@ -331,18 +343,20 @@ impl Description {
     }
 }
 
-/// Measured curves as their summaries.
+/// Summaries and properties of all measured curves.
 pub(crate) struct Measurement {
     pub protocols: Vec<Protocol>,
-    /// Largest force of each curve, N.
+    /// Largest force in N of each curve.
     pub preloads: Vec<f64>,
-    /// Standard deviation of the preloads divided by their mean; `None` if they differ by noise
-    /// only.
+    /// Standard deviation of the preloads divided by their mean; `None` if the preloads differ only
+    /// by noise.
     pub preload_scatter: Option<f64>,
     pub summaries: Vec<Summaries>,
 }
 
 impl Measurement {
+    /// Computes the summaries of all measured curves. If the preloads differ only by noise, their
+    /// mean is used for all curves.
     pub fn of(curves: &[(String, MeasuredCurve)]) -> Result<Self, ExperimentError> {
         let mut branches = Vec::with_capacity(curves.len());
         for (name, curve) in curves {
@@ -387,8 +401,9 @@ impl Measurement {
         }
     }
 
-    /// Returns the summaries of a curve, with its preload if the preloads differ. More computed
-    /// curves than measured ones repeat the protocols.
+    /// Returns the summaries of a curve, with its preload if the preloads differ. `curve` is the
+    /// index of a measured curve or of a random profile. If there are more profiles than measured
+    /// curves, the properties of the measured curves are repeated.
     pub fn describe(&self, summaries: Summaries, curve: usize) -> Description {
         let mut preload = None;
         if self.preload_scatter.is_some() {
@@ -409,7 +424,7 @@ fn branches_of(name: &str, curve: &MeasuredCurve) -> Result<Branches, Experiment
     Ok(branches)
 }
 
-/// Returns the error with the name of a curve in front.
+/// Returns the error with the name of a curve before its text.
 fn named(error: ExperimentError, name: &str) -> ExperimentError {
     match error {
         ExperimentError::File(_) | ExperimentError::Run(_) => error,
@@ -420,8 +435,8 @@ fn named(error: ExperimentError, name: &str) -> ExperimentError {
     }
 }
 
-/// Replaces the noise of each curve by the median if all are alike, because the noise of a single
-/// curve has an error.
+/// Replaces the noise of each curve by the median noise, if the noise of all curves is similar. The
+/// median has a smaller error than the noise of a single curve.
 fn share_noise(branches: &mut [Branches]) {
     let mut noises: Vec<f64> = branches.iter().map(|branches| branches.noise).collect();
     let median_noise = median(&mut noises).unwrap_or_default();
@@ -437,7 +452,8 @@ fn share_noise(branches: &mut [Branches]) {
 mod tests {
     use super::*;
 
-    /// A spring of 1 N/m that presses to 100 N, and whose contact breaks at −40 N.
+    /// Returns the branches of a spring of 1 N/m that is pressed to 100 N, and whose contact breaks
+    /// at −40 N.
     fn sawtooth() -> Branches {
         let point = |displacement: f64, end: f64| {
             let force = if displacement >= end {
@@ -470,8 +486,8 @@ mod tests {
     #[test]
     fn summaries_are_those_of_a_sawtooth() {
         let found = summaries(&sawtooth(), 100.0).map(f64::exp);
-        // Forces, energies and distances; the floor of a tension is 3 noises, and a jump lies
-        // between two points.
+        // The expected forces, energies and distances. The smallest tension is three times the
+        // noise, and the jump lies between two points.
         let least_work = 0.3 * (200.0 / 401.0) * 401.0_f64.sqrt();
         let expected = [
             40.0, 810.0, 802.0, 50.0, 50.0, 100.0, 90.0, 140.0, 140.5, 0.3, least_work,
@@ -484,8 +500,8 @@ mod tests {
         }
     }
 
-    /// A place that lies between two points moves with the curve, and not by steps from point to
-    /// point.
+    /// A distance that ends between two points changes continuously with the curve, and not in
+    /// steps from point to point.
     #[test]
     fn distances_are_interpolated() {
         let of = |preload: f64| summaries(&sawtooth(), preload)[WAY_TO_HALF].exp();

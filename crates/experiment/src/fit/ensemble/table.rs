@@ -1,5 +1,6 @@
-//! Computed curves of random profiles at the nodes of a grid over ln(γ/E*) and ln E*, with the mean
-//! and the scatter of their summaries, and the place around which the grid lies.
+//! Table of the summaries of computed curves. The curves belong to random profiles and to the nodes
+//! of a grid over ln(γ/E*) and ln E*. The file also computes the mean and the scatter of the
+//! summaries over the profiles, and finds the place around which the grid has to lie.
 
 use super::summary::{Branches, Measurement, Point, Protocol, SUMMARIES, Summaries, summaries};
 use crate::error::ExperimentError;
@@ -13,19 +14,21 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Number of points of a computed branch, without the points at jumps.
+/// Number of points of a computed approach or retraction, without the points at jumps.
 const SAMPLES: usize = 128;
 /// Smallest jump of the force that gets points at both of its ends, in units of the noise.
 const NOTABLE: f64 = 1.0;
-/// Largest number of points that extend a retraction until contact is lost, divided by the number
-/// of its own points.
+/// Largest number of points that are added to a retraction until contact is lost, divided by the
+/// number of points of the measured retraction.
 const LONGEST: usize = 8;
-/// First seed of profiles and of noise, far from the seeds that people write in scenes.
+/// First seed of the random profiles and of the noise. It is far from the seeds that users write in
+/// scenes, so that no profile of the table is the profile of a scene.
 const FIRST_SEED: u64 = 0x6173_7065_7269_7479;
-/// Difference of the first seeds of two scenes whose seeds differ by 1. No table has as many
-/// profiles.
+/// Difference between the first seeds of two scenes whose seeds differ by 1. No table has so many
+/// profiles, so the tables of two scenes have no profile in common.
 const SEEDS_OF_SCENE: u64 = 1 << 32;
-/// Smallest force at a turning point, divided by the preload.
+/// Smallest force at the turning point of a computed curve, divided by the preload, whatever the
+/// noise.
 const LEAST_TURN: f64 = 0.5;
 /// Number of random profiles of the coarse table.
 const COARSE_LINES: u64 = 8;
@@ -39,16 +42,20 @@ const COARSE_MODULI: Axis = Axis {
     step: 0.7,
     nodes: 7,
 };
-/// Number of places between two nodes of the coarse table.
+/// Number of steps into which a step of the coarse table is divided in the search for the best
+/// place.
 const FINE_STEPS: usize = 6;
-/// Number of coarse tables.
+/// Largest number of coarse tables, each of which may lie around another place.
 const MOST_MOVES: usize = 4;
-/// Largest κ = √(h⟨∇z⟩E*/γ) of the first table. The smallest is about 1.
+/// Largest adhesion parameter κ = √(h⟨∇z⟩E*/γ) in the first coarse table. The smallest κ in this
+/// table is about 1.
 const HIGHEST_KAPPA: f64 = 80.0;
-/// Smallest standard deviation of a summary.
+/// Standard deviation that is added in quadrature to the scatter of each summary, so that no
+/// summary has too large a weight.
 const LEAST_SCATTER: f64 = 0.1;
 
-/// Place in the table: ln(γ/E*), with γ/E* in m, and ln E*, with E* in Pa.
+/// A pair of parameters in the table: `range` is ln(γ/E*), with γ/E* in m, and `modulus` is ln E*,
+/// with E* in Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub range: f64,
@@ -74,11 +81,12 @@ pub(crate) struct Specimen<'a> {
 }
 
 impl Specimen<'_> {
-    /// Returns the summaries of the curves of one random profile: for each ln(γ/E*) in `ranges`,
-    /// for each ln E* in `moduli`, which ascend.
+    /// Returns the summaries of the curves of one random profile. There is a curve for each pair of
+    /// a value ln(γ/E*) in `ranges` and a value ln E* in `moduli`; all moduli of the first range
+    /// come first. `moduli` has to ascend.
     ///
-    /// The force divided by E* and the indentation depend on γ/E* only, except for the turning
-    /// point and the instrument. All moduli therefore share one approach.
+    /// Apart from the turning point and the instrument, the curve of the force divided by E* over
+    /// the indentation depends only on γ/E*. So one approach is computed for all moduli of a range.
     pub fn curves(
         &self,
         simulation: &mut Simulation,
@@ -101,7 +109,8 @@ impl Specimen<'_> {
                 .build()?;
             let first = all.len();
             let mut approach = Body::new(&contact, 2);
-            // The largest modulus has the smallest indentation.
+            // The moduli are taken in descending order, because the largest modulus has the
+            // smallest indentation, and the approach can only go on.
             for modulus in moduli.iter().rev() {
                 if (self.stop)() {
                     return Err(ContactError::Interrupted.into());
@@ -121,7 +130,7 @@ impl Specimen<'_> {
     }
 }
 
-/// Returns the seed of a random profile of the table. Another seed of the scene gives other
+/// Returns the seed of a random profile of the table. Scenes with different seeds have different
 /// profiles.
 pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
     let seed = scene.seed().unwrap_or_default();
@@ -130,7 +139,8 @@ pub(super) fn seed_of(scene: &CheckedScene, line: u64) -> u64 {
         .wrapping_add(line)
 }
 
-/// One computed curve. Forces and the stiffness of the instrument are in units of `scale`.
+/// Computation of one curve with approach and retraction. The computed forces and the stiffness of
+/// the instrument are in units of `scale`.
 struct ForceLoop<'a> {
     stiffness: f64,
     scale: f64,
@@ -138,8 +148,10 @@ struct ForceLoop<'a> {
 }
 
 impl ForceLoop<'_> {
-    /// Presses the body, which is on its approach, to the preload, where it stays. The measured
-    /// preload has an error by the noise, and so the force at which the body turns differs from it.
+    /// Presses the body further up to the preload, and computes the points of the approach and of
+    /// the retraction from there. The body itself remains on the approach. The force at which it
+    /// turns differs from the measured preload by the error of the preload, which results from
+    /// noise.
     fn branches(&self, body: &mut Body, noise: &mut Noise) -> Result<Branches, ContactError> {
         let protocol = self.protocol;
         let least_force = LEAST_TURN * protocol.preload;
@@ -168,7 +180,7 @@ impl ForceLoop<'_> {
             if let Some(point) = curve.at(top + displacement) {
                 return self.scale * point.force;
             }
-            // The turning point itself may lie beyond the curve by rounding.
+            // By rounding, the turning point may lie beyond the end of the computed curve.
             let is_turn = displacement > -1e-9 * top.abs();
             if is_turn { turning_force } else { 0.0 }
         };
@@ -198,8 +210,8 @@ impl ForceLoop<'_> {
     }
 }
 
-/// Returns the displacements of a retraction. If they do not reach the end of a computed curve,
-/// they go on until contact is lost.
+/// Returns the displacements of a retraction. If they do not reach the loss of contact of the
+/// computed curve, at the displacement `end`, further displacements are added.
 fn until_loss(retraction: &[f64], end: f64) -> Vec<f64> {
     let mut displacements = retraction.to_vec();
     let count = retraction.len();
@@ -212,14 +224,15 @@ fn until_loss(retraction: &[f64], end: f64) -> Vec<f64> {
     displacements
 }
 
-/// Normally distributed noise of a curve, the same for all places of the table. Its mean before
-/// contact is subtracted, as the zero of the force is.
+/// Normally distributed noise of a computed curve. All nodes of the table have the same noise, so
+/// that summaries change smoothly with the parameters. The mean of the noise before contact is
+/// subtracted, because a measured curve loses it with the zero of its force.
 struct Noise {
     generator: ChaCha8Rng,
     deviation: f64,
     values: Vec<f64>,
     zero: f64,
-    /// Error of the measured preload, N.
+    /// Error in N of the measured preload.
     of_preload: f64,
 }
 
@@ -266,13 +279,13 @@ pub(crate) struct Workers<'a> {
     pub jobs: usize,
     /// Number of curves computed so far.
     pub computed: &'a AtomicUsize,
-    /// Receives the number of curves computed so far.
+    /// Function that receives the number of curves computed so far.
     pub report: &'a (dyn Fn(usize) + Sync),
 }
 
 impl Workers<'_> {
-    /// Returns the summaries of the curves of each random profile at all nodes, with all moduli of
-    /// one range together.
+    /// Returns the summaries of the curves of each random profile at all nodes. All moduli of the
+    /// first range come first.
     pub fn curves(
         &self,
         lines: u64,
@@ -294,7 +307,7 @@ impl Workers<'_> {
     }
 }
 
-/// Evenly spaced nodes.
+/// Returns `count` evenly spaced nodes.
 pub(crate) fn nodes(first: f64, step: f64, count: usize) -> Vec<f64> {
     (0..count)
         .map(|index| first + step * index as f64)
@@ -312,7 +325,7 @@ impl Axis {
         (self.nodes - 1) as f64 * self.step
     }
 
-    /// Returns the first node of an axis around a centre.
+    /// Returns the first node of an axis whose middle is at `centre`.
     fn first_around(&self, centre: f64) -> f64 {
         centre - 0.5 * self.width()
     }
@@ -326,17 +339,17 @@ impl Axis {
     }
 }
 
-/// Grid of nodes, each with the summaries of the curves of all random profiles.
+/// Summaries of the curves of all random profiles at the nodes of a grid over ln(γ/E*) and ln E*.
 pub(crate) struct Table {
     /// ln(γ/E*), ascending and evenly spaced.
     pub ranges: Vec<f64>,
     /// ln E*, ascending and evenly spaced.
     pub moduli: Vec<f64>,
-    /// Summaries of each random profile at all nodes, with all moduli of one range together.
+    /// Summaries of each random profile at all nodes. All moduli of the first range come first.
     pub lines: Vec<Vec<Summaries>>,
 }
 
-/// An end of a table.
+/// An end of one of the two axes of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum End {
     LowRange,
@@ -355,7 +368,7 @@ impl End {
         matches!(self, End::LowRange | End::LowModulus)
     }
 
-    /// Returns `count` further nodes at this end of an axis.
+    /// Returns `count` further nodes beyond this end of an axis.
     fn nodes_beyond(self, axis: &[f64], count: usize) -> Vec<f64> {
         let step = axis[1] - axis[0];
         if self.is_low() {
@@ -386,7 +399,7 @@ impl Table {
         })
     }
 
-    /// Adds `count` nodes at an end.
+    /// Adds `count` nodes beyond an end of the table, and computes their curves.
     pub fn extend(
         &mut self,
         workers: &Workers<'_>,
@@ -440,13 +453,13 @@ impl Table {
         Ok(())
     }
 
-    /// Nodes in the order of the curves of a line.
+    /// Returns the nodes in the order in which [`Self::lines`] has the summaries of a profile.
     pub fn places(&self) -> Vec<Place> {
         places(&self.ranges, &self.moduli)
     }
 }
 
-/// Returns the places of a grid, with all moduli of one range together.
+/// Returns all pairs of a range and a modulus. All moduli of the first range come first.
 fn places(ranges: &[f64], moduli: &[f64]) -> Vec<Place> {
     let mut places = Vec::with_capacity(ranges.len() * moduli.len());
     for &range in ranges {
@@ -465,12 +478,12 @@ pub(crate) struct Moments {
     pub covariance: [f64; 3],
 }
 
-/// Inverse of a covariance.
+/// Inverse of a covariance matrix of two values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InverseCovariance {
-    /// Elements in the order of [`Moments::covariance`].
+    /// Elements of the inverse matrix, in the order of [`Moments::covariance`].
     elements: [f64; 3],
-    /// Logarithm of the determinant of the covariance.
+    /// Logarithm of the determinant of the covariance matrix.
     pub log_determinant: f64,
 }
 
@@ -490,7 +503,8 @@ impl Moments {
         }
     }
 
-    /// Returns the inverse of the covariance. A second value that does not vary is ignored.
+    /// Returns the inverse of the covariance matrix. If the second value does not vary, as for a
+    /// given E*, the inverse ignores it.
     pub fn inverse(&self) -> InverseCovariance {
         let [first, both, second] = self.covariance;
         if second == 0.0 {
@@ -529,7 +543,7 @@ impl InverseCovariance {
     }
 }
 
-/// Mean and covariance over the random profiles at all nodes.
+/// Mean and covariance of two values over the random profiles, at each node of a table.
 #[derive(Clone)]
 pub(crate) struct Scatter {
     ranges: Vec<f64>,
@@ -537,7 +551,8 @@ pub(crate) struct Scatter {
     nodes: Vec<Moments>,
 }
 
-/// First of the nodes that surround a place, and the weights of these nodes.
+/// Weights for the interpolation along an axis. `first` is the index of the first node with a
+/// weight.
 struct Weights<const COUNT: usize> {
     first: usize,
     weights: [f64; COUNT],
@@ -565,8 +580,8 @@ impl<const COUNT: usize> Weights<COUNT> {
 }
 
 impl Scatter {
-    /// Computes the moments of two values, which `value` returns for the number of a random profile
-    /// and of a node.
+    /// Computes the moments of two values at each node. `value` returns these values from the index
+    /// of a random profile and the index of a node.
     pub fn of(table: &Table, value: impl Fn(usize, usize) -> [f64; 2]) -> Self {
         let count = table.ranges.len() * table.moduli.len();
         let mut nodes = Vec::with_capacity(count);
@@ -587,8 +602,8 @@ impl Scatter {
         Scatter::of(table, |line, node| [table.lines[line][node][index], 0.0])
     }
 
-    /// Returns the moments at a place: the mean by cubic interpolation, the covariance by linear
-    /// interpolation.
+    /// Returns the moments at a place between the nodes. The mean is interpolated by cubic
+    /// polynomials, and the covariance linearly.
     pub fn at(&self, place: Place) -> Moments {
         let mut moments = Moments {
             mean: [0.0; 2],
@@ -611,8 +626,8 @@ impl Scatter {
         moments
     }
 
-    /// Calls `add` with the weights and the moments of the nodes around a place, `COUNT` along each
-    /// axis.
+    /// Calls `add` with the weight and the moments of each node around a place. There are `COUNT`
+    /// such nodes along each axis.
     fn interpolate<const COUNT: usize>(&self, place: Place, mut add: impl FnMut(f64, &Moments)) {
         let ranges = Weights::<COUNT>::new(&self.ranges, place.range);
         let moduli = Weights::<COUNT>::new(&self.moduli, place.modulus);
@@ -635,8 +650,8 @@ fn clamp_to(axis: &[f64], place: f64) -> f64 {
     place.clamp(axis[0], axis[axis.len() - 1])
 }
 
-/// Finds the place, to about a step of the table, where the computed curves have the mean summaries
-/// of the measured curves. `known` is ln E* if it is given.
+/// Finds the place at which the computed curves have the mean summaries of the measured curves,
+/// with an accuracy of about a step of the first table. `known` is ln E* if E* is given.
 pub(crate) fn placed(
     workers: &Workers<'_>,
     measured: &Measurement,
@@ -679,8 +694,8 @@ pub(crate) fn placed(
     })
 }
 
-/// Returns the place of a fine grid over a table where the mean summaries agree best with the
-/// measured ones.
+/// Returns the place, on a fine grid over the table, at which the mean summaries agree best with
+/// those of the measured curves.
 fn best_place(table: &Table, measured: &Measurement) -> Option<Place> {
     let target = measured.mean().summaries;
     let variance = 1.0 / measured.summaries.len() as f64 + 1.0 / COARSE_LINES as f64;
@@ -702,7 +717,8 @@ fn best_place(table: &Table, measured: &Measurement) -> Option<Place> {
     best.map(|(_, place)| place)
 }
 
-/// Returns the values of an axis with further values between its nodes.
+/// Returns the values of an axis and [`FINE_STEPS`] − 1 further values between each pair of its
+/// nodes.
 fn refined(axis: &[f64]) -> Vec<f64> {
     let count = FINE_STEPS * (axis.len() - 1);
     let first = axis[0];
@@ -727,7 +743,8 @@ mod tests {
     use crate::fit::ensemble::summary::{Measurement, NAMES};
     use asperity_data::{mean, standard_deviation};
 
-    /// A table that was extended is the larger table from the beginning, by any number of threads.
+    /// An extended table equals a table that had the larger size from the beginning, for any number
+    /// of threads.
     #[test]
     fn extended_tables_are_larger_tables() {
         let mut scene = scene("rough-sphere");
@@ -778,7 +795,8 @@ mod tests {
         assert!(stopped.curves(1, &[-18.0], &[14.5]).is_err());
     }
 
-    /// A table whose first summary is a cubic of the place, with a scatter of 1 over two lines.
+    /// Returns a first summary that is a cubic polynomial of the place. The two profiles differ by
+    /// the range.
     fn cubic(place: Place, line: usize) -> f64 {
         place.range.powi(3) - 2.0 * place.range * place.modulus.powi(2)
             + [-0.5, 0.5][line] * place.range
@@ -830,7 +848,7 @@ mod tests {
         let moments = Moments::of(&values);
         assert_eq!(moments.mean, [3.0, 3.0]);
         let inverse = moments.inverse();
-        // The squared distances of n values sum up to their dimension times n − 1.
+        // The squared Mahalanobis distances of n points sum up to (n − 1) times their dimension.
         let sum: f64 = values
             .iter()
             .map(|value| inverse.squared_distance(moments.mean, *value))
@@ -840,8 +858,8 @@ mod tests {
         assert!((inverse.log_determinant.exp() - (one * other - both * both)).abs() < 1e-12);
     }
 
-    /// Measured curves and computed curves of the same profiles have the same summaries, up to
-    /// their noise and a small part of the scatter over profiles.
+    /// Measured and computed curves of the same profiles have the same summaries. They differ only
+    /// by the noise and by a small part of the scatter over the profiles.
     #[test]
     fn computed_curves_have_the_summaries_of_measured_ones() {
         const LINES: u64 = 32;

@@ -5,25 +5,25 @@ use crate::error::{Place, SurfaceError, refused};
 use asperity_data::text_table::{Role, TextColumn};
 use asperity_data::{Remedy, shown};
 
-/// Limit of the number of columns of positions and heights; more columns are rows of a map, unless
+/// Largest number of columns of positions and heights. More columns are the rows of a map, unless
 /// their names say otherwise.
 const MOST_NAMED: usize = 3;
 
-/// Largest number of columns that a message names.
+/// Largest number of columns that a message lists.
 const MOST_LISTED: usize = 8;
 
 /// Indices of the columns of a list of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct List {
-    /// Column of the positions of a profile, or of x of the points of a map.
+    /// Column of the positions of a profile, or of the coordinate x of the points of a map.
     pub x: Option<usize>,
     pub y: Option<usize>,
     pub height: usize,
     pub valid: Option<usize>,
 }
 
-/// Finds the columns of a list of points; `None` if the columns are rows of a map. If there may be
-/// several columns of heights, or other columns, `wanted` chooses the heights.
+/// Finds the columns of a list of points; `None` if the columns are rows of a map. If several
+/// columns may be the heights, `wanted` chooses one.
 pub(super) fn list_of(
     columns: &[TextColumn],
     wanted: Wanted<'_>,
@@ -60,11 +60,11 @@ pub(super) fn list_of(
     Err(refused(Place::File, found, allowed))
 }
 
-/// Columns by their names. A name that several columns have names none of them: `point 1`,
-/// `point 2` … are names of other things.
+/// Columns with the meaning that their names give. If several columns have a name of the same
+/// meaning, as `point 1`, `point 2`, …, none of them gets this meaning.
 struct NamedColumns<'a> {
     columns: &'a [TextColumn],
-    /// Column of the numbers of the points.
+    /// Column with the numbers of the points.
     number: Option<usize>,
     valid: Option<usize>,
     x: Option<usize>,
@@ -90,7 +90,8 @@ impl<'a> NamedColumns<'a> {
         }
     }
 
-    /// Returns the columns of one to three numbers of each point.
+    /// Returns the columns for lists with one to three numbers for each point; `None` for other
+    /// lists.
     fn list(&self) -> Option<List> {
         match self.others[..] {
             [height] => Some(self.with(None, None, height)),
@@ -102,8 +103,8 @@ impl<'a> NamedColumns<'a> {
         }
     }
 
-    /// Returns true for positions along x and then several named columns, none of which is y, as in
-    /// a file of a profile before and after a filter.
+    /// Returns true if the first column is x and several named columns follow, none of which is y.
+    /// A file may so hold a profile before and after a filter.
     fn has_several_heights(&self) -> bool {
         let [first, heights @ ..] = &self.others[..] else {
             return false;
@@ -124,11 +125,11 @@ impl<'a> NamedColumns<'a> {
         (!first.name.is_empty()).then_some(first)
     }
 
-    /// Returns the list with the wanted column as heights. Its positions are the columns named x
-    /// and y; without any, the first column has the positions of a profile.
+    /// Returns the list with the wanted column as heights. The positions are the columns named x
+    /// and y. Without such names, the first column has the positions of a profile.
     fn list_with(&self, wanted: Wanted<'_>) -> Result<List, SurfaceError> {
         let height = self.wanted(wanted)?;
-        // Of the columns X and Y the second one is the height.
+        // If the only columns are X and Y, then Y is the height.
         let y = self.y.filter(|_| self.others.len() > 2);
         let is_position = Some(height) == self.x || Some(height) == y;
         let x = match self.others.first() {
@@ -147,7 +148,7 @@ impl<'a> NamedColumns<'a> {
         Ok(self.with(x, y, height))
     }
 
-    /// Returns the column with a name or number.
+    /// Returns the column with the wanted name or number.
     fn wanted(&self, wanted: Wanted<'_>) -> Result<usize, SurfaceError> {
         let labels: Vec<Label> = self
             .columns
@@ -186,7 +187,8 @@ impl<'a> NamedColumns<'a> {
             let height = self.others.iter().copied().find(is_height);
             return Some(self.with(Some(x), Some(y), height.unwrap_or(third)));
         }
-        // A column of another quantity beside x and a height is not the y of points.
+        // If two columns are named as x and height, a third column with an unknown name is another
+        // quantity, and not the coordinate y.
         let has_other_quantity =
             self.x.is_some() && self.height.is_some() && self.has_unknown_name();
         if self.is_usual() && !has_other_quantity {
@@ -195,7 +197,7 @@ impl<'a> NamedColumns<'a> {
         None
     }
 
-    /// Returns true if all columns with names are in the order x, y, height.
+    /// Returns true if the columns are in the order x, y, height, as far as they are named.
     fn is_usual(&self) -> bool {
         [self.x, self.y, self.height]
             .into_iter()
@@ -220,7 +222,7 @@ impl<'a> NamedColumns<'a> {
     }
 }
 
-/// Returns the only column with a role.
+/// Returns the only column with a role; `None` if no column or several columns have it.
 fn single(columns: &[TextColumn], role: Role) -> Option<usize> {
     let mut found = (0..columns.len()).filter(|column| columns[*column].role == role);
     let first = found.next();

@@ -17,7 +17,7 @@ const HEIGHT: &str = "height y-length výška höhe altura hauteur altezza 高�
 /// Keys of the name of a channel.
 const CHANNEL: &str = "channel kanál kanal canal canale チャネル 채널 канал";
 
-/// Words that are in keys of units.
+/// Words for `unit` in the keys of units, in several languages.
 const UNIT: &str = "unit units einheit einheiten jednotka jednotky unité unités unità unidad unidades единицы 単位 단위 値の単位";
 
 /// Words beside `unit` in a key of the unit of heights.
@@ -47,23 +47,24 @@ const SPACING_OF_AXIS: [[&str; 4]; 2] = [
     ["scale y", "dy", "delta y", "y spacing"],
 ];
 
-/// Keys of the sizes of a map in WSxM. The size in z has the unit of the heights.
+/// Keys of the sizes of a map in files of the program WSxM. The unit of the size in z is the unit
+/// of the heights.
 const AMPLITUDES: [&str; 3] = ["x amplitude", "y amplitude", "z amplitude"];
 
-/// Key of the unit of the heights of a profile in WSxM.
+/// Key of the unit of the heights of a profile in files of the program WSxM.
 const UNIT_OF_ORDINATE: &str = "y axis unit";
 
 /// Keys of the number of columns and of rows.
 const COUNTS: [&str; 2] = ["horizontal x-pixels nx", "vertical y-pixels ny"];
 
-/// First words of the header of Wyko. Its rows run along y, and its heights are in nm or, by its
-/// second number, in wavelengths.
+/// First words of the header of Wyko, a maker of interferometers. In such a file the rows run along
+/// y. The number after these words says whether the heights are in nm or in wavelengths.
 const WYKO: &str = "wyko ascii data file format";
 
-/// Number of the line of Zygo XYZ with the distance between points.
+/// Number of the line, from 1, that has the distance between points in the format Zygo XYZ.
 const LINE_OF_DISTANCE: usize = 8;
 
-/// Unit of lengths in headers of SPIP.
+/// Unit of lengths in headers of the program SPIP.
 const NANOMETRE: &str = "nm";
 
 /// Unit of lengths in headers of Wyko.
@@ -126,7 +127,7 @@ pub struct TextHeader {
     pub channel: Option<String>,
     /// Units of x, y and heights, from keys that name them.
     units: [Option<Unit>; 3],
-    /// Unit of all lengths, from a key.
+    /// Unit of all lengths, from a key that names no axis.
     unit: Option<Unit>,
     /// Unit of the heights if it is not a unit of length.
     pub other_unit: Option<String>,
@@ -136,16 +137,17 @@ pub struct TextHeader {
     spacing: [Option<Length>; 2],
     /// Number of columns and number of rows, if the header states them.
     pub counts: [Option<usize>; 2],
-    /// Factor of the heights.
+    /// Factor by which the numbers of the file are multiplied to give heights.
     factor: Option<f64>,
-    /// Factor of the heights in nm, unless the file states a unit of heights.
+    /// Factor by which the numbers are multiplied to give heights in nm, used unless the file
+    /// states a unit of heights.
     nanometres: Option<f64>,
-    /// Factor of the heights that counts if `is_data_scale_needed`.
+    /// Factor of the heights that is used only if `is_data_scale_needed`.
     data_scale: Option<f64>,
     is_data_scale_needed: bool,
     /// True if the rows of numbers run along y.
     pub is_along_y: bool,
-    /// True if the positions of points count columns and rows.
+    /// True if the positions of the points are only the numbers of their columns and rows.
     pub has_counted_positions: bool,
     /// True if heights are in wavelengths.
     is_in_wavelengths: bool,
@@ -162,8 +164,8 @@ impl TextHeader {
         }
     }
 
-    /// Reads a line. It may be `key: value`, `key = value` or `key,value` with a unit, a size or a
-    /// channel; any other line may name columns.
+    /// Reads a line of the header. A line `key: value`, `key = value` or `key,value` may state a
+    /// unit, a size or a channel. Any other line may name columns.
     pub fn take(&mut self, line: &str) {
         let line = line.trim_start_matches(COMMENT).trim();
         if line.len() <= LONGEST
@@ -175,7 +177,7 @@ impl TextHeader {
         self.lines.take(line);
     }
 
-    /// Reads an entry; `None` if it is not understood.
+    /// Reads an entry; `None` if the key or the value is unknown.
     fn take_entry(&mut self, entry: &Entry) -> Option<()> {
         let key = entry.key.as_str();
         let value = entry.value.as_str();
@@ -204,7 +206,8 @@ impl TextHeader {
         Some(())
     }
 
-    /// Reads the size of a map along x or y, or the unit of the heights beside their range.
+    /// Reads an amplitude of WSxM: along x or y the size of the map, and along z the range of the
+    /// heights, of which only the unit is used.
     fn take_amplitude(&mut self, axis: usize, value: &str) -> Option<()> {
         if axis != Z {
             self.sizes[axis] = Some(Length::parse(value)?);
@@ -214,8 +217,9 @@ impl TextHeader {
         self.take_unit(&[Z], unit)
     }
 
-    /// Reads a line of the header of Zygo XYZ, by its number in the file. The seventh number of the
-    /// eighth line is the distance in m between columns and between rows, or 0 if it is unknown.
+    /// Reads a line of the header of Zygo XYZ. `line_number` is the number of the line in the file,
+    /// from 1. The seventh number of the eighth line is the distance in m between columns and
+    /// between rows, or 0 if the distance is unknown.
     pub fn take_zygo(&mut self, line_number: usize, line: &str) {
         self.has_counted_positions = true;
         if line_number != LINE_OF_DISTANCE {
@@ -228,7 +232,7 @@ impl TextHeader {
         }
     }
 
-    /// Reads the unit of these axes; no axes mean all lengths.
+    /// Reads the unit of the given axes. An empty list of axes means the unit of all lengths.
     fn take_unit(&mut self, axes: &[usize], value: &str) -> Option<()> {
         match value.trim_matches(BRACKETS).parse() {
             Ok(unit) if axes.is_empty() => self.unit = Some(unit),
@@ -274,7 +278,7 @@ impl TextHeader {
             self.units[Z] = NANOMETRE.parse().ok();
             return Some(());
         }
-        // Only Wyko writes its rows along y.
+        // The flag is set only by the first line of a file of Wyko.
         if !self.is_along_y {
             return None;
         }
@@ -323,7 +327,8 @@ impl TextHeader {
         Some([width / columns as f64, height / rows as f64])
     }
 
-    /// Converts a length along an axis to m. `usual` is its unit if the header states none.
+    /// Converts a length along an axis to m. `usual` is the unit of the length if the header states
+    /// none.
     fn metres(&self, length: Length, axis: usize, usual: Option<Unit>) -> Option<f64> {
         let unit = length.unit.or(self.unit(axis, None)).or(usual)?;
         Some(unit.to_metres(length.value))
@@ -348,8 +353,8 @@ impl TextHeader {
         scale
     }
 
-    /// Returns the unit of [`X`], [`Y`] or the heights [`Z`]: as the column states, else as a key
-    /// states.
+    /// Returns the unit of [`X`], [`Y`] or the heights [`Z`]: the unit that the name of the column
+    /// states, or else the unit that a key states.
     pub fn unit(&self, axis: usize, column: Option<&TextColumn>) -> Option<Unit> {
         if let Some(unit) = column.and_then(unit_of_column) {
             return Some(unit);
@@ -368,8 +373,8 @@ fn unit_of_column(column: &TextColumn) -> Option<Unit> {
     column.unit.as_deref()?.parse().ok()
 }
 
-/// Reads the size of a map. Lengths of SPIP, such as `x-length`, are in nm, unless it states a unit
-/// for the axis.
+/// Reads the size of a map. The lengths of the program SPIP, such as `x-length`, are in nm, unless
+/// the header states a unit for the axis.
 fn size(key: &str, value: &str) -> Option<Length> {
     if let Some(size) = Length::parse(value) {
         return Some(size);
@@ -409,7 +414,7 @@ impl Entry {
     }
 }
 
-/// Returns a text without quotation marks, separators and white space around it.
+/// Returns a text without the quotation marks, separators and white space at its two ends.
 fn bare(text: &str) -> &str {
     text.trim_matches(['"', ',', ';', ' ', '\t'])
 }
@@ -435,14 +440,14 @@ fn axes_of_unit(key: &str) -> Option<Vec<usize>> {
             _ => return None,
         }
     }
-    // The Japanese for "unit of values" is one word.
+    // Japanese writes "unit of values" without spaces, so the key has no separate word for `unit`.
     if key == "値の単位" {
         return Some(vec![Z]);
     }
     Some(axes)
 }
 
-/// Reads a number in any notation.
+/// Reads a number, with a decimal point or a decimal comma; `None` if the text is no finite number.
 fn number(text: &str) -> Option<f64> {
     match Decimal::default().read(text, Separator::SPACE) {
         TextCell::Number(value) if value.is_finite() => Some(value),
@@ -461,7 +466,7 @@ mod tests {
         header
     }
 
-    /// Units of positions and heights of a table of x and height.
+    /// Returns the units of the positions and the heights of a table with the columns x and height.
     fn units(lines: &[&str]) -> [Option<&'static str>; 2] {
         let header = header(lines);
         let columns = header.lines.columns(2, 2, Separator::SPACE, Unit::is_name);

@@ -3,9 +3,9 @@
 //!
 //! Lines before the first line of numbers are a header ([`header::TextHeader`]). The first line of
 //! numbers fixes the separator ([`Separator::of`](asperity_data::text_table::Separator::of)) and
-//! the number of columns ([`table::Table`]), which are heights, positions and heights, or rows of a
-//! map ([`columns::list_of`]). A header, or in rows of a map an empty line, amid the numbers begins
-//! another channel.
+//! the number of columns ([`table::Table`]). The columns are heights, positions and heights, or
+//! rows of a map ([`columns::list_of`]). A header between lines of numbers begins another channel.
+//! In rows of a map an empty line does so too.
 
 pub(crate) mod columns;
 pub(crate) mod header;
@@ -28,7 +28,7 @@ use table::{NumberedLine, Table, is_header};
 /// Largest number of headers after which numbers follow.
 const MOST_PARTS: usize = 256;
 
-/// First words of Zygo XYZ, whose header ends with a line of one sign.
+/// First words of the format Zygo XYZ. Its header ends with the line [`ZYGO_END`].
 const ZYGO_XYZ: &str = "Zygo XYZ Data File";
 
 /// Last line of the header of Zygo XYZ.
@@ -37,17 +37,17 @@ const ZYGO_END: &str = "#";
 /// Mark of a missing point in Zygo XYZ, in two words.
 const NO_DATA: &str = "no data";
 
-/// Numbers of a text, with the header before them.
+/// Lines of numbers of a text, with the header before them.
 #[derive(Default)]
 struct Part {
     header: TextHeader,
     table: Option<Table>,
 }
 
-/// Rows of numbers of a part that are a channel.
+/// Rows of numbers of a part that form one channel.
 #[derive(Clone)]
 struct Channel {
-    /// Index of the part.
+    /// Index of the part in the text.
     part: usize,
     rows: Range<usize>,
 }
@@ -55,15 +55,16 @@ struct Channel {
 /// A text with its headers and numbers.
 struct Text {
     parts: Vec<Part>,
-    /// Last line of the last header, if it is no comment.
+    /// Number and text of the last line of the last header, unless the line is a comment.
     last_of_header: Option<(usize, String)>,
     last_line: usize,
-    /// True in the header of Zygo XYZ, which has lines of numbers.
+    /// True while the lines belong to the header of Zygo XYZ, whose lines of numbers are no
+    /// heights.
     is_in_zygo_header: bool,
 }
 
-/// Reads the channel that is wanted of a text with several; numbers count from 0. Without a number
-/// or a name, reads the only channel whose heights are lengths.
+/// Reads the channel that is wanted. Numbers of channels count from 0. If neither a number nor a
+/// name is given, reads the only channel whose unit is a length.
 pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceError> {
     let text = Text::parse(bytes)?;
     let last_line = text.last_line;
@@ -73,14 +74,14 @@ pub(super) fn read(bytes: &[u8], wanted: Wanted<'_>) -> Result<Reading, SurfaceE
     let Some(table) = table else {
         return Err(no_numbers());
     };
-    // After the last line end is an empty line.
+    // If the text ends with a line end, an empty line follows the last line of numbers.
     let is_open = channel.rows.end == table.rows() && table.last_line() == last_line;
     table.reading(&header, channel.rows, column, is_open)
 }
 
 impl Text {
     fn parse(bytes: &[u8]) -> Result<Text, SurfaceError> {
-        // Tables of results are in SI units.
+        // Tables of results that this program has written are in SI units.
         let is_result = bytes.starts_with(PROVENANCE.as_bytes());
         let first = Part {
             header: TextHeader::in_unit(is_result.then_some(Unit::METRE)),
@@ -98,7 +99,7 @@ impl Text {
         Ok(text)
     }
 
-    /// Reads a line, which may be one of the header of Zygo XYZ.
+    /// Reads a line of a text that may be in the format Zygo XYZ.
     fn take_special(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         self.is_in_zygo_header |= number == 1 && line.starts_with(ZYGO_XYZ);
         if !self.is_in_zygo_header {
@@ -112,6 +113,8 @@ impl Text {
         Ok(())
     }
 
+    /// Reads a line of the header or of the numbers of the present part, or begins a new part.
+    /// `number` is the number of the line from 1.
     fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         self.last_line = number;
         let is_comment = line.starts_with(COMMENT);
@@ -152,7 +155,7 @@ impl Text {
     }
 }
 
-/// Returns a line with one word in place of each mark of a missing point in two words.
+/// Returns a line in which each mark [`NO_DATA`] is replaced by a single word.
 fn without_no_data(line: &str) -> Cow<'_, str> {
     if !line.contains(['d', 'D']) || !line.is_ascii() {
         return line.into();
@@ -189,14 +192,14 @@ fn no_numbers() -> SurfaceError {
     refused(Place::File, "no line of numbers", allowed)
 }
 
-/// A channel, and what the options ask for among its columns.
+/// A chosen channel, and the column that the options ask for in it.
 struct Choice<'a> {
     channel: Channel,
     column: Wanted<'a>,
 }
 
-/// Returns the channel that is wanted. Of a text with one channel, a number or another name than
-/// that of the channel means a column.
+/// Returns the channel that is wanted. If the text has only one channel, a number means a column of
+/// this channel, and so does a name that is not the name of the channel.
 fn chosen<'a>(parts: &[Part], wanted: Wanted<'a>) -> Result<Choice<'a>, SurfaceError> {
     let channels = channels(parts);
     if channels.is_empty() {
@@ -229,8 +232,8 @@ fn chosen<'a>(parts: &[Part], wanted: Wanted<'a>) -> Result<Choice<'a>, SurfaceE
     })
 }
 
-/// Describes the channels. Those in a unit of length are heights; if there are none, those without
-/// a unit.
+/// Describes the channels. Channels in a unit of length are heights. If there are none, channels
+/// without a unit are heights.
 fn labels(parts: &[Part], channels: &[Channel]) -> Vec<Label> {
     let numbered = channels.iter().zip(0..);
     let mut labels: Vec<Label> = numbered
@@ -359,7 +362,7 @@ mod tests {
         }
     }
 
-    /// Units of positions and of heights by their names.
+    /// Returns the names of the units of positions and heights.
     fn units(reading: &Reading) -> [Option<&'static str>; 2] {
         units_of(&reading.units)
     }
@@ -372,18 +375,18 @@ mod tests {
     fn what_is_no_number_of_a_point_is_left_out() {
         let expected = text("0.5 1e-1\n1.5 2.5\n2.5 -3\n").unwrap();
         for other in [
-            // Separators at the ends of lines.
+            // The following texts have separators at the ends of lines.
             "0.5,0.1,,\n1.5,2.5,,\n2.5,-3,,\n",
             "x,z,\n0.5,0.1,\n1.5,2.5\n2.5,-3,,\n",
-            // Quotation marks, and CR alone at the ends of lines.
+            // The following text has quotation marks, and lines that end with CR.
             "\"0,5\";\"0,1\"\r\"1,5\";\"2,5\"\r\"2,5\";\"-3\"",
-            // Counts, of points or of the distances between them.
+            // The following texts begin with the number of points, or of distances between points.
             "3\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
             "2\n0.5 0.1\n1.5 2.5\n2.5 -3\n",
-            // Headers that begin with a number, and footers.
+            // The following texts have headers that begin with a number, and footers.
             "5.6 mm scan\n3 points\n0.5 0.1\n1.5 2.5\n2.5 -3\n\nEnd of data\n",
             "3 points\n0.5,0.1\n1.5,2.5\n2.5,-3\n3 points,\"read\",at 12:00\n",
-            // Numbers of points and their validity.
+            // The following texts have columns with the number of the point or its validity.
             "index;x;z\n1;0.5;0.1\n2;1.5;2.5\n3;2.5;-3\n",
             "Z,X,valid\n0.1,0.5,1\n2.5,1.5,1\n-3,2.5,1\n",
         ] {
@@ -440,7 +443,7 @@ mod tests {
                 .unwrap_err()
                 .starts_with("no channel \"Trace\"; channels: 0 \"Height\"")
         );
-        // A text with one channel.
+        // A text with one channel has the name of the channel or of a column.
         let one = channel("Height", "nm", 10.0);
         assert_eq!(named(&one, "Height"), text(&one));
         assert!(
@@ -458,7 +461,7 @@ mod tests {
                 .unwrap_err()
                 .starts_with("the channel is in deg; channels: 0 \"Phase\" in deg")
         );
-        // Without headers, and profiles.
+        // Channels may have no header, and may be profiles.
         let rows = "1 2 3 4\n5 6 7 9\n\n11 2 3 4\n5 6 7 9\n";
         assert!(text(rows).unwrap_err().starts_with(
             "2 channels of heights; channels: 0 from line 1, 1 from line 4; allowed: the number or the name"
@@ -591,7 +594,7 @@ mod tests {
                 (spacing, Some("nm")),
                 "{header}"
             );
-            // Lines of Wyko run along y.
+            // The lines of a file of Wyko run along y.
             let (columns, order) = if header.starts_with("Wyko") {
                 (2, [1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0, 8.0])
             } else {
@@ -614,7 +617,7 @@ mod tests {
             (found.columns, found.spacing, units(&found)),
             (4, Some([5e-7; 2]), [Some("m"), Some("µm")])
         );
-        // The distance has a unit of its own, so that the option is that of the heights.
+        // The distance has a unit of its own, so the option gives the unit of the heights.
         let with = |unit: &str| {
             let options = ReadOptions {
                 unit: unit.parse().ok(),
@@ -743,7 +746,8 @@ mod tests {
         };
         let map = found.resolve(&options).unwrap();
         assert_eq!((map.heights[3], map.spacing()), (5e-6, Ok([2e-6; 2])));
-        // A distance of 0 is unknown, and counts are no distances.
+        // A distance of 0 means an unknown distance, and numbers of columns and rows are no
+        // distances.
         let found = text(&zygo("0")).unwrap();
         assert_eq!((found.spacing, units(&found)), (None, [None, None]));
         assert!(

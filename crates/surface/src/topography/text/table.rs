@@ -10,10 +10,11 @@ use std::ops::Range;
 /// Number of first columns whose printed digits are recorded, because they may be positions.
 pub(super) const FEW_COLUMNS: usize = 4;
 
-/// Largest number of lines, and of numbers in a line, that count the rows and columns that follow.
+/// Largest number of lines before the rows that may state how many rows and columns follow. It is
+/// also the largest number of such numbers.
 const MOST_COUNTS: usize = 3;
 
-/// Largest number of a text, in its unit.
+/// Largest magnitude of a number in a text, in the unit of the text.
 const LARGEST_NUMBER: f64 = LARGEST * 1e12;
 
 /// Lines of numbers of a text, in the units of the file.
@@ -22,7 +23,7 @@ pub(super) struct Table {
     pub separator: Separator,
     pub decimal: Decimal,
     widths: Widths,
-    /// Numbers of all lines, as many for each line as it has cells.
+    /// Numbers of all lines, one after the other. Each line has as many numbers as cells.
     pub values: Vec<f64>,
     /// True for each column with a cell that is not empty.
     is_filled: Vec<bool>,
@@ -32,10 +33,10 @@ pub(super) struct Table {
     pub first_line: Digits,
     /// Runs of rows on consecutive lines.
     runs: Vec<Run>,
-    /// Rows that follow an empty line.
+    /// Indices of the rows that follow an empty line.
     breaks: Vec<usize>,
     is_paused: bool,
-    /// Numbers before the first row that count rows and columns.
+    /// Numbers before the first row that state how many rows and columns follow.
     pub counts: Option<Counts>,
 }
 
@@ -65,14 +66,14 @@ impl Widths {
     }
 }
 
-/// The first of several rows on consecutive lines.
+/// Run of rows on consecutive lines: the index and the line of its first row.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     row: usize,
     line: usize,
 }
 
-/// Numbers that count the rows and columns that follow.
+/// Numbers before the rows that state how many rows and columns follow.
 #[derive(Debug)]
 pub(super) struct Counts {
     pub line: usize,
@@ -126,8 +127,9 @@ impl Table {
         }
     }
 
-    /// Begins a table with its first line of numbers. The line before belongs to the table if it
-    /// has as many cells, most of them numbers: positions after a word, as in `y\x 0 1 2`.
+    /// Begins a table with its first line of numbers. The line before the first line of numbers
+    /// also belongs to the table if it has as many cells, and either begins with a number and
+    /// consists mostly of numbers, or has positions after a word, as in `y\x 0 1 2`.
     pub fn new(
         before: Option<NumberedLine<'_>>,
         first: NumberedLine<'_>,
@@ -170,7 +172,7 @@ impl Table {
         self.line(self.rows() - 1)
     }
 
-    /// Returns the number in the file of the line of a row.
+    /// Returns the number of the line in the file, from 1, in which a row is.
     pub fn line(&self, row: usize) -> usize {
         let later = self.runs.partition_point(|run| run.row <= row);
         match self.runs.get(later.saturating_sub(1)) {
@@ -179,14 +181,14 @@ impl Table {
         }
     }
 
-    /// Takes an empty line into account.
+    /// Notes an empty line: the next row begins a new run of rows.
     pub fn pause(&mut self) {
         self.is_paused = true;
     }
 
     /// Returns true for a line of words between or after lines of numbers.
     pub fn is_heading(&self, line: &str) -> bool {
-        // Most lines have no letters but those of exponents.
+        // Most lines have no letters except the e of exponents, and need no further test.
         let may_be_of_number =
             |byte: u8| byte.is_ascii() && !(byte.is_ascii_alphabetic() && byte | 32 != b'e');
         if line.bytes().all(may_be_of_number) {
@@ -201,8 +203,8 @@ impl Table {
         is_other && self.separator.split(line).any(is_word)
     }
 
-    /// Reads a line without white space around it. The first lines may count the rows and columns
-    /// that follow.
+    /// Reads a line without white space around it. The first lines may state how many rows and
+    /// columns follow.
     pub fn take(&mut self, number: usize, line: &str) -> Result<(), SurfaceError> {
         if self.may_be_counts() {
             let table = Table::empty(line);
@@ -220,7 +222,8 @@ impl Table {
         self.take_cells(number, line, false)
     }
 
-    /// Returns true if the numbers up to here may count the rows and columns that follow.
+    /// Returns true if the numbers read so far may be the numbers of the rows and columns that
+    /// follow.
     fn may_be_counts(&self) -> bool {
         let is_count = |value: &f64| *value >= 1.0 && value.fract() == 0.0;
         (1..=MOST_COUNTS).contains(&self.values.len())
@@ -228,7 +231,7 @@ impl Table {
             && self.values.iter().all(is_count)
     }
 
-    /// Reads a line; with `has_corner` its first cell may be a word.
+    /// Reads the cells of a line. If `has_corner` is true, the first cell may be a word.
     fn take_cells(
         &mut self,
         number: usize,
@@ -260,7 +263,8 @@ impl Table {
                 self.first_line.take(cell);
             }
         }
-        // Separators at the ends of lines may differ.
+        // The number of separators at the ends of lines may vary, so only the cells up to the last
+        // one that is not empty are compared.
         if found.cells != cells && found.filled != self.widths.filled {
             let columns = format!("{} columns", found.cells);
             let allowed = match self.widths.filled {
@@ -310,8 +314,8 @@ impl Table {
         }
     }
 
-    /// Returns the ranges of rows between empty lines where these separate channels. A single range
-    /// is returned if each row follows an empty line, or the rows hold positions.
+    /// Returns the ranges of rows of the channels, which are separated by empty lines. Returns a
+    /// single range if each row follows an empty line, or if the rows hold positions.
     pub fn parts(&self) -> Vec<Range<usize>> {
         let rows = self.rows();
         let columns = self.columns();
@@ -328,7 +332,7 @@ impl Table {
         parts
     }
 
-    /// Leaves out all rows except these, which are a channel.
+    /// Removes all rows except `rows`, which are the rows of one channel.
     pub fn keep_rows(&mut self, rows: Range<usize>) {
         let cells = self.widths.cells;
         let line = self.line(rows.start);
@@ -350,8 +354,8 @@ impl Table {
         self.widths.cells = columns;
     }
 
-    /// Returns the numbers in a column. They take the memory of all numbers, which are no longer
-    /// needed.
+    /// Returns the numbers in a column. The memory of the table is reused, and its other numbers
+    /// are lost.
     pub fn take_column(&mut self, column: usize) -> Vec<f64> {
         let cells = self.widths.cells;
         let mut values = std::mem::take(&mut self.values);

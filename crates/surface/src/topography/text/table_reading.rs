@@ -21,8 +21,8 @@ const COLUMNS: &str = "text columns";
 const MATRIX: &str = "text matrix";
 
 impl Table {
-    /// Returns the surface in these rows, with the column of heights that is wanted if there are
-    /// several. `is_open` is true if the last line has no line end.
+    /// Returns the surface in the rows `rows`. If several columns may be heights, `wanted` chooses
+    /// one. `is_open` is true if the last line of the text has no line end.
     pub fn reading(
         mut self,
         header: &TextHeader,
@@ -69,7 +69,8 @@ impl Table {
         })
     }
 
-    /// Returns the heights of a list, with NaN for the points that its column `valid` leaves out.
+    /// Returns the heights of a list, with NaN for the points that its column `valid` marks as
+    /// invalid.
     fn heights(&self, columns: &[TextColumn], list: List) -> Result<Vec<f64>, SurfaceError> {
         let mut heights = self.column(list.height)?;
         let Some(valid) = list.valid else {
@@ -89,7 +90,7 @@ impl Table {
         Ok(heights)
     }
 
-    /// Returns the map of points with positions of their own.
+    /// Returns the map of a list of points, each of which has a position x and y.
     fn points(
         mut self,
         x: usize,
@@ -160,7 +161,7 @@ impl Table {
         check_stated(columns, header.counts[0], "columns")?;
         check_stated(rows, header.counts[1], "rows")?;
 
-        // Positions take the first row and column.
+        // If the map has positions, they are in the first row and the first column.
         let rows_above = columns_with_positions - columns;
         let place_of_point = |index: usize| place(index / columns + rows_above);
         let warnings = warnings::of_heights(&map.heights, is_open, place_of_point);
@@ -173,7 +174,7 @@ impl Table {
             heights: header.unit(Z, None),
         };
         if stated.is_some() {
-            // The header has converted them.
+            // The distances of the header are already in m.
             units.along = Some(Unit::METRE);
             units.between = Some(Unit::METRE);
         }
@@ -220,8 +221,8 @@ impl Table {
         ))
     }
 
-    /// Returns an error unless the numbers before the first row are the numbers of rows, of
-    /// distances between them, of columns or of points.
+    /// Returns an error unless the numbers before the first row agree with the table. They may be
+    /// the number of rows, of distances between rows, of columns or of points.
     fn check_counts(&self, rows: usize, columns: usize) -> Result<(), SurfaceError> {
         let Some(counts) = &self.counts else {
             return Ok(());
@@ -266,10 +267,10 @@ impl Table {
     }
 }
 
-/// Units of the columns of a list.
+/// Units that the columns of a list state.
 #[derive(Clone, Copy)]
 struct ColumnUnits {
-    /// Unit of the positions of a profile, or of x.
+    /// Unit of the positions of a profile, or of the coordinate x of a map.
     x: Option<Unit>,
     y: Option<Unit>,
     heights: Option<Unit>,
@@ -281,7 +282,7 @@ impl ColumnUnits {
         let is_y = |column: usize| columns[column].role == Role::Y;
         let mut heights = unit(Z, list.height);
         if heights.is_none() && is_y(list.height) {
-            // Of the columns X and Y the second one is the height.
+            // If the only columns are X and Y, then Y is the height.
             heights = unit(Y, list.height);
         }
         let x = list.x.and_then(|x| match list.y {
@@ -301,7 +302,7 @@ fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     let points = heights.len();
     let distance = header.distance();
     let along = match distance {
-        // The header has converted it.
+        // The distance of the header is already in m.
         Some(_) => Some(Unit::METRE),
         None => header.unit(X, None),
     };
@@ -310,7 +311,7 @@ fn even(heights: Vec<f64>, header: &TextHeader, units: ColumnUnits) -> Reading {
     Reading::even(COLUMNS, heights, points, spacing, units)
 }
 
-/// Returns an error if one of the two axes of positions has a unit and the other has none.
+/// Returns an error if one axis of a map has a unit and the other axis has none.
 fn check_both(units: StatedUnits) -> Result<(), SurfaceError> {
     let unit = match (units.along, units.between) {
         (Some(unit), None) | (None, Some(unit)) => unit,
@@ -321,7 +322,7 @@ fn check_both(units: StatedUnits) -> Result<(), SurfaceError> {
     Err(refused(Place::File, found, allowed))
 }
 
-/// Returns an error unless there are as many columns or rows as the header states.
+/// Returns an error if the number of columns or rows differs from the number in the header.
 fn check_stated(count: usize, stated: Option<usize>, name: &str) -> Result<(), SurfaceError> {
     match stated {
         Some(stated) if stated != count => {

@@ -1,21 +1,22 @@
-//! Warnings of heights that are far from all others. They may be marks of missing points or numbers
-//! that were cut off.
+//! Warnings of heights that are far from all other heights. Such a height may be a mark of a
+//! missing point, or a number that was cut off.
 
 use crate::error::Place;
 use asperity_data::{Note, Remedy, median};
 
-/// Distance of a height from the median, over the median of all such distances, from which on the
-/// height is an error of the file.
+/// Distance of a height from the median of all heights, divided by the median of all such
+/// distances, from which on the height counts as an error of the file.
 const FAR: f64 = 1e6;
 
-/// Distance of one height from the median, over the next largest distance, from which on the height
-/// is an error of the file or a spike.
+/// Largest distance of a height from the median of all heights, divided by the next largest
+/// distance, from which on the height counts as an error of the file or a spike.
 const ALONE: f64 = 30.0;
 
-/// The same ratio for the last height if its line has no end.
+/// Limit in place of [`ALONE`] for the last height, if its line has no line end and the number may
+/// be cut off.
 const ALONE_AT_OPEN_END: f64 = 10.0;
 
-/// Largest number of heights of which the median is computed.
+/// Largest number of heights from which the median is computed.
 const SAMPLE: usize = 4096;
 
 /// Returns warnings for finite heights in the order of the file. `is_open` is true if the last line
@@ -67,7 +68,7 @@ pub(super) fn of_heights(
     vec![Note::new(text)]
 }
 
-/// Median of the heights and of their distances from it.
+/// Median of the heights, and median of the distances of the heights from it.
 struct Spread {
     level: f64,
     usual_distance: f64,
@@ -83,7 +84,8 @@ struct Farthest {
 }
 
 impl Spread {
-    /// Computes the medians of a sample; `None` without finite heights.
+    /// Computes the medians from a sample of the heights; `None` if the sample has no finite
+    /// height.
     fn new(heights: &[f64]) -> Option<Self> {
         let step = heights.len().div_ceil(SAMPLE).max(1);
         let mut sample: Vec<f64> = heights.iter().step_by(step).copied().collect();
