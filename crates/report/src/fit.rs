@@ -32,7 +32,7 @@ pub struct FitReport<'a> {
     pub curve: &'a MeasuredCurve,
     /// Fitted parameters of the scene, and how well it describes the curve.
     pub fit: &'a FitResult,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// Function that states a [`Remedy`] in words: as an option of the
     /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }

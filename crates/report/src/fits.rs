@@ -33,7 +33,7 @@ pub struct CurveRow {
     /// an end of the searched range, the bound is the lower or the upper end, and the other two are
     /// `None`.
     pub parameters: Vec<[Option<f64>; 3]>,
-    /// Numbers of the curve and of its fit in the order of [`FACTS`], in SI units; `None` for an
+    /// Numbers of the curve and of its fit in the order of `FACTS`, in SI units; `None` for an
     /// unknown number.
     pub facts: [Option<f64>; FACTS.len()],
     /// Number of points of the curve that are used; `None` if the curve was not fitted.
@@ -272,7 +272,7 @@ pub struct FitsReport<'a> {
     pub free: &'a [Parameter],
     /// A row for each curve.
     pub rows: &'a [CurveRow],
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// Function that states a [`Remedy`] in words: as an option of the
     /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }

@@ -29,7 +29,7 @@ pub struct ReferenceReport<'a> {
     pub scene: &'a Scene,
     /// Results of both computations and their ratios.
     pub reference: &'a Reference,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// Function that states a [`Remedy`] in words: as an option of the
     /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }

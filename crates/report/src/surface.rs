@@ -59,7 +59,7 @@ pub struct SurfaceReport {
     /// profiles. It is `None` if no adhesion was requested. The second value is `None` if the
     /// adhesion was not computed.
     pub adhesion: Option<(CheckedScene, Option<MeasuredAdhesion>)>,
-    /// Function that states a [`Remedy`](asperity_data::Remedy) in words: as an option of the
+    /// Function that states a [`Remedy`] in words: as an option of the
     /// command line, a row of the explorer or an argument of Python.
     pub wording: Wording,
 }
