@@ -498,8 +498,8 @@ impl Body {
                 self.reverse(&loading, turn, &[])?.adhesion_force()
             }
         };
-        // The work counts have a separate field for the passes over the tree for F_a(d=0) and
-        // F_a(F=0).
+        // The two motions for F_a(d=0) and F_a(F=0) are counted in their own field of the work
+        // counts, and not as passes of the loading history.
         self.work.loading_passes = before.loading_passes;
         self.work.unloading_passes = before.unloading_passes;
         self.work.passes_without_preload += 2;
@@ -604,7 +604,7 @@ pub struct Reversal {
     pub dissipated_energy: f64,
     /// True if an outermost spring of the profile was in contact at any moment of the loading.
     pub reaches_ends: bool,
-    /// Forces in N on unloading, at the indentations that [`Contact::reversals`] was given.
+    /// Forces in N on unloading, at the argument `indentations` of [`Contact::reversals`].
     /// Indentations above the turning point are left out. At indentations below `separation` the
     /// force is 0.
     pub forces: Vec<f64>,

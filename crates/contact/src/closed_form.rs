@@ -96,7 +96,7 @@ impl ClosedForm {
     /// Returns the indentation d(a) = c aⁿ − √(2π a γ/E*) in m at the contact radius a in m. The
     /// symbols c, n, E* and γ are the fields of [`ClosedForm`].
     pub fn indentation(&self, radius: f64) -> f64 {
-        // Rule of Hess, eq. (3).
+        // Rule of Hess, eq. (3) of Popov and Filippov (2012).
         let stretch = (2.0 * PI * radius * self.work_of_adhesion / self.effective_modulus).sqrt();
         self.line_coefficient * radius.powf(self.exponent) - stretch
     }

@@ -106,7 +106,7 @@ impl ContactBuilder {
         ContactBuilder { edges, ..self }
     }
 
-    /// Builds the contact with the properties that were set, and with the defaults of all others.
+    /// Builds the contact. Each property that the caller has not set has its default value.
     ///
     /// # Errors
     /// Returns [`ContactError::Value`] for a value out of its range.
@@ -158,8 +158,8 @@ impl Contact {
         }
     }
 
-    /// Copies the contact for the stepwise solver. The copy has whole springs and a rigid
-    /// instrument.
+    /// Copies the contact for the stepwise solver. In the copy, patches consist of whole springs,
+    /// and the instrument is rigid.
     pub(super) fn of_whole_springs(&self) -> Self {
         Contact {
             edges: Edges::Grid,

@@ -17,17 +17,18 @@ pub struct ContactState {
     pub totals: ContactTotals,
     /// Contact length in units of the spring spacing.
     pub length: f64,
-    /// Compression ∫ (d − c) dx in m, with x in units of the spring spacing. It is the force
-    /// divided by the stiffness of one spring.
+    /// Compression ∫ (d − c) dx in m, where d is the indentation, c the gap, and x is in units of
+    /// the spring spacing. The compression is the force divided by the stiffness of one spring.
     pub compression: f64,
-    /// ∫ (d − c)² dx in m², with x in units of the spring spacing. It is twice the stored energy
-    /// divided by the stiffness of one spring.
+    /// ∫ (d − c)² dx in m², where d is the indentation, c the gap, and x is in units of the spring
+    /// spacing. This integral is twice the stored energy divided by the stiffness of one spring.
     pub squares: f64,
 }
 
 impl ContactState {
-    /// Computes the contact at an indentation in m. If `slides` is true, it consists of the whole
-    /// cells of `totals` and of the edge cells; otherwise of the springs of `totals`.
+    /// Computes the contact at an indentation in m. If `slides` is true, the contact consists of
+    /// the whole cells in `totals` and of the edge cells; otherwise it consists of the springs in
+    /// `totals`.
     #[inline]
     pub fn new(
         slides: bool,
@@ -97,8 +98,8 @@ pub fn counted(number: i64) -> u64 {
     number.unsigned_abs()
 }
 
-/// Sums at the points of a grid of indentations. Each part of the contact that is added is in
-/// contact at a range of these points.
+/// Sums of the contact at the points of a grid of indentations. The caller adds the parts of the
+/// contact one by one, each with the range of points at which the part is in contact.
 pub struct Tally {
     pub grid: Grid,
     /// Change of the totals from each point to the next.
@@ -150,14 +151,16 @@ impl Tally {
         self.changes[place] += totals;
     }
 
-    /// Adds whole springs or cells that are in contact at the points of the range.
+    /// Adds whole springs or cells that are in contact at the points `carries` of the grid.
     #[inline]
     pub fn add(&mut self, carries: Range<usize>, totals: ContactTotals) {
         self.changes[carries.start] += totals;
         self.changes[carries.end] += -totals;
     }
 
-    /// Adds edge cells that are in contact at the points of the range.
+    /// Adds the edge cells of a patch, which are partly in contact at the points `carries` of the
+    /// grid. Their lengths and compressions differ from point to point, so they are computed at
+    /// each point.
     #[inline]
     pub fn slide<R: DetachmentRule>(&mut self, carries: Range<usize>, slider: &Slider<R>) {
         let points = &self.grid.points[carries.clone()];
@@ -181,8 +184,8 @@ impl Tally {
     }
 }
 
-/// Returns the intervals between neighbouring points of a sampled motion, if `may_lie` is true for
-/// the contact at both points.
+/// Returns those intervals between neighbouring points of a sampled motion for which `may_lie` is
+/// true. The arguments of `may_lie` are the contacts at the two ends of the interval.
 pub fn intervals(
     leg: &[ContactState],
     may_lie: impl Fn(&ContactState, &ContactState) -> bool,
@@ -373,7 +376,7 @@ mod tests {
     fn a_range_too_narrow_for_its_points_is_its_two_ends() {
         let high = 1.0 + f64::EPSILON;
         assert_eq!(Grid::new(1.0, high, 8).points, [1.0, high]);
-        // A range narrower than the reciprocal of the largest floating-point number.
+        // Here the range is narrower than the reciprocal of the largest floating-point number.
         let high = f64::from_bits(1 << 14);
         let grid = Grid::new(0.0, high, 4);
         assert_eq!(grid.points, [0.0, high]);

@@ -241,8 +241,8 @@ mod tests {
         }
     }
 
-    /// A stage with this curve. The point `extreme` has both the largest and the smallest force.
-    /// The released energy is 0.25 J.
+    /// Creates the record of a stage with this curve. The point `extreme` has both the largest and
+    /// the smallest force. The released energy is 0.25 J.
     fn leg(
         target: Move,
         direction: Direction,

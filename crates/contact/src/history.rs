@@ -77,8 +77,9 @@ pub(super) struct Extremes {
 }
 
 impl LegRecord {
-    /// Largest number of points of [`LegRecord::curve`] besides its samples: those of the smallest
-    /// force, of the lost contact of an instrument, and at both sides of a jump at an end.
+    /// Largest number of points of [`LegRecord::curve`] besides the regularly spaced points: the
+    /// point of the smallest force, the point at which an instrument loses the contact, and two
+    /// points of a jump at the beginning or the end of the motion.
     pub const FURTHER_POINTS: usize = 4;
 
     /// Creates the record of a motion that ends where it begins.

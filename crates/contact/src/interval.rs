@@ -160,8 +160,8 @@ impl<R: DetachmentRule> Interval<R> {
     }
 
     /// Returns the contact at an indentation in m. No event may lie between `from` and this
-    /// indentation: no edge jumps, and no patch merges or splits. The force is then convex in the
-    /// indentation.
+    /// indentation, so that no edge jumps and no patch merges or splits on the way. The force is
+    /// then convex in the indentation.
     fn steady(&self, from: f64, indentation: f64) -> ContactState {
         let mut edges = EdgeSum::default();
         for slider in self.sliders(from) {
@@ -270,9 +270,9 @@ impl<R: DetachmentRule> Interval<R> {
         }
     }
 
-    /// Computes ∫ (E − C) dd in cells times m² over the parts of the interval that a loading passes
-    /// in jumps of the instrument. C is the compression of contact and instrument together, and E
-    /// the largest C so far. A jump begins where C falls below E.
+    /// Computes ∫ (E − C) dd over the indentation d, in cells times m², for those parts of the
+    /// interval that a loading passes in jumps of the instrument. C is the compression of contact
+    /// and instrument together, and E the largest C so far. A jump begins where C falls below E.
     pub fn jumped_on_loading(&self, largest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.below(middle).jumped_on_loading(largest);
@@ -300,9 +300,10 @@ impl<R: DetachmentRule> Interval<R> {
         level * (back - from) - self.work(from, back)
     }
 
-    /// Computes ∫ (C − E) dd in cells times m² over the parts of the interval that an unloading
-    /// passes in jumps of the instrument. C is the compression of contact and instrument together,
-    /// and E the smallest C so far. A jump begins where C rises above E.
+    /// Computes ∫ (C − E) dd over the indentation d, in cells times m², for those parts of the
+    /// interval that an unloading passes in jumps of the instrument. C is the compression of
+    /// contact and instrument together, and E the smallest C so far. A jump begins where C rises
+    /// above E.
     pub fn jumped_on_unloading(&self, smallest: &mut f64) -> f64 {
         if let Some(middle) = self.middle() {
             let first = self.above(middle).jumped_on_unloading(smallest);
@@ -329,9 +330,9 @@ impl<R: DetachmentRule> Interval<R> {
         work_before + work_after
     }
 
-    /// Computes ∫ C dd between two indentations in m without an event between them, where C is the
-    /// compression. The integral is half of the growth of (∫ (d − c)² dx minus the sum of the
-    /// squared stretches with which springs attach at the moving edges).
+    /// Computes ∫ C dd over the indentation d between two indentations in m without an event
+    /// between them, where C is the compression. The integral is half of the growth of (∫ (d − c)²
+    /// dx minus the sum of the squared stretches with which springs attach at the moving edges).
     fn work(&self, low: f64, high: f64) -> f64 {
         let from = self.low.indentation;
         let squares = self.steady(from, high).squares - self.steady(from, low).squares;

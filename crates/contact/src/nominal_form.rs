@@ -5,10 +5,10 @@
 /// show whether a body is curved.
 const PARTS: usize = 16;
 
-/// Smallest fall of the outermost part on each side of the summit for which a body counts as
-/// curved. It is relative to the mean fall of the parts on this side. The value of a cone is 1, and
-/// the value of a sphere nearly 2. The value of a rough flat body is about a half, because its
-/// longest wave rises again at the ends of the profile.
+/// Smallest steepness at the ends of a profile with which a body counts as curved. On each side of
+/// the summit, the steepness is the fall from the last part but one to the outermost part, divided
+/// by the mean fall from part to part. It is 1 for a cone and nearly 2 for a sphere. For a rough
+/// flat body it is about a half, because its longest wave rises again at the ends of the profile.
 const LEAST_FALL_AT_ENDS: f64 = 0.75;
 
 /// Largest rms difference between heights and a parabola for which the heights count as smooth,
@@ -115,8 +115,8 @@ fn parabola(values: &[f64]) -> Option<[f64; 3]> {
     let mut squares = 0.0;
     let mut fourths = 0.0;
     for (index, value) in values.iter().enumerate() {
-        // Scaled to the range from −1 to 1, so that no power of x is too large for a floating-point
-        // number.
+        // The index is scaled to the range from −1 to 1, so that no power of x is too large for a
+        // floating-point number.
         let x = (index as f64 - middle) / middle;
         sum += value;
         first += x * value;

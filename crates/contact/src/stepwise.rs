@@ -211,8 +211,8 @@ impl<'a> Stepwise<'a> {
         state.point(self.contact.foundation)
     }
 
-    /// Returns an error if a motion certainly needs more steps than allowed. Called before the
-    /// first step.
+    /// Returns an error if a motion certainly needs more steps than allowed. The solver calls this
+    /// function before the first step of the motion.
     fn check_steps(&self, direction: Direction, goal: Goal) -> Result<(), ContactError> {
         let start = self.indentation;
         let end = match goal {
@@ -364,8 +364,8 @@ impl<'a> Stepwise<'a> {
         let high = origin.max(after.indentation);
         let mut curve = leg.curve(&Grid::new(low, high, self.samples - 1).points)?;
         curve.reserve_exact(LegRecord::FURTHER_POINTS);
-        // The sum for a leg is positive for attachments on loading and for detachments on
-        // unloading.
+        // The field `squared_stretch` counts detachments as positive. A leg counts attachments as
+        // positive on loading and detachments as positive on unloading.
         let squared_stretch = match self.direction {
             Direction::Loading => -self.squared_stretch,
             Direction::Unloading => self.squared_stretch,
@@ -446,7 +446,7 @@ impl MovingBody for Stepwise<'_> {
     }
 
     fn curve_seconds(&self) -> f64 {
-        // The stepwise solver does not measure this time separately.
+        // The stepwise solver does not measure the time for force curves separately.
         0.0
     }
 }

@@ -42,13 +42,14 @@ impl<'a> Thresholds<'a> {
         }
     }
 
-    /// Computes the contact at the points of a grid.
+    /// Computes the contact at each indentation of a grid.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let mut tally = Tally::new(grid, self.slides)?;
         let never = tally.grid.points.len();
         let mut first = 0;
         let mut place_before = never;
-        // Neighbouring springs that touch between the same two points are summed together.
+        // Neighbouring springs that touch between the same two points of the grid are summed
+        // together.
         while let Some(&threshold) = self.thresholds.get(first) {
             let place = tally.place(threshold);
             let (below, at_most) = tally.ends_before(place);
@@ -77,8 +78,8 @@ impl<'a> Thresholds<'a> {
         tally.finish(&self.scale)
     }
 
-    /// Adds the events and the cells in partial contact to the intervals in which a crossing is
-    /// searched.
+    /// Adds the springs that attach, and the cells in partial contact, to the intervals in which a
+    /// crossing of the force is searched.
     pub fn search(&self, intervals: &mut Intervals<ContactRule>) {
         let (low, high) = intervals.ends();
         for (spring, &threshold) in self.thresholds.iter().enumerate() {

@@ -299,8 +299,8 @@ mod tests {
         }
     }
 
-    // Sums of gaps and forces are compared with exact arithmetic. The documented bound also holds
-    // if nearly all of a force cancels.
+    // The following tests compare sums of gaps and forces with exact arithmetic. The documented
+    // bound also holds if nearly all of a force cancels.
 
     /// Returns the rounded sum a + b and its rounding error.
     fn two_sum(a: f64, b: f64) -> (f64, f64) {
@@ -387,8 +387,8 @@ mod tests {
         Ok(())
     }
 
-    /// Three kinds of gaps: of similar size, of very different sizes, and with a large common
-    /// offset and differences only in the last digits.
+    /// Generates gaps of three kinds: of similar size, of very different sizes, and with a large
+    /// common offset and differences only in the last digits.
     fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
         let alike = (
             -150.0..150.0_f64,

@@ -141,15 +141,17 @@ fn growth_over(height: f64) -> f64 {
     if growth < f64::INFINITY { growth } else { 0.0 }
 }
 
-/// Sums over the two cells at the edges of a patch, which are only partly in contact, at one
-/// indentation.
+/// Sums over the two edge cells of a patch at one indentation. An edge cell is the cell at an end
+/// of the patch, which is only partly in contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeCells {
     /// Length in contact of both cells together, in cells.
     pub length: f64,
-    /// Compression ∫ (d − c) dx over the length in contact, in cells times metres.
+    /// Compression ∫ (d − c) dx over the length in contact, in cells times metres. Here d is the
+    /// indentation and c the gap.
     pub compression: f64,
-    /// ∫ (d − c)² dx over the length in contact, in cells times m².
+    /// ∫ (d − c)² dx over the length in contact, in cells times m², where d is the indentation and
+    /// c the gap.
     pub squares: f64,
 }
 
@@ -222,7 +224,8 @@ impl EdgeCell {
         let height = outside - inside;
         let above = level - inside;
         if height == f64::INFINITY {
-            // The half cell at the end of the foundation has the gap of its spring everywhere.
+            // An infinite `outside` marks the end of the foundation. The gap of the half cell there
+            // is constant, so its share in contact does not grow with the level.
             return EdgeCell {
                 outside,
                 share: 0.5,
@@ -310,8 +313,8 @@ impl Levels {
     }
 }
 
-/// The two edge cells of a patch, for all indentations at which it consists of the same springs.
-/// The edges either slide with the indentation or are pinned at one level.
+/// The two edge cells of a patch, for all indentations at which the patch consists of the same
+/// springs. The edges either slide with the indentation or are pinned at one level.
 #[derive(Clone, Copy, Debug)]
 pub struct Slider<R> {
     levels: Levels,
@@ -426,7 +429,8 @@ impl<R: DetachmentRule> Slider<R> {
         let above = indentation - levels.gap;
         let rise = levels.free_rise(self.rule, above);
         if !self.rule.slides(levels.growth) {
-            // Edges that do not move, or that move without any stretch.
+            // The edges do not move, or move without any stretch. In both cases only the
+            // compression of the length in contact changes with the indentation.
             return self.edges + levels.growth * rise;
         }
         self.rule.stiffness(&levels, above, rise) - self.cells

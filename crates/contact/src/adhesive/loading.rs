@@ -15,7 +15,8 @@ use std::ops::Range;
 ///
 /// A node closes when one of its two branches attaches the spring of the node. All springs of its
 /// subtree then belong to one patch. The threshold of node v is s_v = min over its branches u of
-/// max(s_u, all φ of the patch while it grows from u to v). The module `run` defines φ.
+/// max(s_u, all φ of the patch while it grows from u to v). φ is the indentation at which a patch
+/// is in equilibrium at a given level; see the module `run`.
 #[derive(Debug)]
 pub struct Closing {
     /// Indentation in m at which each node closes.
@@ -76,7 +77,8 @@ struct Ascent {
     /// Height in m of the pinned edges above the largest gap, if the walk begins with a held patch
     /// that is pinned.
     pin: Option<f64>,
-    /// Levels of the patch before it attached its last spring, if its run may continue.
+    /// Length of the patch as a function of its level, before the patch attached its last spring;
+    /// `None` if the present springs begin a new run.
     below: Option<Levels>,
 }
 
@@ -102,9 +104,10 @@ impl Closing {
         Ok(closing)
     }
 
-    /// Finds the indentation at which one part of a node attaches the spring of the node. `side` is
-    /// 0 for the left part and 1 for the right part. `child` is the node of the part; if the part
-    /// is a leaf, `child` may be any node.
+    /// Finds the indentation at which one of the two branches that merge at a node attaches the
+    /// spring of the node. `side` is 0 for the left branch and 1 for the right one. `child` is the
+    /// node at which the branch begins; if the branch begins at a local minimum, `child` may be any
+    /// node.
     #[inline]
     fn close_part<const SLIDES: bool, R: DetachmentRule>(
         &mut self,
@@ -201,7 +204,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         let all = 0..self.held.len();
         let mut waiting = vec![(tree.root(), all)];
         let mut around = Vec::new();
-        // The order ensures that a node comes before the nodes in its two parts.
+        // The walk adds each node to `around` before the nodes in its two parts.
         while let Some((branch, held)) = waiting.pop() {
             let Ok(node) = branch.origin() else {
                 continue;
@@ -347,7 +350,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the patch that fills the whole profile.
+    /// Adds the run of the patch that fills the whole profile to the list.
     fn list_full_contact(&mut self, ascent: &Ascent) -> Result<(), ContactError> {
         self.listed.end = ascent.closes;
         if ascent.closes < ascent.merges {
@@ -357,8 +360,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
         Ok(())
     }
 
-    /// Lists the patch with the present springs of a walk. Returns the indentation in m at which it
-    /// attaches the next spring, whose gap is `wall_gap` in m.
+    /// Adds the patch with the present springs of a walk to the list of runs. Returns the
+    /// indentation in m at which the patch attaches the next spring, whose gap is `wall_gap` in m.
     #[inline]
     fn list_span(&mut self, ascent: &mut Ascent, wall_gap: f64) -> Result<f64, ContactError> {
         let ground = self.ground;
@@ -400,8 +403,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
-    /// Follows a branch from its beginning up to the spring `parent`. The branch attaches this
-    /// spring at the largest φ (m) on its way, but not before the branch begins.
+    /// Follows a branch from its beginning up to the spring `parent`. φ in m is the indentation at
+    /// which the patch attaches its next spring. The branch attaches `parent` at the largest φ on
+    /// its way, but not before the branch begins.
     ///
     /// If a patch contains at least n cells, φ at the gap b is at most b − Δl_max(n). With this
     /// bound, φ needs no evaluation for most springs on the way.
@@ -411,7 +415,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         let mut span = self.lowest(start);
         let known = span.ends();
         let mut closes = start.closes;
-        // The largest patch of the branch first, because φ is mostly largest there.
+        // The largest patch of the branch is evaluated first, because φ is mostly largest there.
         let top = self.below(&span, parent);
         if self.may_rise(closes, gaps[parent], &top) {
             *evaluations += 1;

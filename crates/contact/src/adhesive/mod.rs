@@ -31,8 +31,8 @@ pub struct Runs<'a, const SLIDES: bool, R> {
 
 impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Returns the patches in contact at an indentation in m, from left to right. If `pins` is
-    /// true, each patch also has the height of its edges, because the edges stay in place at the
-    /// beginning of the next motion.
+    /// true, each patch also has the height of its edges. This height is needed if the edges stay
+    /// in place at the beginning of the next motion.
     pub fn held_at(&self, indentation: f64, pins: bool) -> impl Iterator<Item = HeldPatch> {
         let runs = self.runs.iter().rev();
         runs.filter(move |run| run.is_at(indentation))
@@ -81,7 +81,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         thresholds
     }
 
-    /// Computes the contact at the points of a grid.
+    /// Computes the contact at each indentation of a grid.
     pub fn sample(&self, grid: Grid) -> Result<Vec<ContactState>, ContactError> {
         let low = grid.points[0];
         let high = grid.high();
@@ -114,8 +114,9 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         runs.filter(move |run| run.from <= high && run.to > low)
     }
 
-    /// Adds the events and the moving edges of the motion to the intervals in which an extreme or a
-    /// crossing of the force is searched.
+    /// Adds the runs of the motion to `intervals`, in which an extreme or a crossing of the force
+    /// is searched. Each patch adds the events at which it appears and disappears and, if its edges
+    /// move between springs, these edges.
     pub fn search(&self, intervals: &mut Intervals<R>) {
         let ground = &self.ground;
         let (low, high) = intervals.ends();

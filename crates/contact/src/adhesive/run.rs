@@ -282,7 +282,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the smallest indentation in m at which a patch attaches the next spring, whose gap
-    /// is `wall` in m. `levels` is the length of the patch as a function of its level.
+    /// is `wall` in m. `levels` gives the length of the patch for each level, the gap at which the
+    /// edges of the patch lie.
     #[inline]
     pub fn attachment(&self, levels: &Levels, wall: f64) -> f64 {
         let length = if SLIDES {
@@ -294,8 +295,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
     }
 
     /// Returns the smallest indentation in m at which a patch still bears the stretch of its most
-    /// stretched spring. `levels` is the length of the patch as a function of its level. The
-    /// returned value is at most the largest gap of the patch.
+    /// stretched spring. `levels` gives the length of the patch for each level, the gap at which
+    /// the edges of the patch lie. The returned value is at most the largest gap of the patch.
     #[inline]
     pub fn holds_to(&self, levels: &Levels) -> f64 {
         let gap = levels.gap;
@@ -308,10 +309,11 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
             let detaches = gap - rule.largest_stretch(levels.length);
             return detaches.next_up().min(gap);
         }
-        // φ is smallest at the turning length.
+        // The patch holds down to the smallest φ, the indentation of equilibrium. φ is smallest
+        // where the length of the patch is the turning length.
         let excess = rule.turning_length(levels.growth) - levels.length;
-        // Values are chosen instead of branches of the code, because the processor would often
-        // mispredict the branches.
+        // The code chooses between computed values instead of branching, because the processor
+        // would often mispredict the branches.
         let lowest = excess / levels.growth;
         let most = levels.top - gap;
         let limited = if lowest < most { lowest } else { most };
@@ -320,8 +322,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         if holds < gap { holds } else { gap }
     }
 
-    /// Returns true if a patch attaches its next spring without a jump of its edges. `lower` has
-    /// its levels before the attachment, and `upper` its levels afterwards.
+    /// Returns true if a patch attaches its next spring without a jump of its edges. `lower` gives
+    /// the length of the patch for each level before the attachment, and `upper` afterwards.
     #[inline]
     pub fn slides_on(&self, lower: &Levels, upper: &Levels) -> bool {
         if !SLIDES {

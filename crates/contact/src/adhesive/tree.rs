@@ -174,9 +174,9 @@ impl ContactTree {
         [left, right]
     }
 
-    /// Returns the sums of the gaps and of their squares over all springs to the left of `spring`,
-    /// or over the cells to the left of it. They have the units of
-    /// [`ContactTotals`](crate::totals::ContactTotals).
+    /// Returns two sums, of the gaps and of their squares, over all springs to the left of
+    /// `spring`. If `of_cells` is true, the sums are over the cells to the left of `spring`
+    /// instead. The units are those of [`ContactTotals`](crate::totals::ContactTotals).
     #[inline]
     pub(super) fn sums_before(&self, gaps: &[f64], spring: usize) -> [i128; 2] {
         let block = spring / BLOCK;
@@ -196,8 +196,8 @@ impl ContactTree {
         let count = gaps.len();
         debug_assert!(u32::try_from(count).is_ok_and(|count| count < 1 << 31));
         self.turns = emptied(std::mem::take(&mut self.turns), count / 4)?;
-        // One bit for each spring: 1 if the gap rises from this spring to the next. The gap counts
-        // as falling before the first spring and rising after the last one.
+        // `rises` has one bit for each spring: 1 if the gap rises from this spring to the next. The
+        // gap counts as falling before the first spring and rising after the last one.
         let mut rose = 0_u64;
         for base in (0..count).step_by(LANES) {
             let springs = LANES.min(count - base);
@@ -213,7 +213,8 @@ impl ContactTree {
             reserve(&mut self.turns, LANES + 4)?;
             let found = turns.count_ones() as usize;
             let place = self.turns.len();
-            // Four turns at a time, because the processor cannot predict the number of turns well.
+            // The loop stores four turning points at a time, because the processor cannot predict
+            // the number of turning points well.
             for _ in 0..found.div_ceil(4) {
                 let mut four = [0_u32; 4];
                 for turn in &mut four {

@@ -40,8 +40,8 @@ struct Descent {
     first: usize,
     last: usize,
     bottom: Bottom,
-    /// Indentation in m at which the patch of the step before loses a spring or splits. Below this
-    /// indentation the present springs form the patch.
+    /// Indentation in m at which the patch of the previous step of the walk loses a spring or
+    /// splits. Below this indentation the present springs form the patch.
     opens: f64,
     /// True for a patch that is in contact at the beginning of the unloading, until it has been
     /// listed once.
@@ -49,7 +49,8 @@ struct Descent {
     /// Height in m of pinned edges above the largest gap of a patch that is in contact at the
     /// beginning of the unloading; `None` if the edges are free.
     pin: Option<f64>,
-    /// Levels of the patch of the step before, if its run may continue with the present springs.
+    /// Length of the patch of the previous step as a function of its level; `None` if the run of
+    /// that patch cannot continue with the present springs.
     above: Option<Levels>,
 }
 
@@ -144,9 +145,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the runs of one branch from its largest patch down to its smallest one. Returns the
-    /// two parts that remain after the spring of its node has detached. `pin` is the height in m of
-    /// pinned edges above the largest gap of a patch that is in contact at the beginning.
+    /// Adds the runs of one branch to `listed`, from the largest patch of the branch down to the
+    /// smallest one. Returns the two parts that remain after the spring of the node of the branch
+    /// has detached. `pin` is the height in m of pinned edges above the largest gap of a patch that
+    /// is in contact at the beginning.
     fn descend(
         &self,
         part: Part,
@@ -191,8 +193,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Lists the patch with the present springs of a walk, for the indentations at which it exists.
-    /// `gap` is the largest gap of the patch in m.
+    /// Adds the patch with the present springs of a walk to `listed`, for the indentations at which
+    /// the patch exists. `gap` is the largest gap of the patch in m.
     #[inline]
     fn list_span(
         &self,

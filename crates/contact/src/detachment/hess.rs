@@ -52,8 +52,8 @@ impl DetachmentRule for HessRule {
         0.5 * self.stretch / cells.sqrt()
     }
 
-    // These bounds compare squares, which is faster than to compute roots. They decide for most
-    // springs.
+    // `surely_bears` and `may_bear` compare squares, which is faster than to compute square roots.
+    // For most springs these two bounds decide, and no root is computed.
     #[inline]
     fn surely_bears(&self, stretch: f64, cells: f64) -> bool {
         stretch * stretch <= self.stretch * self.stretch * (1.0 - ROUNDING) * cells
@@ -85,10 +85,12 @@ impl DetachmentRule for HessRule {
         above + self.stretch * self.root(levels, above)
     }
 
-    /// With y = √ℓ and k = s × growth the derivative is ℓ (2y − 3k)/(2y − k).
+    /// With y = √ℓ and k = s × growth, the derivative of the compression with respect to the
+    /// indentation is ℓ (2y − 3k)/(2y − k).
     #[inline]
     fn stiffness(&self, levels: &Levels, above: f64, rise: f64) -> f64 {
-        // At the lowest and at the highest level the edges also slide, to at least one side.
+        // The formula for sliding edges also holds at the lowest and at the highest level, where
+        // the edges can slide to at least one side.
         let root = self.root(levels, above);
         let fall = self.stretch * levels.growth;
         let rises = 2.0 * root - fall;

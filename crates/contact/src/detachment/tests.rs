@@ -123,7 +123,8 @@ impl Line {
     }
 }
 
-/// The rules of whole springs, applied in plain sweeps over all springs.
+/// A contact of whole springs that finds its state by plain sweeps over all springs. Each sweep
+/// applies the rules of attachment and detachment.
 struct Relaxed<'a> {
     gaps: &'a [f64],
     holds: Vec<bool>,
@@ -249,7 +250,7 @@ impl Stepped<'_> {
     }
 
     /// Returns the parts that are still in contact at an indentation of an unloading. `held` are
-    /// the patches at its beginning.
+    /// the patches at the beginning of the unloading.
     fn pulled(&self, rule: PowerRule, indentation: f64, held: &[Part]) -> Vec<Part> {
         let mut waiting = held.to_vec();
         let mut patches = Vec::new();
@@ -314,7 +315,8 @@ fn hess(stretch: f64) -> HessRule {
 proptest! {
     #![proptest_config(cases(150))]
 
-    /// Whole springs, on a loading history of six motions.
+    /// For patches of whole springs, the exact solver and plain sweeps find the same contact on a
+    /// loading history of six motions.
     #[test]
     fn a_power_of_the_length_agrees_with_blind_relaxation(
         gaps in gaps(40), rule in power_rules(), more in 1.0..2.0_f64,
@@ -379,7 +381,7 @@ proptest! {
         let turning = closed.turning_length(growth);
         let is_near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * (1.0 + expected.abs());
         prop_assert!(is_near(searched.turning_length(growth), turning));
-        // A level at which the patch is stable.
+        // `rise` is chosen so that the patch is stable at its level.
         let lowest = ((turning - length) / growth).max(0.0);
         prop_assume!(lowest < height);
         let rise = lowest + share * (height - lowest);

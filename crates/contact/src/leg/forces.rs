@@ -22,7 +22,8 @@ use asperity_data::CompensatedSum;
 pub(crate) const SEARCH_INTERVALS: usize = 256;
 /// Number of intervals whose events are listed at the same time.
 const AT_ONCE: usize = 16;
-/// Distance, in grid points, between the points that are evaluated first.
+/// Distance, in grid points, between the points that a search evaluates before it evaluates points
+/// between them.
 const STRIDE: usize = 16;
 
 /// States whether the body is separated at the beginning and at the end of a motion.
@@ -130,8 +131,9 @@ impl Leg {
     }
 
     /// Returns the energy in J that a compliant instrument and the moving body lose in the jumps of
-    /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps. `extreme` is the extreme compression
-    /// so far, of contact and instrument together; `None` at the beginning of a motion.
+    /// a sampled motion: ∫ (k (D − d) − F) dd over the jumps, where D is the displacement of the
+    /// instrument and k its stiffness. `extreme` is the extreme compression so far, of contact and
+    /// instrument together; `None` at the beginning of a motion.
     pub(crate) fn jump_energy(
         &self,
         sampled: &[ContactState],

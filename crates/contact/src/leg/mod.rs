@@ -153,8 +153,8 @@ impl Leg {
     }
 
     /// Creates a leg on which each spring is in contact at indentations from its threshold in m
-    /// upwards: −∞ if it is always in contact, +∞ if never. The leg is known up to the indentation
-    /// `end` in m.
+    /// upwards. The threshold is −∞ for a spring that is always in contact, and +∞ for a spring
+    /// that is never in contact. The leg is known up to the indentation `end` in m.
     pub(super) fn of_thresholds(
         contact: &Contact,
         direction: Direction,
@@ -469,7 +469,7 @@ impl Leg {
         self.contact.edges == Edges::SubCell && !self.contact.rules().is_one()
     }
 
-    /// Returns the rule of the direction of motion.
+    /// Returns the rule that limits the stretch of springs in the direction of this motion.
     fn rule(&self) -> ContactRule {
         self.contact.rules().rule(self.direction)
     }

@@ -13,7 +13,8 @@ use serde::Serialize;
 use std::path::Path;
 use thiserror::Error;
 
-/// Edge models. If both need the same number of springs, the first one is chosen.
+/// Edge models that the search compares. If both need the same number of springs, the search
+/// chooses the first one.
 const EDGES: [Edges; 2] = [Edges::SubCell, Edges::Grid];
 /// Largest number of springs that is tried. If the modes of the scene need more than a quarter of
 /// this number, the limit is four times the needed number.
@@ -209,7 +210,7 @@ pub fn choose(
         };
         tried.push(solved);
         error_of_finest = None;
-        // To estimate the error of the finest solution takes two more solutions, so this is done
+        // The estimate of the error of the finest solution needs two more solutions, so it is made
         // last.
         if choice_within(&tried, 0.0, tolerance).is_none() {
             continue;
@@ -277,7 +278,7 @@ fn estimated_error(
 
 /// Returns the choice among the solutions with both edge models. `error_of_finest` is the error of
 /// the finest solution. If no choice reaches the tolerance, returns the choice with the smallest
-/// confirmed error. Returns `None` if there are too few solutions.
+/// error that finer solutions confirm. Returns `None` if there are too few solutions.
 fn judge(tried: &[[Solution; 2]], error_of_finest: f64, tolerance: f64) -> Option<Choice> {
     let mut candidates = Vec::new();
     for index in 0..EDGES.len() {
@@ -333,8 +334,8 @@ fn candidate(
 mod tests {
     use super::*;
 
-    /// Solutions whose adhesion force converges to 1 N. `edges` has the first error and the order
-    /// of convergence for each edge model.
+    /// Creates solutions whose adhesion force converges to 1 N. `edges` has the error of the first
+    /// solution and the order of convergence, for each edge model.
     fn solutions(count: u32, edges: [(f64, i32); 2]) -> Vec<[Solution; 2]> {
         let solution = |k: u32, (error, order): (f64, i32)| Solution {
             points: 16 << k,
@@ -377,12 +378,14 @@ mod tests {
 
     #[test]
     fn the_fewest_springs_that_two_refinements_confirm_are_chosen() {
-        // Grid: 0.5, 0.25, …; SubCell: 0.1, 0.025, 0.00625, …
+        // The errors in N are 0.1, 0.025, 0.00625, … with edges between springs, and 0.5, 0.25, …
+        // with whole springs.
         let tried = |count| solutions(count, [(0.1, 2), (0.5, 1)]);
         let choice = judge(&known(tried(5)), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         assert!((choice.error - 0.00625).abs() < 1e-12);
-        // Here the error of the finest solution is added.
+        // Without a closed form, the error 0.005 of the finest solution is added to the difference
+        // from this solution.
         let choice = judge(&tried(6), 0.005, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (128, Edges::SubCell));
         assert!((0.006..0.01).contains(&choice.error), "{choice:?}");

@@ -192,8 +192,8 @@ fn difference(target: Target, solution: &Solution, own: &Solution) -> Option<f64
 }
 
 /// Returns true if the adhesion force of a further solution differs because of a step of F_a(F_n).
-/// `step` is the relative difference. It is due to a step if it is much smaller at loads near the
-/// loads of the scene.
+/// `step` is the relative difference. The difference is due to a step if it is much smaller at
+/// loads near the loads of the scene.
 fn is_near_step(
     scene: &CheckedScene,
     step: Option<f64>,
@@ -389,7 +389,8 @@ mod tests {
             evidence(&[("numerics.points", "8192")]),
             solutions(&[7203, 5577])
         );
-        // 512 modes need 1024 springs.
+        // 512 modes need 1024 springs, so both further solutions must have more springs than the
+        // scene.
         assert_eq!(
             evidence(&[("numerics.points", "1024")]),
             solutions(&[1573, 2079])
@@ -398,7 +399,8 @@ mod tests {
             evidence(&[("numerics.points", "1025")]),
             solutions(&[1573, 2079])
         );
-        // Few odd numbers suit a transform; between 27 and 33 there is none.
+        // The first odd number from 7/8 of 33 upwards that suits a transform is 33 itself. The
+        // further solutions therefore have more springs than the scene.
         let few = [("roughness.modes", "(1, 4)"), ("numerics.points", "33")];
         assert_eq!(evidence(&few), solutions(&[49, 75]));
         // The estimate also covers the errors of whole springs and of the steps of the stepwise

@@ -1,6 +1,7 @@
 //! Cost of accuracy of one scene: solutions from coarse to fine within a limited time. The
-//! solutions form a ladder. Each rung has twice as many springs as the rung before, with both edge
-//! models, and the stepwise solver has half the step.
+//! solutions form a ladder. Each rung has a solution with each edge model and, if the scene has the
+//! stepwise solver, a solution with this solver. From rung to rung the number of springs is doubled
+//! and the step of the stepwise solver is halved.
 
 use super::estimate::own_errors;
 use super::solution::{
@@ -92,9 +93,9 @@ impl Clock<'_> {
 }
 
 /// Measures the errors of a scene and the computing times, with more and more springs. For the
-/// stepwise [`Solver`] it also measures them with smaller and smaller steps. The measurement ends
-/// when the time `budget` is used up. Names of measured files are relative to `folder`. `watch`
-/// receives each setting before it is tried, and the table so far.
+/// stepwise [`Solver`], also measures errors and times with smaller and smaller steps. The
+/// measurement ends when the time `budget` is used up. Names of measured files are relative to
+/// `folder`. `watch` receives each setting before it is tried, and the table so far.
 ///
 /// Returns an error message if the scene cannot be computed, if the budget is too small for two
 /// solutions, or if `stop` returned true.
@@ -170,8 +171,9 @@ impl Ladder<'_> {
     ) -> Result<Option<RunError>, RunError> {
         let mut refused = None;
         let mut last_seconds = 0.0;
-        // The first one is tried without any time left too: it reads the files of the scene before
-        // it asks for the time, so that a file that cannot be read is named.
+        // The first number of springs is tried even if no time is left. The computation reads the
+        // files of the scene before it checks the time, so its error names a file that cannot be
+        // read.
         let mut is_first = true;
         for points in allowed_points(self.scene) {
             let before = clock.left();
@@ -338,8 +340,8 @@ impl Ladder<'_> {
         if closed_form {
             errors[Target::AdhesionForce as usize] = Some(ROUNDING);
         }
-        // With few springs, each of them causes a jump of the force, and the curve may show the
-        // jump late by one distance between its points.
+        // With few springs, each spring causes a jump of the force. The curve may show a jump late
+        // by one distance between points of the curve.
         let mut errors_of_exact: Errors = [None; 4];
         errors_of_exact[Target::Curve as usize] = Some(1.0 / compared_samples(self.scene) as f64);
         let mut rows: Vec<Row> = Vec::new();
@@ -446,7 +448,8 @@ mod tests {
         measure(scene, folder, Duration::ZERO, &|| false, &mut |_| ()).unwrap_err()
     }
 
-    /// A file that cannot be read is named whatever the load of the machine leaves of the budget.
+    /// The error names a file that cannot be read, even if a busy machine leaves no time of the
+    /// budget.
     #[test]
     fn a_file_that_cannot_be_read_is_named_without_any_time() {
         let smooth = open("jkr-sphere").unwrap();

@@ -45,8 +45,8 @@ impl Solution {
         }
     }
 
-    /// Returns what [`Target::difference`] compares of a result. The adhesion force needs no copy
-    /// of the force curve.
+    /// Returns those quantities of a result that [`Target::difference`] compares. If it compares
+    /// the adhesion force, the force curve is not copied.
     pub(super) fn of_target(scene: &Scene, outcome: &Outcome) -> Self {
         let own = Solution::without_curve(scene, outcome);
         match Target::of(&own) {
@@ -80,8 +80,8 @@ impl Solution {
     }
 
     /// Returns the relative differences of this solution from a reference. For the adhesion force,
-    /// the largest difference at all loads counts at which both solutions have a force. An error
-    /// that changes its sign between two loads then does not seem small by chance.
+    /// this is the largest difference among all loads at which both solutions have a force. An
+    /// error that changes its sign between two loads then does not seem small by chance.
     pub(super) fn errors(&self, reference: &Solution) -> Errors {
         [
             self.error_of_adhesion_force(reference),

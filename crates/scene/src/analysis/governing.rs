@@ -298,7 +298,7 @@ mod tests {
         mean_wave_number: 0.5,
     });
 
-    /// The parameters of a scene with E* = 4 Pa. If `amplitude` is `None`, the scene has no
+    /// Returns the parameters of a scene with E* = 4 Pa. If `amplitude` is `None`, the scene has no
     /// roughness.
     fn governing(amplitude: Option<&str>, adhesion: &str) -> Governing {
         let roughness = amplitude.map_or_else(String::new, |amplitude| {
@@ -361,7 +361,8 @@ mod tests {
             (without.work_of_adhesion, without.kappa, without.amplitude),
             (None, None, ROUGH)
         );
-        // The value of the parameter is not a finite number.
+        // With an energy of 1e300 J/m² and such a small work of adhesion, κ would not be a finite
+        // number.
         assert_eq!(value_of(RoughnessParameter::Kappa, 1e300, 5e-324), None);
     }
 
@@ -418,7 +419,8 @@ mod tests {
         let sphere = set(&open("jkr-sphere").unwrap(), &fields);
         let expected = tabor_number(2e-4, 0.05, 4e6, 1e-9);
         assert!((of(&sphere).unwrap() / expected - 1.0).abs() < 1e-12);
-        // The default range is 0.3 nm: μ ∝ 1/z₀.
+        // Without a stated range, the range z₀ of the attraction is 0.3 nm, and μ is proportional
+        // to 1/z₀.
         let usual = of(&sphere.set("adhesion.range", "None").unwrap()).unwrap();
         assert!((usual * 0.3 / expected - 1.0).abs() < 1e-12);
         let opening = sphere.set("adhesion.closing_work", "0.01").unwrap();

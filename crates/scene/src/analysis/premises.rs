@@ -75,8 +75,9 @@ impl Scene {
         self.warnings_of(&Governing::of(self, unit, None), None)
     }
 
-    /// Returns a warning for each premise that this scene does not meet. `governing` has its
-    /// governing parameters, and `measured` the facts about its measured surface, if it has one.
+    /// Returns a warning for each premise that this scene does not meet. `governing` has the
+    /// governing parameters of the scene. `measured` has the facts about the measured surface of
+    /// the scene; `None` if there is no such surface.
     pub(crate) fn warnings_of(
         &self,
         governing: &Governing,
@@ -119,8 +120,8 @@ impl Scene {
     }
 
     /// Returns a warning if measured heights are the profile itself and the scene also has a form.
-    /// [`Profile::doubt`](asperity_contact::Profile::doubt) returns a warning that depends on the
-    /// heights.
+    /// This warning depends only on the fields of the scene. Warnings that depend on the heights
+    /// are returned by [`Profile::doubt`](asperity_contact::Profile::doubt).
     fn heights_as_profile(&self) -> Option<Warning> {
         let has_form = self.form.is_some();
         (self.measured_as_line() && has_form).then_some(Warning::HeightsAsProfile)
@@ -133,7 +134,7 @@ impl Scene {
     }
 
     /// Returns a warning if the form of the body is steep at the edge of the largest contact of a
-    /// loading. Waves of the form count as its roughness.
+    /// loading. Waves of the form are left out, because they count as roughness.
     pub(crate) fn steep_form(&self, history: &History) -> Option<Warning> {
         let form = self.form.as_ref()?.without_waves();
         let mut contact_length = 0.0_f64;
@@ -151,7 +152,8 @@ impl Scene {
         let half_contact = 0.5 * contact_length / bodies;
         let touched = distance_at_depth(&form, deepest, half_length);
         let radius = touched.max(half_contact).min(half_length);
-        // The slope over the outer part of the contact, which a table has too.
+        // The slope is a mean over the outer part of the contact, which also exists for a form
+        // given by a table.
         let inner = EDGE * radius;
         let fall = form.depth(radius)? - form.depth(inner)?;
         Warning::of_slope_of_form(fall / (radius - inner))
@@ -182,7 +184,7 @@ impl Scene {
         };
         let waves = match self.spectrum() {
             // At wavelengths above the roll-off, the waves of the profile become lower with the
-            // wavelength.
+            // wavelength. The roll-off wavelength therefore counts as the longest wave.
             Some(spectrum) => (spectrum.first as f64).max(spectrum.roll_off_mode),
             None => measured?.long_waves?,
         };
