@@ -19,12 +19,13 @@ use crate::warning::Warning;
 pub struct CountedWarning {
     /// The premise, with the values of the first profile that does not meet it.
     pub warning: Warning,
-    /// Number of profiles that do not meet it.
+    /// Number of profiles that do not meet the premise.
     pub profiles: u64,
 }
 
 impl CountedWarning {
-    /// Counts a warning of one more profile.
+    /// Counts one more profile with this warning. `counted` is the list of all premises found so
+    /// far.
     pub fn count(counted: &mut Vec<CountedWarning>, warning: &Warning) {
         match counted
             .iter_mut()

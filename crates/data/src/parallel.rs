@@ -78,8 +78,8 @@ pub fn on_threads<R: Send, E: Send, W: FnMut(u64) -> Result<R, E>>(
             }
             let result = worker(number);
             if result.is_err() {
-                // Results for higher numbers are not needed any more. Lower numbers are already
-                // computed, or are being computed.
+                // After an error, results for higher numbers are no longer needed. Results for
+                // lower numbers are already computed, or are being computed.
                 next.store(count, Ordering::SeqCst);
             }
             found

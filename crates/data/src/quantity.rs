@@ -73,9 +73,10 @@ impl QuantityError {
 /// Parses a typed number and converts it to the SI unit `unit`. For example, `50m` for J/m² gives
 /// 0.05, and `10um` for m gives 1.0e-5.
 ///
-/// The text may omit the unit. A single `m` after the number is the prefix milli. But if `unit` is
-/// `m`, it is the metre, so that `50m` means fifty metres. An angle may be in degrees, `30°` or `30
-/// deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of 1024.
+/// The text may omit the unit. A single `m` after the number is the prefix milli, but if `unit` is
+/// `m`, it is the unit metre: `50m` then means fifty metres. An angle may be in degrees, `30°` or
+/// `30 deg`. If `unit` is `1`, the text may end in `%`, or in `Ki`, `Mi` or `Gi` for powers of
+/// 1024.
 ///
 /// # Errors
 /// Returns an error if the text is not a number, has another unit, or is not finite.
@@ -134,7 +135,8 @@ struct TypedNumber<'a> {
 }
 
 impl<'a> TypedNumber<'a> {
-    /// Splits a text that begins with a number into these parts. Returns `None` for any other text.
+    /// Splits a text that begins with a number into digits, exponent and suffix. Returns `None` for
+    /// any other text.
     fn read(text: &'a str) -> Option<Self> {
         let signless = text.trim_start_matches(['+', '-', '−']);
         let sign = &text[..text.len() - signless.len()];
@@ -283,8 +285,8 @@ const ROUNDING: f64 = 1e-36;
 
 /// Formats a value with its unit, rounded to `digits` significant digits. `digits` is from 1 to 4.
 pub fn format_rounded(value: f64, digits: usize, unit: &str) -> String {
-    // Plain numbers are written as zero only below the smallest normal number, because the state
-    // just after a jump at zero may have the number next to zero.
+    // Plain numbers are written as zero only below the smallest normal number. A number next to
+    // zero may mark the state just after a jump at zero.
     let least = if is_unit_of_numbers(unit) {
         f64::MIN_POSITIVE
     } else {

@@ -1,11 +1,12 @@
-//! Steps that help a reader of a message: as data, so that each interface states them in its own
-//! words.
+//! Steps that remove the cause of an error or a warning. The steps are data, so that each interface
+//! states them in its own words.
 
 use std::convert::Infallible;
 use std::fmt;
 
-/// Step that removes the cause of an error or a warning. Libraries state it as data. The command
-/// line, the explorer and Python each have words for it: an option, a row, a keyword argument.
+/// Step that removes the cause of an error or a warning. Libraries return the step as a value of
+/// this type. The command line, the explorer and Python each have their own words for the step: an
+/// option, a row or a keyword argument.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Remedy {
     /// Name one of the surfaces of a container.
@@ -32,9 +33,9 @@ pub enum Remedy {
     Columns,
     /// State the units of displacement and force.
     Units,
-    /// State the force of 1 in the column of the force.
+    /// State the force in N that the value 1 in the column of forces means.
     ForceOfOne,
-    /// State the travel over which forces without displacements are spaced.
+    /// State the distance over which the forces of a curve without displacements are evenly spaced.
     Ramp,
     /// Reverse the sign of the displacement.
     NegateDisplacement,
@@ -46,9 +47,9 @@ pub enum Remedy {
     FreePoints,
     /// Use one segment of the curve alone: 1 is its approach, 2 its retraction.
     Segment(usize),
-    /// Take a straight line over time off the force.
+    /// Subtract a drift, a straight line over time, from the force.
     RemoveDrift,
-    /// Take a straight line over the displacement off the force.
+    /// Subtract a tilt, a straight line over the displacement, from the force.
     RemoveTilt,
     /// State the noise of the force.
     Noise,
@@ -64,21 +65,21 @@ pub enum Remedy {
     Profiles(u64),
     /// Compute more random profiles.
     MoreProfiles,
-    /// Use the profile of the scene alone.
+    /// Use only the profile of the scene, without random profiles.
     NoProfiles,
     /// State the errors of a random roughness.
     RoughnessErrors,
     /// State no errors of the roughness.
     NoRoughnessErrors,
-    /// Compute on squares with this number of cells along an edge.
+    /// Compute square surfaces on an elastic half-space with this number of cells along a side.
     Grid(usize),
-    /// Compute on squares with more cells.
+    /// Compute square surfaces on an elastic half-space with more cells.
     FinerGrid,
-    /// Compute more random squares.
+    /// Compute more random square surfaces on an elastic half-space.
     Maps,
-    /// Ask for a smaller error of the grid.
+    /// State a smaller tolerance for the error due to the finite number of springs.
     Tolerance,
-    /// Press before the body is pulled.
+    /// Press the body before it is pulled.
     Preload,
     /// State the range of a search.
     Range,
@@ -97,10 +98,10 @@ pub enum Remedy {
 /// Words for a remedy in one interface, such as the option of the command line with its value.
 pub type Wording = fn(&Remedy) -> String;
 
-/// Error that may have remedies. Its text states the place, what was found and what is allowed; the
-/// remedies are apart.
+/// Error that may have remedies. Its text states the place, what was found and what is allowed. The
+/// remedies are not part of this text.
 pub trait Remedied: fmt::Display {
-    /// Returns the steps that remove the cause of the error; none if no single step does.
+    /// Returns the steps that remove the cause of the error; an empty list if no single step does.
     fn remedies(&self) -> Vec<Remedy>;
 
     /// Returns the text of the error with its remedies in the words of an interface.
@@ -113,21 +114,21 @@ pub trait Remedied: fmt::Display {
     }
 }
 
-/// What cannot fail needs no remedy.
+/// An [`Infallible`] error never occurs, so it needs no remedy.
 impl Remedied for Infallible {
     fn remedies(&self) -> Vec<Remedy> {
         Vec::new()
     }
 }
 
-/// A message in words alone has no remedy.
+/// An error that is only a text has no remedies.
 impl Remedied for &str {
     fn remedies(&self) -> Vec<Remedy> {
         Vec::new()
     }
 }
 
-/// A message in words alone has no remedy.
+/// An error that is only a text has no remedies.
 impl Remedied for String {
     fn remedies(&self) -> Vec<Remedy> {
         Vec::new()
@@ -140,8 +141,8 @@ fn joined(remedies: &[Remedy], wording: Wording) -> Option<String> {
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// One or more sentences on a result, each with the steps that help if it is unwelcome. `Display`
-/// writes the sentences without these steps.
+/// One or more sentences on a result, each with the remedies for what it states. `Display` writes
+/// the sentences without the remedies.
 ///
 /// ```
 /// use asperity_data::{Note, Remedy};

@@ -11,10 +11,11 @@ impl Separator {
     /// White space: any number of blanks and tabs separates two columns.
     pub const SPACE: Separator = Separator(' ');
 
-    /// Finds the separator in a line of numbers. It is the first of these that the line contains
-    /// outside quotation marks: a semicolon, a tab, a comma. Otherwise it is white space. White
-    /// space is also the separator if every word between blanks is a number and a comma occurs only
-    /// inside numbers, as in `0,5 1,25`.
+    /// Finds the separator in a line of numbers. The separator is the first of the following marks
+    /// that the line contains outside quotation marks: a semicolon, a tab, a comma. If the line
+    /// contains none of these marks, the separator is white space. White space is also the
+    /// separator if every word between blanks is a number and a comma occurs only inside numbers,
+    /// as in `0,5 1,25`.
     pub fn of(line: &str) -> Separator {
         let mut is_outside = outside_quotes();
         let outside: String = line.chars().filter(|c| is_outside(*c)).collect();
@@ -117,8 +118,9 @@ const GROUPING: [char; 8] = [
 pub struct Decimal {
     /// Decimal mark; `None` as long as no number has one.
     mark: Option<char>,
-    /// Comma or point, if it separates thousands. A number with two different marks, such as
-    /// `1,234.5`, or with two groups, such as `1,234,567`, shows this.
+    /// Comma or point, if a number has shown that it separates thousands: a number with two
+    /// different marks, such as `1,234.5`, or with two groups, such as `1,234,567`. Otherwise
+    /// `None`.
     group: Option<char>,
     /// True if a number has been read whose comma cannot separate thousands, such as `0,5`.
     is_certain: bool,
@@ -339,7 +341,7 @@ mod tests {
             ("0.5;1,234", vec![Number(0.5), OtherMark]),
             ("1,234;1,234.5", vec![Number(1.234), OtherMark]),
             ("1,234.5;0,5", vec![Number(1234.5), OtherMark]),
-            // Groups with fewer or more than three digits.
+            // Each group must have three digits, so none of these texts is a number.
             (
                 "1 23;1,2345.6;0,123.4;1234,567.8;1,234,56",
                 vec![NoNumber; 5],
@@ -355,7 +357,8 @@ mod tests {
         for (line, is_doubtful) in [
             ("999;1,234", true),
             ("999;-1,234;5;2,345", true),
-            // Either all numbers have three decimals, or some commas can only be decimal marks.
+            // In these lines the meaning of a comma is certain, for example because all numbers
+            // have three decimals, or because some commas can only be decimal marks.
             ("1,234;2,345", false),
             ("999;1,234;0,123", false),
             ("999;1,234;2,5", false),

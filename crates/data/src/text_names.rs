@@ -159,7 +159,7 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
 /// 3. after closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = without_key(line)?.trim();
-    // A blank may stand between a name and its unit.
+    // There may be a blank between a name and its unit.
     let joined = line
         .replace(" [", "[")
         .replace(" (", "(")

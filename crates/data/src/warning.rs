@@ -1,15 +1,16 @@
-//! Premises of the model that a result does not meet: the list of warnings, their conditions and
-//! their words.
+//! Premises of the model that a result does not meet: the warnings, their conditions and their
+//! words.
 //!
-//! This is the only list. A number that is computed although a premise does not hold carries the
-//! [`Warning`] of this premise, and every report prints the same sentence.
+//! A result that is computed although a premise does not hold has the [`Warning`] of this premise.
+//! Every report takes its sentence from this module, so all reports print the same sentence.
 
 use crate::quantity::{format_quantity, format_rounded};
 use crate::remedy::{Note, Wording};
 use std::fmt::{Display, Formatter, Result};
 
 /// A premise of the model that a result does not meet, with the values that show it. `Display`
-/// writes one line: what does not hold, what follows for the numbers, and the step that helps.
+/// writes one line: which premise does not hold, what this means for the results, and which step
+/// helps.
 ///
 /// ```
 /// use asperity_data::Warning;
@@ -28,13 +29,14 @@ pub enum Warning {
         /// Length of the profile in m.
         length: f64,
     },
-    /// The loading ends in contact before the largest pull of its last unloading.
+    /// The last unloading ends in contact before its pulling force has reached its largest value.
     EndsInContact {
-        /// Largest pulling force in N on the rest of the unloading; `None` if it is not known.
+        /// Largest pulling force in N that the rest of the unloading would reach; `None` if it is
+        /// not known.
         further: Option<f64>,
     },
-    /// Fewer than [`Warning::LEAST_SPRINGS_IN_CONTACT`] springs were in contact at any moment of
-    /// the loading.
+    /// At no moment of the loading [`Warning::LEAST_SPRINGS_IN_CONTACT`] or more springs were in
+    /// contact.
     FewSpringsInContact {
         /// Largest number of springs in contact.
         springs: u64,
@@ -45,18 +47,18 @@ pub enum Warning {
         /// Number of springs on the shortest wave.
         springs: f64,
     },
-    /// A stated wavelength is not a whole part of the length, and the wave that is used differs by
-    /// more than [`Warning::LARGEST_CHANGE_OF_WAVE`].
+    /// The length is not a whole multiple of a stated wavelength. The wavelength that is used
+    /// differs from the stated one by more than [`Warning::LARGEST_CHANGE_OF_WAVE`].
     RoundedWaves {
         /// Longest and shortest wavelength in m as stated.
         stated: [f64; 2],
         /// Longest and shortest wavelength in m as used.
         used: [f64; 2],
     },
-    /// A nominally flat random roughness has fewer than [`Warning::LEAST_LONG_WAVES`] of its
-    /// longest waves on the length.
+    /// Fewer than [`Warning::LEAST_LONG_WAVES`] of the longest waves of a random roughness fit on
+    /// the length of a nominally flat body.
     FewLongWaves {
-        /// Number of the longest waves on the length of the profile.
+        /// Number of the longest waves that fit on the length of the profile.
         waves: f64,
     },
     /// The rms gradient of the roughness exceeds [`Warning::LARGEST_GRADIENT`].
@@ -72,8 +74,8 @@ pub enum Warning {
         /// Slope of the form at the edge of the contact.
         slope: f64,
     },
-    /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of JKR nor the
-    /// rule of Hess applies.
+    /// The Tabor number is below [`Warning::LEAST_TABOR_NUMBER`]: neither the theory of Johnson,
+    /// Kendall and Roberts (JKR) nor the rule of Hess applies.
     LongRangedAttraction {
         /// Tabor number.
         tabor_number: f64,
@@ -84,17 +86,18 @@ pub enum Warning {
         /// Tabor number.
         tabor_number: f64,
     },
-    /// The heights of a file or an array count as the equivalent profile, and nobody has stated
-    /// that they are one.
+    /// The heights of a file or an array are used as the equivalent profile, although nobody has
+    /// stated that they are the heights of an equivalent profile.
     HeightsAsProfile,
-    /// Heights that count as the equivalent profile are smooth and curved as a cut through a round
-    /// body would be.
+    /// Heights that are used as the equivalent profile are smooth, and curved as a cut through a
+    /// round body would be.
     CutLikeHeights {
         /// Radius in m of the sphere whose cut has these heights.
         radius: f64,
     },
-    /// A measured surface is longer than the profile, so that its longest waves are left out, and
-    /// the rms height changes by more than [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
+    /// A measured surface is longer than the profile, so the profile lacks the longest waves of the
+    /// surface. Its rms height differs from the rms height of the surface by more than
+    /// [`Warning::LARGEST_CHANGE_OF_HEIGHT`].
     ScanLongerThanLength {
         /// Length of the scan in m.
         scan: f64,
@@ -103,64 +106,69 @@ pub enum Warning {
         /// Rms heights in m of the surface and of the profile.
         rms_heights: [f64; 2],
     },
-    /// A measured surface is shorter than the profile, which therefore lacks the longest waves, and
-    /// long waves carry more than [`Warning::MANY_LONG_WAVES`] of the squared height.
+    /// A measured surface is shorter than the profile, which therefore lacks the longest waves.
+    /// Waves longer than a quarter of the scan contribute more than [`Warning::MANY_LONG_WAVES`] of
+    /// the mean squared height.
     ScanShorterThanLength {
         /// Length of the scan in m.
         scan: f64,
         /// Length of the profile in m.
         length: f64,
-        /// Share of the waves longer than a quarter of the scan in the squared height.
+        /// Share of the mean squared height that waves longer than a quarter of the scan
+        /// contribute.
         share: f64,
     },
     /// The waves of a wavy sphere are so steep that the rule of Hess differs from the theory of
-    /// JKR.
+    /// Johnson, Kendall and Roberts (JKR).
     SteepWaves {
-        /// Ratio λ²/(AR) of wavelength λ, amplitude A and radius R.
+        /// Ratio λ²/(AR), where λ is the wavelength, A the amplitude and R the radius of the
+        /// sphere.
         ratio: f64,
-        /// Factor by which the waves raise the pull-off force of the sphere by the theory of JKR.
+        /// Factor by which the waves raise the pull-off force of the sphere according to the theory
+        /// of JKR.
         jkr_factor: f64,
     },
-    /// The equivalent profile of a form from a table falls at a distance from the axis, so that the
-    /// rule of Hess differs from the theory of JKR.
+    /// The equivalent profile of a form given by a table does not rise everywhere from the axis
+    /// outwards. The rule of Hess then differs from the theory of Johnson, Kendall and Roberts.
     FallingProfile {
-        /// Distance from the axis in m.
+        /// Distance from the axis in m at which the profile falls.
         from: f64,
     },
     /// The file of a measured surface has an unusual property.
     MeasuredFile {
         /// Name of the file.
         file: String,
-        /// The property, with the place in the file where it has one.
+        /// Description of the property, with its place in the file if the property has a place.
         property: Note,
     },
-    /// Two measured surfaces of one roughness have very different rms heights.
+    /// Measured surfaces that count as samples of one roughness have very different rms heights.
     SurfacesFarApart {
-        /// The flattest surface.
+        /// Name and rms height of the surface with the smallest rms height.
         flattest: NamedHeight,
-        /// The roughest surface.
+        /// Name and rms height of the surface with the largest rms height.
         roughest: NamedHeight,
     },
-    /// Odd rows of a map are displaced against even rows.
+    /// Odd rows of a map are displaced along the even rows, as the two directions of a scan may be.
     DisplacedRows {
         /// Displacement in m.
         distance: f64,
     },
-    /// Waves longer than a quarter of the scan carry much of the squared height.
+    /// Waves longer than a quarter of the scan contribute much of the mean squared height.
     LongWavesOfScan {
-        /// Share of these waves in the squared height.
+        /// Share of the mean squared height that these long waves contribute.
         share: f64,
-        /// True if the curvature of the heights was removed before.
+        /// True if the curvature of the heights was removed before this share was computed.
         is_levelled: bool,
     },
-    /// Parts of one measured surface have different roughness, more than chance explains.
+    /// The parts of one measured surface differ in roughness by more than chance explains.
     PartsDiffer {
         /// Ratio of the largest to the smallest rms gradient of the parts.
         ratio: f64,
     },
     /// Measured surfaces that count as samples of one roughness differ more than chance explains.
     SurfacesDiffer {
-        /// Ratio of their largest to their smallest rms height or rms gradient.
+        /// Ratio of the largest to the smallest rms height of the surfaces, or of their rms
+        /// gradients.
         ratio: f64,
     },
     /// The heights of a measured surface are far from normally distributed.
@@ -170,7 +178,8 @@ pub enum Warning {
         /// Kurtosis of the heights; 3 for normal heights.
         kurtosis: f64,
     },
-    /// A measured surface is larger or higher than any instrument measures roughness.
+    /// A measured surface is longer or rougher than any surface whose roughness instruments
+    /// measure, so its unit is probably wrong.
     ImprobableLengths {
         /// Name of the file.
         file: String,
@@ -184,13 +193,14 @@ pub enum Warning {
         /// Number of profiles.
         profiles: u64,
     },
-    /// The spectrum of a measured surface does not end inside the resolution of the scan.
+    /// The spectrum of a measured surface continues to shorter waves than the scan resolves.
     UnresolvedSpectrum,
-    /// Rows or columns of a map are offset against each other.
+    /// Rows or columns of a map are offset in height against each other, or were levelled one by
+    /// one.
     OffsetRows,
-    /// Waves along one axis of a map differ from their neighbours.
+    /// Waves along one axis of a map differ in height from waves in neighbouring directions.
     WavesApart {
-        /// Share of the difference in the squared gradient.
+        /// Difference between these waves and their neighbours, as a share of the squared gradient.
         share: f64,
     },
     /// Short waves of a scan may be artefacts of the tip.
@@ -209,9 +219,9 @@ pub struct NamedHeight {
     pub rms_height: f64,
 }
 
-/// Conditions of the warnings.
+/// Limits and conditions of the warnings.
 impl Warning {
-    /// Smallest number of springs in contact at which a force is accurate.
+    /// Smallest number of springs in contact with which a force is accurate.
     pub const LEAST_SPRINGS_IN_CONTACT: u64 = 20;
 
     /// Smallest number of springs on the shortest wave. With this number the adhesion force of a
@@ -222,20 +232,20 @@ impl Warning {
     /// without a warning.
     pub const LARGEST_CHANGE_OF_WAVE: f64 = 0.01;
 
-    /// Largest relative change of the rms height by which a profile may be shorter than a scan
-    /// without a warning.
+    /// Largest relative difference of the rms heights of a profile and of a longer scan for which
+    /// there is no warning.
     pub const LARGEST_CHANGE_OF_HEIGHT: f64 = 0.01;
 
-    /// Largest length of a profile in units of the scan at which the waves that the scan does not
-    /// have are few.
+    /// Largest ratio of the length of a profile to the length of the scan for which the scan lacks
+    /// only few waves of the profile.
     pub const LONGEST_PROFILE_OF_SCAN: f64 = 1.5;
 
-    /// Smallest number of the longest waves on the length of a nominally flat body at which random
-    /// profiles scatter little (docs/learn.md).
+    /// Smallest number of the longest waves on the length of a nominally flat body with which the
+    /// results of random profiles scatter little (docs/learn.md).
     pub const LEAST_LONG_WAVES: f64 = 4.0;
 
-    /// Largest rms gradient of the roughness, and largest slope of the form of the body, for which
-    /// slopes are small, as linear elasticity assumes.
+    /// Largest rms gradient of the roughness, and largest slope of the form of the body, that count
+    /// as small. Linear elasticity assumes small slopes.
     pub const LARGEST_GRADIENT: f64 = 1.0;
 
     /// Tabor number below which neither the theory of Johnson, Kendall and Roberts (JKR) nor the
@@ -246,22 +256,23 @@ impl Warning {
     /// computes.
     pub const JKR_TABOR_NUMBER: f64 = 5.0;
 
-    /// Number of measured profiles whose moments are as accurate as the moments of a map.
+    /// Number of measured profiles from which moments are as accurate as from a map.
     pub const MANY_PROFILES: u64 = 100;
 
-    /// Share of long waves in the squared height of a scan above which the rms height depends on
-    /// the length of the scan.
+    /// Share of the mean squared height of a scan from long waves, above which the rms height
+    /// depends on the length of the scan.
     pub const MANY_LONG_WAVES: f64 = 0.3;
 
-    /// Share of long waves in the squared height of a scan above which the waves are likely to
-    /// belong to a body or to a bow of the scanner.
+    /// Share of the mean squared height of a scan from long waves, above which these waves probably
+    /// come from the form of the body or from a bow of the scanner.
     pub const FORM_OF_SCAN: f64 = 0.9;
 
-    /// Ratio of the rms gradients of parts of one surface from which on their difference is named.
+    /// Ratio of the rms gradients of parts of one surface above which a warning reports the
+    /// difference.
     pub const LARGEST_RATIO_OF_PARTS: f64 = 1.2;
 
-    /// Ratio of the rms heights or gradients of several surfaces from which on their difference is
-    /// named.
+    /// Ratio of the rms heights or rms gradients of several surfaces above which a warning reports
+    /// the difference.
     pub const LARGEST_RATIO_OF_SURFACES: f64 = 1.3;
 
     /// Largest absolute skewness of heights that count as nearly normal.
@@ -270,13 +281,13 @@ impl Warning {
     /// Smallest and largest kurtosis of heights that count as nearly normal.
     pub const KURTOSIS: [f64; 2] = [1.5, 6.0];
 
-    /// Length of a scan in m from which on its unit is probably wrong.
+    /// Length of a scan in m from which on the unit of lengths is probably wrong.
     pub const IMPROBABLE_LENGTH: f64 = 1.0;
 
-    /// Rms height of a surface in m from which on its unit is probably wrong.
+    /// Rms height of a surface in m above which the unit of heights is probably wrong.
     pub const IMPROBABLE_HEIGHT: f64 = 1e-3;
 
-    /// Largest ratio of the rms heights of two samples of one roughness.
+    /// Largest ratio of the rms heights of two surfaces that can be samples of one roughness.
     pub const LARGEST_RATIO_OF_HEIGHTS: f64 = 30.0;
 
     /// Smallest and largest factor by which adhesion near its boundary varies between single
@@ -300,8 +311,8 @@ impl Warning {
         is_few.then_some(Warning::FewSpringsPerWave { springs })
     }
 
-    /// Returns a warning if the longest and the shortest wavelength in m that are used differ from
-    /// those that are stated.
+    /// Returns a warning if the wavelengths in m that are used differ from the stated wavelengths.
+    /// Both arguments contain the longest and the shortest wavelength.
     pub fn of_waves(stated: [f64; 2], used: [f64; 2]) -> Option<Warning> {
         let change = |stated: f64, used: f64| (used / stated - 1.0).abs();
         let largest = change(stated[0], used[0]).max(change(stated[1], used[1]));
@@ -339,9 +350,9 @@ impl Warning {
     }
 
     /// Returns a warning if a scan is longer than the profile, so that the profile has a smaller
-    /// rms height. `rms_heights` are those of the surface and of the profile in m.
+    /// rms height. `rms_heights` are the rms heights in m of the surface and of the profile.
     pub fn of_scan(scan: f64, length: f64, rms_heights: [f64; 2]) -> Option<Warning> {
-        // A profile as long as the scan has the same waves.
+        // A profile as long as the scan has the same waves as the scan.
         let is_longer = scan > length * (1.0 + 1e-9);
         let [surface, profile] = rms_heights;
         let has_other_height = (profile / surface - 1.0).abs() > Self::LARGEST_CHANGE_OF_HEIGHT;
@@ -352,8 +363,9 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if a profile is longer than the scan of its surface and long waves matter.
-    /// `share` is that of waves longer than a quarter of the scan in the squared height.
+    /// Returns a warning if a profile is longer than the scan of its surface and the missing long
+    /// waves matter. `share` is the share of the mean squared height that waves longer than a
+    /// quarter of the scan contribute.
     pub fn of_short_scan(scan: f64, length: f64, share: f64) -> Option<Warning> {
         let is_shorter = length > Self::LONGEST_PROFILE_OF_SCAN * scan;
         let lacks_waves = is_shorter && share > Self::MANY_LONG_WAVES;
@@ -364,13 +376,14 @@ impl Warning {
         })
     }
 
-    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), and
-    /// `jkr_factor` the factor by which the waves raise the pull-off force by the theory of JKR.
+    /// Returns a warning if the waves of a wavy sphere are steep. `ratio` is λ²/(AR), with
+    /// wavelength λ, amplitude A and sphere radius R. `jkr_factor` is the factor by which the waves
+    /// raise the pull-off force according to the theory of Johnson, Kendall and Roberts (JKR).
     pub fn of_wave_ratio(ratio: f64, jkr_factor: f64) -> Option<Warning> {
         (ratio < Self::LEAST_WAVE_RATIO).then_some(Warning::SteepWaves { ratio, jkr_factor })
     }
 
-    /// Returns a warning if the rms heights of two surfaces differ too much for samples of one
+    /// Returns a warning if the rms heights of two surfaces differ too much for two samples of one
     /// roughness.
     pub fn of_rms_heights(flattest: NamedHeight, roughest: NamedHeight) -> Option<Warning> {
         let ratio = roughest.rms_height / flattest.rms_height;
@@ -378,26 +391,27 @@ impl Warning {
             .then_some(Warning::SurfacesFarApart { flattest, roughest })
     }
 
-    /// Returns a warning if long waves carry this share of the squared height of a scan.
-    /// `is_levelled` is true if the curvature of the heights was removed before.
+    /// Returns a warning if long waves contribute much of the mean squared height of a scan.
+    /// `share` is their share, and `is_levelled` is true if the curvature of the heights was
+    /// removed before.
     pub fn of_long_waves_of_scan(share: f64, is_levelled: bool) -> Option<Warning> {
         let is_large = share > Self::MANY_LONG_WAVES;
         is_large.then_some(Warning::LongWavesOfScan { share, is_levelled })
     }
 
-    /// Returns a warning if the rms gradients of the parts of a surface have this ratio, which
-    /// chance does not explain.
+    /// Returns a warning if the rms gradients of the parts of a surface differ by more than chance
+    /// explains. `ratio` is the ratio of the largest to the smallest of these rms gradients.
     pub fn of_parts(ratio: f64) -> Option<Warning> {
         (ratio > Self::LARGEST_RATIO_OF_PARTS).then_some(Warning::PartsDiffer { ratio })
     }
 
-    /// Returns a warning if the rms heights or gradients of several surfaces have this ratio, which
-    /// chance does not explain.
+    /// Returns a warning if the rms heights or rms gradients of several surfaces differ by more
+    /// than chance explains. `ratio` is the ratio of the largest to the smallest of these values.
     pub fn of_surfaces(ratio: f64) -> Option<Warning> {
         (ratio > Self::LARGEST_RATIO_OF_SURFACES).then_some(Warning::SurfacesDiffer { ratio })
     }
 
-    /// Returns a warning if heights with this skewness and kurtosis are far from normal.
+    /// Returns a warning if the heights of a surface are far from normally distributed.
     pub fn of_distribution(skewness: f64, kurtosis: f64) -> Option<Warning> {
         let [least, most] = Self::KURTOSIS;
         let is_normal =
@@ -405,8 +419,8 @@ impl Warning {
         (!is_normal).then_some(Warning::HeightsNotNormal { skewness, kurtosis })
     }
 
-    /// Returns a warning for a surface in a file whose length or rms height in m no instrument
-    /// measures.
+    /// Returns a warning if the length or the rms height of a surface is too large for any
+    /// instrument that measures roughness. `file` is the name of the file; both lengths are in m.
     pub fn of_lengths(file: &str, length: f64, rms_height: f64) -> Option<Warning> {
         let is_improbable =
             length >= Self::IMPROBABLE_LENGTH || rms_height > Self::IMPROBABLE_HEIGHT;
@@ -417,7 +431,8 @@ impl Warning {
         })
     }
 
-    /// Returns a warning for the moments of this number of measured profiles.
+    /// Returns a warning if `profiles`, the number of measured profiles, is too small for accurate
+    /// moments.
     pub fn of_measured_profiles(profiles: u64) -> Option<Warning> {
         (profiles < Self::MANY_PROFILES).then_some(Warning::FewMeasuredProfiles { profiles })
     }
@@ -425,8 +440,8 @@ impl Warning {
 
 /// Consequences of the warnings for stated errors.
 impl Warning {
-    /// Returns true if the results are not those of the stated body, so that no error of them is
-    /// known.
+    /// Returns true if the results do not belong to the stated body, so that their errors are
+    /// unknown.
     pub fn leaves_errors_unknown(&self) -> bool {
         matches!(self, Warning::ContactAtEnds { .. })
     }
@@ -450,8 +465,8 @@ impl Warning {
 
 /// Words of the warnings.
 impl Warning {
-    /// Returns the name of the premise: a key in `snake_case`, the same in every version, for
-    /// counting and for tables.
+    /// Returns the name of the premise in `snake_case`, for counting warnings and for tables. The
+    /// name is the same in every version.
     pub fn name(&self) -> &'static str {
         match self {
             Warning::ContactAtEnds { .. } => "contact_at_ends",
@@ -497,7 +512,8 @@ impl Warning {
         }
     }
 
-    /// Returns a sentence that says what does not hold, and what follows for the numbers.
+    /// Returns a sentence that states which premise does not hold, and what this means for the
+    /// results.
     pub fn sentence(&self) -> String {
         match self {
             Warning::ContactAtEnds { length } => format!(
@@ -528,7 +544,8 @@ impl Warning {
                 "The shortest wave has {} springs, fewer than {}: the adhesion force of a rough \
                  profile with two springs on its shortest wave is wrong by 2 % as a median, and by \
                  up to 12 %.",
-                // Rounded down: never to the least number.
+                // The number is rounded down, so that a number slightly below the limit is not
+                // shown as the limit.
                 (10.0 * springs).floor() / 10.0,
                 Self::LEAST_SPRINGS_PER_WAVE
             ),
@@ -709,7 +726,7 @@ impl Warning {
         }
     }
 
-    /// Returns a sentence that names the step that helps, in words of the fields of a scene.
+    /// Returns a sentence that states which step helps, with the names of the fields of a scene.
     pub fn remedy(&self) -> String {
         let remedy = match self {
             Warning::ContactAtEnds { .. } => {

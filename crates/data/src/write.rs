@@ -130,8 +130,8 @@ pub fn remove_abandoned(folder: &Path) {
     }
 }
 
-/// Returns true if no process writes to a temporary file any more. A process locks its temporary
-/// file right after creating it.
+/// Returns true if a temporary file is older than [`ABANDONED`] and no process writes to it. A
+/// process locks its temporary file right after creating it.
 fn is_abandoned(path: &Path) -> bool {
     let Ok(file) = crate::read::open_regular(path) else {
         return false;
@@ -173,7 +173,8 @@ impl Temporary {
         } else {
             name.persist_noclobber(path)
         };
-        // Until here, the file has been open and locked.
+        // The file has been open and locked until here, so that no other process has removed it as
+        // abandoned.
         persisted.map_err(|error| error.error)
     }
 }
@@ -500,7 +501,8 @@ mod tests {
         remove_abandoned(&folder.path().join("missing"));
     }
 
-    /// The temporary file of an unfinished write is kept, no matter how long the write takes.
+    /// A temporary file is not removed as abandoned before its write is finished, no matter how
+    /// long the write takes.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_being_named_is_not_abandoned() {

@@ -230,7 +230,8 @@ impl AdhesiveSquare {
         !opening.is_empty()
     }
 
-    /// Puts all cells that penetrate into contact. Returns true if there was such a cell.
+    /// Puts all open cells that penetrate the half-space into contact. Returns true if there was
+    /// such a cell.
     fn touch(&mut self) -> bool {
         let penetrating = self.cells_where(|cell| {
             let is_free = self.is_open(cell) && !self.opened[cell];
@@ -239,7 +240,7 @@ impl AdhesiveSquare {
         self.take_in(&penetrating)
     }
 
-    /// Puts all cells into contact whose energy is below the limit of closing. Returns true if
+    /// Puts all open cells whose energy is below the limit of closing into contact. Returns true if
     /// there was such a cell.
     fn close(&mut self) -> bool {
         let limit = CLOSING * self.closing_work;
@@ -368,14 +369,15 @@ mod tests {
         }
     }
 
-    /// Returns the factor of the number of cases, which an environment variable states.
+    /// Returns the factor by which the number of test cases is multiplied: the value of the
+    /// environment variable `TEST_EFFORT`, or 1.
     fn effort() -> u64 {
         std::env::var("TEST_EFFORT").map_or(1, |of| of.parse().unwrap())
     }
 
-    /// Checks spheres of several sizes. Each size has the number of cells, the contact radius at
-    /// pull-off in cells, the number of positions, and the allowed deviations of the mean and of
-    /// one position.
+    /// Checks spheres of several sizes. Each entry of `sizes` has the number of cells along a side,
+    /// the contact radius at pull-off in cells, the number of positions, and the allowed deviations
+    /// of the mean force and of the force at one position.
     fn check_spheres(sizes: &[(usize, f64, usize, f64, f64)]) {
         let places = [(0.3, 0.2), (0.1, 0.4), (0.15, 0.35), (0.45, 0.05)];
         for &(cells, critical, count, of_mean, of_one) in sizes {
@@ -493,7 +495,7 @@ mod tests {
                 0.5 * (pair[0].force + pair[1].force) * (pair[1].indentation - pair[0].indentation)
             })
             .sum();
-        // The first state is already in contact.
+        // The first state is already in contact, so its energy is part of the sum.
         let begun = states[0].elastic_energy - work * states[0].area;
         assert!(
             (dissipated - (all + begun)).abs() < 1e-9 * all.abs(),
@@ -658,8 +660,8 @@ mod tests {
         }
     }
 
-    /// The punch of Kendall is round. A square punch pulls off at a slightly smaller force because
-    /// of its corners, by the same share at all sizes.
+    /// A square flat punch pulls off at a slightly smaller force than the round punch of Kendall,
+    /// because of its corners. The relative difference is the same at all sizes.
     #[test]
     fn a_flat_square_pulls_off_as_a_punch() {
         let of = |cells: usize| {

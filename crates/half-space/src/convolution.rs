@@ -68,8 +68,8 @@ impl<T: FftNum + Default> Convolution<T> {
         (padded / 2 + 1).next_multiple_of(Self::TOGETHER) + Self::TOGETHER / 2
     }
 
-    /// Returns the distance of the columns of a block. For the same reason it is not a power of
-    /// two.
+    /// Returns the distance of the columns of a block. It is not a power of two, because columns at
+    /// such a distance would share the same lines of the cache.
     fn apart(padded: usize) -> usize {
         padded + Self::TOGETHER
     }
@@ -196,8 +196,8 @@ impl<T: FftNum + Default> Convolution<T> {
             self.scatter(first, width);
         }
         for (row, spectrum) in self.spectra.chunks_exact_mut(stride).enumerate() {
-            // The spectrum of real values has no imaginary part at these two modes, but rounding
-            // leaves one.
+            // The spectrum of real values has no imaginary part at the first and the last mode, but
+            // rounding leaves one.
             spectrum[0].im = T::zero();
             spectrum[half - 1].im = T::zero();
             let _ = self.rows.inverse.process_with_scratch(

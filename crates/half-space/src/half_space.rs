@@ -323,8 +323,8 @@ mod tests {
         }
     }
 
-    /// Closed forms by Westergaard (1939): partial contact of a wave along one side, and full
-    /// contact of waves along both sides.
+    /// The solver finds the closed forms of Westergaard (1939): partial contact of a wave along one
+    /// side, and full contact of waves along both sides.
     #[test]
     fn waves_are_in_contact_as_westergaard_says() {
         let cells = 256;
@@ -365,8 +365,8 @@ mod tests {
         random_map(cells, power, seed).unwrap()
     }
 
-    /// Rough squares of three Hurst exponents, under all loads up to full contact. The conditions
-    /// of contact hold, and the solver does not take longer near full contact.
+    /// Rough squares of three Hurst exponents are pressed by all loads up to full contact. The
+    /// conditions of contact hold, and the solver does not take longer near full contact.
     #[test]
     fn rough_squares_are_solved_at_any_load() {
         for (boundary, hurst) in [
@@ -472,7 +472,8 @@ mod tests {
         assert!((1.7..2.3).contains(&mean), "{slopes:?}");
     }
 
-    /// If the surface is turned by a quarter turn and mirrored, so are the pressures.
+    /// If the surface is turned by a quarter turn and mirrored, the pressures are turned and
+    /// mirrored too.
     #[test]
     fn turned_squares_have_turned_pressures() {
         let (cells, heights) = (64, rough(64, 0.8, 3));

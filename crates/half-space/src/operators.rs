@@ -75,7 +75,8 @@ impl Operators {
         })
     }
 
-    /// Computes the displacements that pressures cause. Both are passed row by row.
+    /// Computes the displacements that pressures cause. The two functions write the pressures and
+    /// read the displacements row by row.
     pub fn displace<C>(
         &mut self,
         context: &mut C,
@@ -134,8 +135,8 @@ struct Extension<'a, V> {
     sweeps: &'a mut Sweeps,
     residual: &'a [f32],
     outside: &'a [f32],
-    /// Pressures before and after Eᵀ. A row is replaced when no sweep needs its former values any
-    /// more.
+    /// Pressures before and after Eᵀ. A row is replaced when no sweep needs its former values for a
+    /// further row.
     pressure: &'a mut [f32],
     /// Function that receives each row of the pressures after Eᵀ.
     visit: V,
@@ -170,8 +171,9 @@ impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
         }
     }
 
-    /// Sweeps as far as the stored rows allow. `time` is the number of the last stored row; after
-    /// the last row of the grid, it continues with empty rows.
+    /// Sweeps as far as the stored rows allow. `time` is the number of the last stored row. After
+    /// the last row of the grid, `time` continues to grow, and empty rows take the place of stored
+    /// rows.
     fn restrict(&mut self, time: usize) {
         let cells = self.sweeps.cells;
         self.sweeps.sweep(

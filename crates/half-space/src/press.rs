@@ -262,8 +262,8 @@ impl Grid {
         );
     }
 
-    /// Sets the level of the contact. Under an indentation it is the indentation; under a force it
-    /// is the mean over the contact.
+    /// Sets the level of the contact. Under a prescribed indentation, the level is the indentation;
+    /// under a prescribed force, it is the mean of the levels on the contact.
     fn find_level(&mut self, given: Given) {
         let [total, count] = Sums::of([&self.levels], [&self.outside], |[level], [out]| {
             let on = 1.0 - f64::from(out);

@@ -1,9 +1,11 @@
-//! Number of instructions that the program takes for a scene, compared with a kernel written by
-//! hand for this scene. Callgrind counts the instructions.
+//! Compares the number of instructions that the program executes for a scene with the number of
+//! instructions of a hand-written kernel for the same scene. Callgrind, a tool of valgrind, counts
+//! the instructions.
 //!
-//! `cargo bench --bench instructions` prints the table. It fails if the program takes over 2 %
-//! more, or if a scene executes code of other effects. It needs valgrind and reports its absence.
-//! Without `--bench`, as in `cargo test --benches`, it only checks that program and kernels agree.
+//! `cargo bench --bench instructions` prints the comparison as a table. It fails if the program
+//! executes over 2 % more instructions than the kernel, or if a scene executes code of an effect
+//! that it does not have. If valgrind is not installed, a message says so. Without `--bench`, as in
+//! `cargo test --benches`, only the results of the program and of the kernels are compared.
 
 #[path = "instructions/mod.rs"]
 mod instructions;

@@ -43,7 +43,8 @@ pub struct ProfileBuilder {
     form: Option<Form>,
     /// Self-affine roughness, whose members are set one by one.
     self_affine: Option<Roughness>,
-    /// Measured spectrum that replaces files.
+    /// Measured spectrum of the roughness, given by the program instead of files of a measured
+    /// surface.
     spectrum: Option<Arc<MeasuredRoughness>>,
     /// Seed of the random phases, for a self-affine and for a measured roughness.
     seed: u64,

@@ -1,36 +1,39 @@
-//! Running this program again under callgrind, and reading its counts.
+//! Runs this program again under callgrind, and reads the counts of callgrind.
 
 use std::collections::{BTreeMap, HashMap};
 use std::process::{Command, Stdio};
 
-/// Instructions by file and line.
+/// Counts of instructions, by file and line of the source.
 pub struct Profile {
     lines: HashMap<String, BTreeMap<u64, u64>>,
 }
 
 impl Profile {
-    /// All instructions, of all threads.
+    /// Returns the number of all instructions, of all threads.
     pub fn total(&self) -> u64 {
         self.lines.values().flat_map(BTreeMap::values).sum()
     }
 
-    /// True if instructions are attributed to lines of this project, which requires line tables.
+    /// Returns true if the counts belong to lines of this project, which requires that the program
+    /// was compiled with line tables.
     pub fn has_line_tables(&self) -> bool {
         self.lines
             .keys()
             .any(|file| file.contains("scene/src/simulation/"))
     }
 
-    /// Files as named by the compiler, with the instructions of their lines.
+    /// Returns each source file, as the compiler names it, with the numbers of instructions of its
+    /// lines.
     pub fn files(&self) -> impl Iterator<Item = (&str, &BTreeMap<u64, u64>)> {
         self.lines
             .iter()
             .map(|(file, lines)| (file.as_str(), lines))
     }
 
-    /// Reads the uncompressed output of callgrind. Inlined code is listed under the file of its
-    /// source (`fi`, `fe`); after `calls` follows the cost of the called function, which is counted
-    /// there.
+    /// Reads the uncompressed output of callgrind. Lines with `fl`, `fi` or `fe` name the source
+    /// file of the following counts, also for inlined code. The count after a line with `calls` is
+    /// the cost of a called function. It is left out, because the called function has its own
+    /// counts.
     fn parse(text: &str) -> Profile {
         let mut lines: HashMap<String, BTreeMap<u64, u64>> = HashMap::new();
         let mut file = "";
@@ -58,7 +61,7 @@ impl Profile {
     }
 }
 
-/// True if valgrind is installed.
+/// Returns true if valgrind is installed.
 pub fn is_there() -> bool {
     let version = Command::new("valgrind")
         .arg("--version")
@@ -68,14 +71,15 @@ pub fn is_there() -> bool {
     version.is_ok_and(|status| status.success())
 }
 
-/// Runs this program under callgrind.
+/// Runs this program under callgrind with arguments and environment variables. Returns the counted
+/// instructions.
 pub fn profile(arguments: &[&str], environment: &[(&str, &str)]) -> Profile {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("profile");
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no", "--dump-line=yes"])
-        // Where glibc copies and clears memory by one repeated instruction, each byte would count
-        // as an instruction.
+        // glibc can copy and clear memory by a single repeated instruction, of which callgrind
+        // would count each byte as an instruction. The setting prevents this.
         .env(
             "GLIBC_TUNABLES",
             "glibc.cpu.x86_rep_movsb_threshold=1073741824:glibc.cpu.x86_rep_stosb_threshold=1073741824",

@@ -21,34 +21,36 @@ pub const LAST_MODE: u64 = POINTS as u64 / 4;
 pub const SEED: u64 = 1;
 /// Work of adhesion γ in J/m², for which κ is about 8.
 pub const WORK_OF_ADHESION: f64 = 5.0e-4;
-/// Largest force in N.
+/// Largest force of the loading in N.
 pub const FORCE: f64 = 1.0e-5;
-/// Number of points of the curve on each loading stage.
+/// Number of points of the force curve of each loading stage.
 pub const SAMPLES: usize = 512;
 
-/// Effects of a scene.
+/// Kind of a scene: its roughness, its adhesion and its loading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// A smooth sphere without adhesion, pressed.
+    /// A smooth sphere without adhesion that is pressed.
     SmoothPressed,
-    /// A rough profile without adhesion, pressed and unloaded.
+    /// A rough profile without adhesion that is pressed and unloaded.
     RoughLoop,
-    /// A rough profile with adhesion, pressed.
+    /// A rough profile with adhesion that is pressed.
     AdhesivePressed,
-    /// A rough profile with adhesion, touched and pulled off.
+    /// A rough profile with adhesion that is moved to first touch and pulled off.
     AdhesiveTouch,
-    /// A rough profile with adhesion, pressed and pulled off; also touched and pulled off.
+    /// A rough profile with adhesion that is pressed and pulled off. Its adhesion force without a
+    /// preload is also computed, by a motion to first touch and back to separation.
     AdhesiveLoop,
-    /// A loop with adhesion, with contact patches and the histogram of heights.
+    /// The same loading as in `AdhesiveLoop`. The contact patches and a histogram of the heights
+    /// are recorded as well.
     AdhesiveObserved,
 }
 
 /// A scene whose instructions are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Case {
-    /// Its effects.
+    /// Kind of the scene.
     pub class: Class,
-    /// Edge model of its fragments.
+    /// Edge model of the contact patches of the scene.
     pub edges: Edges,
 }
 
@@ -75,7 +77,7 @@ impl Class {
 }
 
 impl Case {
-    /// All cases.
+    /// Returns all scenes: each kind with each edge model.
     pub fn all() -> Vec<Case> {
         let edges = [Edges::Grid, Edges::SubCell];
         edges
@@ -84,7 +86,7 @@ impl Case {
             .collect()
     }
 
-    /// Index among all cases.
+    /// Returns the index of this scene in the list [`Case::all`].
     pub fn index(&self) -> usize {
         Case::all()
             .iter()
@@ -92,32 +94,32 @@ impl Case {
             .expect("one of all")
     }
 
-    /// Name in words.
+    /// Returns the name of the scene in the printed table.
     pub fn name(&self) -> String {
         format!("{}, {:?}", self.class.name(), self.edges)
     }
 
-    /// True if the line is rough.
+    /// Returns true if the profile is rough.
     pub fn is_rough(&self) -> bool {
         self.class != Class::SmoothPressed
     }
 
-    /// True with adhesion.
+    /// Returns true if the contact has adhesion.
     pub fn is_adhesive(&self) -> bool {
         !matches!(self.class, Class::SmoothPressed | Class::RoughLoop)
     }
 
-    /// True if a leg unloads.
+    /// Returns true if a loading stage unloads the body.
     pub fn goes_back(&self) -> bool {
         !matches!(self.class, Class::SmoothPressed | Class::AdhesivePressed)
     }
 
-    /// True if fragments and heights are observed.
+    /// Returns true if contact patches and heights are recorded.
     pub fn is_observed(&self) -> bool {
         self.class == Class::AdhesiveObserved
     }
 
-    /// The scene as read from a file.
+    /// Returns the scene as a document, as if it had been read from a file.
     pub fn document(&self) -> Document {
         let body = if self.is_rough() {
             format!(

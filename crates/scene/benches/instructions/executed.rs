@@ -1,35 +1,38 @@
-//! Effects of scenes, and the lines of source that only they execute.
+//! Effects that only some scenes have, and the lines of source that compute each effect.
 //!
-//! Callgrind attributes instructions to lines, also of inlined functions, so the check does not
-//! depend on how the compiler cut the program into functions. Each effect is also searched in the
-//! scenes that have it: a check that finds nothing there fails.
+//! Callgrind counts instructions by line, also for inlined functions. The check therefore does not
+//! depend on the functions into which the compiler divides the program. If no instruction of an
+//! effect is found in a scene that has the effect, the check fails, because the lines are then
+//! probably wrong.
 
 use super::callgrind::Profile;
 use super::cases::Case;
 use asperity_contact::Work;
 use std::path::Path;
 
-/// Place of the instructions of an effect.
+/// Source lines whose instructions belong to an effect.
 pub enum Lines {
-    /// All lines of functions: files of this project, and the declaration of each function.
+    /// All lines of some functions of this project. Each element has the file and the declaration
+    /// of a function.
     Of(&'static [(&'static str, &'static str)]),
-    /// All lines of packages by the beginnings of their folder names.
+    /// All lines of some packages. The elements are the beginnings of the folder names of the
+    /// packages.
     Packages(&'static [&'static str]),
 }
 
-/// An effect of some scenes only.
+/// An effect that only some scenes have.
 pub struct Effect {
-    /// Name in words.
+    /// Name of the effect in messages.
     pub name: &'static str,
-    /// Its place.
+    /// Source lines that compute the effect.
     pub lines: Lines,
-    /// True for a case with this effect.
+    /// Returns true for a scene that has the effect.
     pub called_for: fn(&Case) -> bool,
-    /// Number of its executions as counted by the program.
+    /// Returns how often the effect was computed, according to the work counts of the program.
     pub counted: fn(&Work) -> u64,
 }
 
-/// All effects that must not run in scenes without them.
+/// All effects whose code must not run in scenes without the effect.
 pub const EFFECTS: &[Effect] = &[
     Effect {
         name: "Hess",
@@ -77,7 +80,7 @@ pub const EFFECTS: &[Effect] = &[
 ];
 
 impl Effect {
-    /// Instructions executed for the effect.
+    /// Returns the number of instructions that were executed for the effect.
     pub fn executed(&self, profile: &Profile) -> u64 {
         match self.lines {
             Lines::Packages(packages) => profile
@@ -104,7 +107,7 @@ impl Effect {
     }
 }
 
-/// The lines of a function, from its declaration to the brace that closes it.
+/// Returns the lines of a function, from its declaration to the brace that closes the function.
 fn lines_of(file: &str, declared: &str) -> std::ops::RangeInclusive<u64> {
     let project = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let text = std::fs::read_to_string(project.join(file)).expect("a source");

@@ -1,5 +1,5 @@
-//! The least computation for each case: only the necessary building blocks, one after the other,
-//! without a plan, switches or memory of an earlier run.
+//! Kernels: the least computation that each scene needs. A kernel calls only the necessary building
+//! blocks one after the other. It has no plan and no switches, and stores nothing for a later run.
 
 use super::cases::{
     Case, Class, EFFECTIVE_MODULUS, FORCE, HURST, LAST_MODE, LENGTH, POINTS, RADIUS, RMS_HEIGHT,
@@ -13,14 +13,14 @@ use asperity_surface::SelfAffine;
 use asperity_surface::lines::{Histogram, Line, Synthesizer};
 use std::sync::Arc;
 
-/// Bins of the histogram of heights.
+/// Number of bins of the histogram of heights.
 const BINS: usize = 64;
 
 const LOOP: [Move; 2] = [Move::ToForce(FORCE), Move::ToSeparation];
 const TOUCH: [Move; 2] = [Move::ToTouch, Move::ToSeparation];
 const PRESS: [Move; 1] = [Move::ToForce(FORCE)];
 
-/// Result of a kernel.
+/// Results of a kernel.
 #[derive(Default)]
 pub struct Given {
     pub history: History,
@@ -29,7 +29,7 @@ pub struct Given {
     pub fragments: Vec<Vec<Patch>>,
 }
 
-/// Runs the kernel of a case.
+/// Runs the kernel of a scene and returns its results.
 pub fn kernel(case: &Case) -> Given {
     let (smooth_or_rough, legs): (Line, &[Move]) = match case.class {
         Class::SmoothPressed => (smooth(), &PRESS),
@@ -84,7 +84,8 @@ fn rough() -> Line {
     Line::new(LENGTH, POINTS, None, Some(&unit), RMS_HEIGHT).expect("a line")
 }
 
-/// A loading under adhesion, with the other results of its case beside the curve.
+/// Loads the body with adhesion through the stages `legs`. Also computes the other results that the
+/// scene needs besides the force curve.
 fn adhesive(case: &Case, mut body: Body, legs: &[Move]) -> Given {
     let mut fragments = Vec::new();
     let history = load_body(&mut body, legs, |record: &LegRecord, leg: &Leg| {

@@ -1,4 +1,4 @@
-//! Instructions of the program and of hand-written kernels, case by case.
+//! Counts the instructions of the program and of a hand-written kernel for each scene.
 
 pub mod callgrind;
 mod cases;
@@ -15,20 +15,21 @@ use std::fmt::Write;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Largest ratio of the instructions of the program to the instructions of the kernel.
+/// Largest allowed ratio of the instructions of the program to the instructions of the kernel.
 pub const MOST: f64 = 1.02;
 
-/// Environment variable with the task of the process under callgrind.
+/// Environment variable that states the task of a child process, which runs under callgrind.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS";
 
-/// Task of a process under callgrind after it has read the scene of a case.
+/// Task of a child process under callgrind, after the process has read its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum What {
-    /// Nothing: starting and reading are part of neither count.
+    /// Does nothing. The count is subtracted from the other two counts, so that starting the
+    /// process and reading the scene do not count.
     Nothing,
-    /// The program's own simulation.
+    /// Computes the scene as the program does.
     Program,
-    /// The kernel for this case.
+    /// Runs the hand-written kernel for the scene.
     Kernel,
 }
 
@@ -36,15 +37,15 @@ impl What {
     const ALL: [What; 3] = [What::Nothing, What::Program, What::Kernel];
 }
 
-/// The program's own way from a scene to its outcome.
+/// Computes all results of a scene as the program does.
 pub fn program(document: &Document) -> Outcome {
     let mut simulation = Simulation::default();
     let outcome = simulation.compute(document.scene());
     outcome.expect("a scene that can be computed")
 }
 
-/// Performs the task that the environment sets for a process under callgrind; `false` without a
-/// task.
+/// Performs the task of a child process under callgrind. Returns false if the environment variable
+/// states no task, which means that this process is not such a child.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else {
         return false;
@@ -62,7 +63,8 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// Asserts that a kernel has the results of the program. Otherwise the kernel would be no measure.
+/// Panics unless a kernel has the same results as the program. With other results the kernel would
+/// be no measure of the necessary work.
 pub fn assert_agree(case: &Case) {
     let (outcome, given) = (program(&case.document()), kernels::kernel(case));
     let what = case.name();
@@ -93,19 +95,19 @@ pub fn assert_agree(case: &Case) {
     );
 }
 
-/// Counts of one case.
+/// Numbers of instructions for one scene, and the data for finding violations.
 pub struct Report {
     case: Case,
     program: u64,
     kernel: u64,
-    /// Executed lines of the program's process.
+    /// Instructions by line of the process that ran the program.
     profile: Profile,
-    /// The program's own counts.
+    /// Work counts of the program, such as the number of transforms.
     work: Work,
 }
 
-/// Counts all cases, as many at a time as the machine has cores. `arguments` start the process as a
-/// child.
+/// Counts the instructions of all scenes, with as many processes at a time as the machine has
+/// cores. `arguments` are the arguments of each child process.
 pub fn count(cases: &[Case], arguments: &[&str]) -> Vec<Report> {
     let next = AtomicUsize::new(0);
     let reports = Mutex::new(Vec::new());
@@ -154,7 +156,7 @@ impl Report {
         self.profile.has_line_tables()
     }
 
-    /// One line for each violation.
+    /// Returns a message for each limit that the counts of this scene violate.
     pub fn failures(&self) -> Vec<String> {
         let name = self.case.name();
         let mut failures = Vec::new();
@@ -193,7 +195,7 @@ impl Report {
         failures
     }
 
-    /// All reports as a table, with the effects that are executed.
+    /// Returns a table of all reports, with the effects that each scene executes.
     pub fn table(reports: &[Report]) -> String {
         let mut table = format!(
             "{:<48} {:>14} {:>14} {:>8}  executed\n",

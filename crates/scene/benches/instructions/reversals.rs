@@ -1,5 +1,6 @@
-//! Instructions of 64 unloadings divided by the instructions of one loop to the deepest turning
-//! point, on the same profile, with the trees.
+//! Compares the instructions for 64 unloadings from different turning points with the instructions
+//! for one loop to the deepest turning point. The profile is the same, and both counts include the
+//! contact tree.
 
 use crate::instructions::callgrind;
 use asperity_contact::motion::{Body, MovingBody};
@@ -13,19 +14,22 @@ use std::sync::Arc;
 /// Largest allowed ratio of the instructions of all unloadings to the instructions of one loop.
 const MOST_LOOPS: f64 = 17.0;
 
-/// Sends the process that callgrind watches the number of a task.
+/// Environment variable that states the number of the task of a child process, which runs under
+/// callgrind.
 const CHILD: &str = "ASPERITY_INSTRUCTIONS_OF_REVERSALS";
 
 const SPRINGS: usize = 1 << 16;
 const SAMPLES: usize = 512;
-/// Turning points at equal forces up to the load, in units of E* h L.
+/// Number of turning points. They are at equally spaced forces up to the force `LOAD`, which is in
+/// units of E* h L.
 const REVERSALS: u32 = 64;
 const LOAD: f64 = 0.4;
 const LENGTH: f64 = 1.0e-3;
 const EFFECTIVE_MODULUS: f64 = 2.0e6;
 const RMS_HEIGHT: f64 = 5.0e-7;
 
-/// κ and edges of the bodies. At a large κ most patches are new at each turning point.
+/// Values of κ and edge models of the bodies. At a large κ most patches are new at each turning
+/// point.
 const BODIES: [(f64, Edges); 6] = [
     (2.0, Edges::Grid),
     (2.0, Edges::SubCell),
@@ -35,8 +39,8 @@ const BODIES: [(f64, Edges); 6] = [
     (20.0, Edges::SubCell),
 ];
 
-/// Part of the computation of a body: the profile alone, which all parts need; the loop; the
-/// unloadings.
+/// Part of the computation that a child process does for a body: only the profile, which the other
+/// two parts also need; the profile and one loop; or the profile and all unloadings.
 #[derive(Clone, Copy)]
 enum Part {
     Line,
@@ -46,8 +50,8 @@ enum Part {
 
 const PARTS: [Part; 3] = [Part::Line, Part::Loop, Part::Reversals];
 
-/// Performs the task that the environment sets for a process under callgrind; `false` without a
-/// task.
+/// Performs the task of a child process under callgrind. Returns false if the environment variable
+/// states no task, which means that this process is not such a child.
 pub fn run_as_child() -> bool {
     let Ok(asked) = std::env::var(CHILD) else {
         return false;
@@ -96,8 +100,8 @@ pub fn run_as_child() -> bool {
     true
 }
 
-/// Counts all bodies. Returns a table, and a line for each body with too many loops. `arguments`
-/// start the process as a child.
+/// Counts the instructions for all bodies. Returns a table, and a message for each body whose ratio
+/// exceeds the limit. `arguments` are the arguments of each child process.
 pub fn count(arguments: &[&str]) -> (String, Vec<String>) {
     let mut table = format!("{REVERSALS} reversals of {SPRINGS} springs, in loops\n");
     let mut failures = Vec::new();

@@ -1,7 +1,7 @@
 //! Cost of accuracy of one scene: solutions from coarse to fine within a limited time. The
-//! solutions form a ladder. Each rung has a solution with each edge model and, if the scene has the
-//! stepwise solver, a solution with this solver. From rung to rung the number of springs is doubled
-//! and the step of the stepwise solver is halved.
+//! solutions form a ladder. Each rung has a solution with each edge model and a solution with the
+//! stepwise solver. From rung to rung the number of springs is doubled and the step of the stepwise
+//! solver is halved.
 
 use super::estimate::own_errors;
 use super::solution::{

@@ -41,9 +41,9 @@ impl Regime {
     /// Limit below which an adhesion force counts as zero, as a share of the adhesion force of the
     /// smooth body; see [`Regime::of_loading`].
     pub const VANISHING_SHARE: f64 = 0.05;
-    // This value has little effect on the limit of the regime. When κ grows by a factor of about
-    // three, the adhesion force without a preload falls from one half to one twentieth of the
-    // smooth adhesion force.
+    // The value of `VANISHING_SHARE` has little effect on the limit of the regime. When κ grows by
+    // a factor of about three, the adhesion force without a preload falls from one half to one
+    // twentieth of the smooth adhesion force.
 
     /// Limit of the ratio F_a/F_n of the adhesion force to the preload. If the ratio does not
     /// exceed the limit, a loading counts as non-adhesive, unless it is pressure-insensitive.
@@ -149,12 +149,12 @@ mod tests {
     fn thresholds_belong_to_the_stronger_regime() {
         let [insensitive, sensitive, non_adhesive] = Regime::ALL;
         for (turned, adhesion, preload, smooth, expected) in [
-            // Half of the adhesion force without a preload is enough for this regime; slightly less
-            // is not.
+            // An adhesion force without preload of half of the adhesion force is enough for the
+            // pressure-insensitive regime; a slightly smaller one is not.
             (0.5, 1.0, 5.0, 1.0, insensitive),
             (0.5_f64.next_down(), 1.0, 5.0, 1.0, sensitive),
-            // A twentieth of the adhesion force of the smooth body is enough; slightly less counts
-            // as zero.
+            // An adhesion force without preload of a twentieth of the smooth adhesion force is
+            // enough for the pressure-insensitive regime; a slightly smaller one counts as zero.
             (Regime::VANISHING_SHARE, 0.1, 1.0, 1.0, insensitive),
             (
                 Regime::VANISHING_SHARE.next_down(),
@@ -166,7 +166,8 @@ mod tests {
             (0.2, 0.1, 1.0, 4.0, insensitive),
             (0.19, 0.1, 1.0, 4.0, sensitive),
             (0.0, 0.0, 0.0, 0.0, non_adhesive),
-            // An adhesion force of a hundredth of the preload is negligible; slightly more is not.
+            // An adhesion force of a hundredth of the preload is negligible; a slightly larger one
+            // is not.
             (0.0, Regime::NEGLIGIBLE_COEFFICIENT, 1.0, 1.0, non_adhesive),
             (
                 0.0,
@@ -175,8 +176,8 @@ mod tests {
                 1.0,
                 sensitive,
             ),
-            // Without a preload, less than a twentieth of the adhesion force of the smooth body
-            // counts as no adhesion.
+            // Without a preload, an adhesion force below a twentieth of the adhesion force of the
+            // smooth body counts as no adhesion.
             (
                 0.01,
                 Regime::VANISHING_SHARE.next_down(),

@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use asperity_contact::CurvePoint;
 
-    /// A map whose forces are given by a function of the turning point and the indentation.
+    /// Creates a map whose forces are given by a function of the turning point and the indentation.
     fn map(force: impl Fn(f64, f64) -> f64) -> ReversalMap {
         let points: Vec<f64> = (0..20).map(|index| 0.25 * f64::from(index) - 2.0).collect();
         let below = 8;

@@ -35,8 +35,8 @@ fn symbol_or_name(field: &Field) -> &'static str {
     }
 }
 
-/// Returns the value of a single field with its unit, or a choice as users read it: `50 mJ/m²`,
-/// `sub-cell`, `none`.
+/// Returns a value as text for users: a single value with its unit, such as `50 mJ/m²`, or the name
+/// of a choice, such as `sub-cell` or `none`.
 fn value_in_words(field: &Field, value: &str) -> String {
     if ["None", "[]"].contains(&value) {
         return "none".to_owned();
@@ -51,8 +51,9 @@ fn value_in_words(field: &Field, value: &str) -> String {
     }
 }
 
-/// Returns a field as its value, and a group as its choice and the values that the scene states:
-/// `self-affine (H 0.7, h 200 nm)`, `γ 50 mJ/m²`.
+/// Returns the value of a field as text for users. For a group of fields, the text is the name of
+/// its choice with those values that the scene states: `self-affine (H 0.7, h 200 nm)`, `γ 50
+/// mJ/m²`.
 fn in_words(scene: &Scene, field: &Field) -> String {
     let value = field.written(scene).unwrap_or_default();
     let inside = field.inside(scene);
@@ -120,7 +121,8 @@ fn changed_stages(before: &[Move], after: &[Move]) -> Vec<Change> {
     }
     let from = loading_text(before, format_quantity);
     let to = loading_text(after, format_quantity);
-    // A change takes the space of its value and of about fourteen further characters.
+    // In a list of changes, each change takes the space of its value and of about fourteen further
+    // characters.
     let length: usize = changes.iter().map(|change| 14 + change.from.len()).sum();
     if before.len() == after.len() && length < 14 + from.len() {
         return changes;

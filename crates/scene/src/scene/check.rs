@@ -1,6 +1,6 @@
-//! Invalid values of a scene. First each field is checked against its range. Then fields are
-//! checked against each other, because values may contradict or exclude each other, or a value may
-//! be missing.
+//! Checks that find the invalid values of a scene. First each field is checked against its range.
+//! Then fields are checked against each other, because values may contradict or exclude each other,
+//! or a value may be missing.
 //!
 //! No check allocates memory in proportion to a value of the scene. A scene of excessive size is
 //! therefore refused before any large array is made.

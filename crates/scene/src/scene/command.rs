@@ -2,8 +2,8 @@
 
 use std::ffi::OsStr;
 
-/// Returns `word` as it must be written so that a POSIX shell reads it as one word. It is in quotes
-/// if it needs them.
+/// Returns `word` as it must be written so that a POSIX shell reads it as one word. The returned
+/// text is in quotes if the shell needs them.
 pub fn quoted(word: impl AsRef<OsStr>) -> String {
     let word = word.as_ref().to_string_lossy();
     let is_plain = word

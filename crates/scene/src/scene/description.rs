@@ -55,9 +55,9 @@ fn title_of_changed(name: &str) -> String {
 }
 
 impl Document {
-    /// Returns the text of this document with those descriptions that are true for its values.
-    /// Returns `None` if the present text already has them, or if another author has written the
-    /// descriptions.
+    /// Returns the text of this document with only those descriptions (title, notice and comments)
+    /// that are true for the present values. Returns `None` if no value has changed, or if the
+    /// scene is not a built-in scene, because its author has then written the descriptions.
     pub(super) fn text_with_true_words(&self) -> Option<Text> {
         let opened = read(self.opened(), |_| Origin::Scene).ok()?;
         if !self.is_changed() || !is_built_in(&opened) {

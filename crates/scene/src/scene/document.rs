@@ -66,7 +66,8 @@ pub(super) struct RemovedValue {
     pub(super) present: String,
 }
 
-/// A choice that a key has replaced: the path of its field, and the text that the choice had last.
+/// A choice that a key of the explorer has replaced: the path of its field, and the text that the
+/// choice had last.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LeftChoice {
     pub(super) path: &'static str,

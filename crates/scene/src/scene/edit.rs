@@ -51,7 +51,8 @@ pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> 
         return Err(wrong_variant(field.parent(), variant, &fields));
     }
     let edited = insert(text, field, value)?;
-    // `value` may contain a bracket that closes the new group too early.
+    // The value is read back, because `value` may contain a bracket that closes the new group too
+    // early.
     if edited.written(path) == Some(value) {
         Ok(edited)
     } else {

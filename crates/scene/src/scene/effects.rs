@@ -124,8 +124,8 @@ fn may_pull(loading: &[Move]) -> bool {
         let (end, pulls) = match *stage {
             Move::ToIndentation(end) => (end, end < deepest),
             Move::ToTouch => (0.0, 0.0 < deepest),
-            // The indentation at the end of such a stage is unknown, so it may be smaller or larger
-            // than any other.
+            // The indentation at the end of a stage that ends at a force or a displacement is
+            // unknown, so it may be smaller or larger than any other.
             Move::ToForce(_) | Move::ToZeroForce | Move::ToDisplacement(_) => (f64::INFINITY, true),
             Move::ToSeparation => (f64::NEG_INFINITY, true),
         };

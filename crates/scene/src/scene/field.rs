@@ -376,7 +376,8 @@ fn read_text(field: &Field, typed: &str) -> Result<String, QuantityError> {
     })
 }
 
-/// Reads a choice in RON, or as users read it, such as `sub-cell`.
+/// Converts a typed choice to RON. The typed choice may be in RON or in words for users, such as
+/// `sub-cell`.
 fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     let Range::Choice(choices) = field.range else {
         return Ok(typed.to_owned());
@@ -395,7 +396,7 @@ fn read_choice(field: &Field, typed: &str) -> Result<String, QuantityError> {
     Ok(typed.to_owned())
 }
 
-/// Reads a form. The name of a file means a table with this file.
+/// Converts a typed form to RON. The name of a file becomes a table that is read from this file.
 pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_file_name(typed) {
         Ok(format!("Table(file: {})", ron_string(typed)))
@@ -404,7 +405,8 @@ pub(super) fn read_form(field: &Field, typed: &str) -> Result<String, QuantityEr
     }
 }
 
-/// Reads a roughness. The name of a file means a measured surface with this file.
+/// Converts a typed roughness to RON. The name of a file becomes a measured surface that is read
+/// from this file.
 pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_file_name(typed) {
         Ok(format!("Measured(file: {})", ron_string(typed)))
@@ -413,7 +415,7 @@ pub(super) fn read_roughness(field: &Field, typed: &str) -> Result<String, Quant
     }
 }
 
-/// Reads an adhesion. A quantity means a work of adhesion.
+/// Converts a typed adhesion to RON. A number with a unit becomes a work of adhesion.
 pub(super) fn read_adhesion(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if is_quantity(typed) {
         let work = parse_quantity(typed, "J/m²")?;
@@ -451,7 +453,8 @@ pub fn choice_in_words(name: &str) -> String {
     words
 }
 
-/// Returns true if a text contains a dot or a path separator, as no choice of a field does.
+/// Returns true if a typed text is the name of a file: it contains a dot or a path separator, but
+/// no bracket or quotation mark, which only RON has.
 fn is_file_name(typed: &str) -> bool {
     typed.contains(['.', '/', '\\']) && !typed.contains(['(', '"'])
 }

@@ -369,7 +369,7 @@ mod tests {
             entry.document.as_ref().unwrap().resolve("line.csv"),
             own.join("line.csv")
         );
-        // If both folders are the same, it is listed once. A missing folder has no entries.
+        // If both folders are the same, the folder is listed once. A missing folder has no entries.
         assert_eq!(listed(Some(&own), &own.join("../own")).len(), 4);
         assert_eq!(listed(None, &own.join("missing")), []);
     }

@@ -164,8 +164,8 @@ fn text_of_stream(mut stream: impl Read) -> Result<String, ReadError> {
     if !is_table {
         return into_text(read_limited(whole, LONGEST_TEXT)?);
     }
-    // The limit allows for a scene of the greatest length in comments, even if each byte is on its
-    // own line.
+    // In a table of results, each line of the scene begins with `#`. The limit of three times the
+    // greatest length is enough for a scene of which each byte is on its own line.
     let mut lines = BufReader::new(whole.take(3 * LONGEST_TEXT as u64));
     let mut text = Vec::new();
     let mut line = Vec::new();

@@ -53,7 +53,8 @@ fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
 fn place_of(text: &str, error: &SpannedError) -> (usize, usize) {
     let start = offset_of(text, error.span.start.line, error.span.start.col);
     let end = offset_of(text, error.span.end.line, error.span.end.col).max(start);
-    // An error that the types of a scene report refers to the group that ends at this position.
+    // If the error is a message of the types of a scene, it refers to the group that ends at this
+    // position.
     if let Error::Message(_) = error.code {
         return (text[..end].trim_end().len().saturating_sub(1), end);
     }
@@ -125,8 +126,8 @@ fn explain_at(text: &Text, offset: usize, error: &Error) -> (usize, SceneError) 
     (offset, error)
 }
 
-/// Explains the error of a value. If it is a single value, the error begins at this value and
-/// states the value and the allowed values.
+/// Explains the error of a value. If the text at the path is a single value, the error begins at
+/// this value and states the value and the allowed values.
 fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usize, SceneError) {
     let single = text.written(path).filter(|value| {
         !path.is_empty() && value.len() <= MOST_REPEATED && !value.contains(['(', '[', '{'])

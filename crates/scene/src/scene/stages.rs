@@ -13,7 +13,7 @@ pub(super) const MOST_STAGES: usize = 100_000;
 #[derive(Debug)]
 pub struct StageKind {
     example: &'static str,
-    /// Name of what ends the stage, as users read it.
+    /// Word for users that names what ends the stage, such as `force`.
     word: &'static str,
     /// SI unit of the target value of a stage, such as N for a force; empty for a kind without a
     /// target value, such as first touch.
@@ -281,8 +281,8 @@ mod tests {
     use super::*;
     use asperity_data::{exact_quantity, format_quantity};
 
-    /// A single stage, or a minor loop that is repeated. Some target values occur often, so that
-    /// stages may be equal.
+    /// Generates parts of loadings: a single stage, or a minor loop that is repeated. Some target
+    /// values occur often, so that stages may be equal.
     fn stages() -> impl Strategy<Value = Vec<Move>> {
         let number = prop_oneof![
             prop::sample::select(vec![1e-5, 5e-6, 0.0, -2e-6]),

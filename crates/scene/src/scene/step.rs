@@ -81,9 +81,9 @@ impl Field {
     }
 
     /// Returns the value of this field as [`Field::stepped`] does, in a scene whose profile has the
-    /// length `length` in m. For wavelengths, a whole number of waves of the changed wavelength
-    /// fits on the length after the step, and this number differs from the number before. Of these
-    /// wavelengths, the result is the nearest to a preferred number.
+    /// length `length` in m. For wavelengths, a step changes how many waves fit on the length, and
+    /// the new number of waves is a whole number. Among the possible wavelengths, the result is the
+    /// nearest to a preferred number.
     ///
     /// ```
     /// let field = asperity_scene::fields::field("roughness.wavelengths", None).unwrap();
@@ -318,11 +318,12 @@ mod tests {
         for row in [
             "100|(1.0e-4, 2.0e-7)|1|(1.0e-4, 2.242152466367713e-7)",
             "100|(1.0e-4, 2.0e-7)|-1c|(5.0e-5, 2.0e-7)",
-            // The longest wave has the length of the profile, so one wave is the smallest number.
+            // One wave is the smallest number of waves, so the longest wave cannot become longer
+            // than the profile.
             "100|(1.0e-4, 2.0e-7)|1c|",
             "100|(8.0e-5, 2.0e-7)|1c|",
             // Two waves fit on the length, and for the next preferred wavelengths the number is
-            // also two.
+            // also two. The step therefore goes on to three waves.
             "100|(5.0e-5, 5.0e-5)|-1|(5.0e-5, 3.3333333333333335e-5)",
             "100|(1.0e-4, 5.0e-5)|1|(1.0e-4, 1.0e-4)",
             "100|(5.0e-5, 5.0e-5)|1|",

@@ -10,7 +10,7 @@ use super::range::{Range, choice_key};
 use super::text::read_ron;
 use super::written::differing;
 
-/// Adhesion of a smooth body that gets adhesion.
+/// Adhesion in RON that a smooth body gets when its adhesion is switched on.
 const BY_WORK: &str = "(work: 0.05)";
 
 impl Document {

@@ -180,7 +180,7 @@ mod tests {
         Scene::clone(rough.set("form", "None").unwrap().scene())
     }
 
-    /// Scenes that together contain each choice of each group.
+    /// Creates scenes that together contain each choice of each group.
     fn scenes_of_all_choices() -> Vec<Scene> {
         let base = Document::from_scene(&sound(), "base").unwrap();
         let mut scenes = Vec::new();

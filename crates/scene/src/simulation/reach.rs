@@ -110,7 +110,8 @@ pub(super) fn check(contact: &Contact, loading: &[Move]) -> Result<(), BeyondFul
 }
 
 /// Returns true if a stage ends before the deepest state even if full contact were already at first
-/// touch. This is so for most stages, and the test does not need the deepest state.
+/// touch. The function returns true for most stages, for which the deepest state is then not
+/// computed.
 fn is_near(contact: &Contact, stage: Move) -> bool {
     match stage {
         Move::ToForce(force) => force <= force_of_a_length(contact),
@@ -144,7 +145,8 @@ mod tests {
             ("pressure-sensitive", ("adhesion", "(kappa: 6.0)")),
             ("pressure-sensitive", ("adhesion", "None")),
             ("pressure-sensitive", ("loading_stiffness", "40.0")),
-            // At full contact the force is a thousandth of the force that presses the body.
+            // With so small a roughness, the force at full contact is only a thousandth of the
+            // force that presses the body.
             ("pressure-sensitive", ("roughness.rms_height", "1.0e-12")),
             ("jkr-sphere", ("numerics.edges", "SubCell")),
             ("kendall-punch", ("numerics.edges", "Grid")),

@@ -12,10 +12,11 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Share of the mean squared height that the longest waves of a measured spectrum have together.
+/// The longest waves of a measured spectrum are the waves that together have this share of the mean
+/// squared height.
 const LONG_WAVES: f64 = 0.1;
 
-/// Number of waves on a scan up to which they count as long.
+/// Waves count as long if at most this number of them fits on a scan.
 const LONG_WAVES_PER_SCAN: f64 = 4.0;
 
 /// Everything that determines the heights of a roughness.
@@ -31,7 +32,8 @@ pub(super) struct RoughnessKey {
 #[derive(Clone, PartialEq)]
 enum Source {
     SelfAffine(SelfAffine),
-    /// Paths of the files of each face, and the length of the profile in m.
+    /// Paths of the files of each face of the contact (the rough body, and the opposite body if it
+    /// has a file), and the length of the profile in m.
     Measured {
         faces: Vec<Vec<PathBuf>>,
         options: MeasuredOptions,
@@ -57,14 +59,15 @@ pub(super) struct Rough {
 
 /// Spectrum of measured files, with everything that determines it.
 pub(super) struct KeptSpectrum {
-    /// Paths of the files of each face.
+    /// Paths of the files of each face of the contact: the rough body, and the opposite body if it
+    /// has a file.
     faces: Vec<Vec<PathBuf>>,
     options: MeasuredOptions,
     pub surface: Arc<MeasuredRoughness>,
 }
 
-/// Maker of the heights of roughnesses. It keeps the values that several roughnesses have in
-/// common.
+/// Makes the heights of roughnesses. The maker stores values that several roughnesses have in
+/// common, so that it computes them only once.
 #[derive(Default)]
 pub(super) struct RoughnessMaker {
     /// Folder of the files that scenes name.
@@ -240,7 +243,8 @@ fn cut_profile(
     let facts = MeasuredFacts {
         scan: profile.length(),
         rms_heights: [amplitude.rms_height, root_mean_square_about_mean(&heights)],
-        // A profile is never longer than the heights that are used as it.
+        // The measured heights are at least as long as the profile, so the profile lacks no long
+        // waves.
         long_wave_share: 0.0,
         long_waves: None,
     };

@@ -31,7 +31,7 @@ const MOST_SPARE: u64 = 4;
 // The needed memory is `Workload::peak_bytes` plus 20 bytes for each spring for a Fourier
 // transform. Released memory goes to the allocator: glibc keeps released blocks of less than 32 MiB
 // for further use, in total at most 64 MiB for each thread.
-/// Number of bytes that are kept in any case.
+/// Memory kept for the next computation is not released if it is at most this number of bytes.
 const SMALL: u64 = 32 << 20;
 
 /// Computes scenes, one after the other. A simulation repeats only those parts of the computation
@@ -263,7 +263,8 @@ impl Simulation {
             ..
         } = *key;
         self.histogram = None;
-        // The springs of the last profile have no other user, unless a caller has kept a leg.
+        // If a caller has kept a leg, the last profile is still in use. Otherwise the memory of its
+        // contact tree can be used for the next tree.
         if let Some(profile) = self.profile.take() {
             self.former_tree = profile.into_tree();
         }
@@ -515,7 +516,7 @@ impl Simulation {
     }
 }
 
-/// Loading of a scene.
+/// Result of the loading of a scene.
 struct Loaded {
     history: History,
     /// Contact patches at the end of each loading stage.
@@ -608,8 +609,8 @@ pub(crate) fn profile_of(line: &Line, nominal_form: NominalForm) -> Result<Profi
     Ok(placed.with_nominal_form(nominal_form))
 }
 
-/// Returns the form of the body of a scene. If measured heights are the profile itself, nobody
-/// states the form.
+/// Returns the form of the body of a scene. If measured heights are the profile itself, the form is
+/// unstated.
 pub(crate) fn nominal_form(scene: &Scene) -> NominalForm {
     match &scene.form {
         Some(form) if form.flat_end().is_none() => NominalForm::Curved,
@@ -679,7 +680,8 @@ fn load_stepwise(
         let turned = match load_body(&mut solver, &[turn, Move::ToSeparation], |_, _| Ok(())) {
             Ok(turned) => turned,
             Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
-            // If the steps do not reach a turning point, its adhesion force remains unknown.
+            // If the steps of the stepwise solver do not reach a turning point, the adhesion force
+            // after this turning point remains unknown.
             Err(_) => continue,
         };
         *force = Figures::of(&turned).adhesion_force;

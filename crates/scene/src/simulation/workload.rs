@@ -36,21 +36,22 @@ const EVENTS_TOGETHER: u64 = 256;
 /// Number of bytes for each spring of a rough profile without adhesion, for the gaps at which the
 /// springs touch, as measured.
 const TOUCHED: u64 = 20;
-/// Bytes per curve point that are reserved besides, as measured, and those with an instrument. The
-/// arrays grow by doubling, and the system gives no memory for what is not used.
+/// Number of bytes for each point of the curve that arrays reserve but do not use, as measured.
+/// Arrays reserve such memory because they grow by doubling, but the system provides no memory for
+/// bytes that are not used. The second constant is for a compliant instrument.
 const RESERVED: u64 = 80;
 const RESERVED_DISPLACED: u64 = 400;
 /// Bytes of all small arrays together.
 const SMALL_ARRAYS: u64 = 64 << 10;
-/// Memory of the gaps that freed arrays leave between the curves of many stages, in units of the
-/// memory of the curves, as measured with the allocator of glibc. The system gives it, but no array
-/// has it.
+/// Memory that freed arrays leave unused between the curves of many stages, divided by the memory
+/// of the curves, as measured with the allocator of glibc. The process holds this memory, but no
+/// array uses it.
 const GAPS: f64 = 0.75;
-/// Size in bytes of the curve of a stage from which the allocator asks the system for its memory,
-/// so that it has no gaps.
+/// If the curve of a stage has at least this size in bytes, the allocator requests memory for the
+/// curve directly from the system. There is then no unused memory between the curves.
 const LARGE_CURVE: u64 = 1 << 20;
-/// Largest number of records of a loading stage that have memory at the same time: while the list
-/// of the stages grows, it has its former memory and twice as much.
+/// Number of records of a loading stage for which memory is needed at the same time for each stage:
+/// while the list of records grows, its former memory and new memory of twice the size both exist.
 const RECORDS: u64 = 3;
 /// Largest prime factor of a number of springs for which the Fourier transform needs no
 /// convolution.
@@ -184,8 +185,8 @@ impl Workload {
             resident_bytes: 0,
             stages: planner.stages(),
         };
-        // This is an upper bound, which would be needed if the contact under load already existed
-        // at first touch.
+        // The sum of all these parts is an upper bound. It would be needed only if the whole
+        // contact under load already existed at first touch.
         let solved = [
             Stage::Tree,
             Stage::LoadingPass,

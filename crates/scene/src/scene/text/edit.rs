@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::index::{Text, TextSpan};
 
-/// Blanks between the entries of one line.
+/// Characters that can separate the entries on one line.
 const BLANKS: [char; 2] = [' ', '\t'];
 
 /// Error message for a text that is not exactly one value.
@@ -145,8 +145,8 @@ impl Text {
         self.without(removed)
     }
 
-    /// Returns the text without the comments that stand after the entry at a path, on the last line
-    /// of the entry.
+    /// Returns the text without the comments that follow the entry at a path on the last line of
+    /// the entry.
     pub(in crate::scene) fn without_comments_beside(&self, path: &str) -> Text {
         let mut text = self.clone();
         while let Some(range) = text.comment_beside(path) {

@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use super::scan::{Kind, Scan, Token, Unreadable, scan};
 
-/// Length of the paths at which the search for further values inside ends. No scene has longer
-/// paths.
+/// Values inside a value are listed only if the path of the outer value is shorter than this number
+/// of bytes. No scene has longer paths.
 const LONGEST_PATH: usize = 100;
 
 /// RON text with the positions of its values. A value is found by its path, which consists of the
@@ -29,8 +29,8 @@ pub struct Text {
 pub struct TextSpan {
     /// Path of the value, such as `roughness.hurst`.
     pub path: String,
-    /// Byte range of the whole entry `name: value`. For an element of a list, which has no name, it
-    /// is the same as `value`.
+    /// Byte range of the whole entry `name: value`. An element of a list has no name, so its entry
+    /// is the value alone.
     pub entry: Range<usize>,
     /// Byte range of the value alone.
     pub value: Range<usize>,
@@ -149,7 +149,7 @@ impl Text {
     }
 
     /// Returns the path of the innermost value whose entry contains a byte offset. The path is
-    /// empty if no value does.
+    /// empty if no entry contains the offset.
     pub(in crate::scene) fn path_at(&self, offset: usize) -> &str {
         self.spans
             .iter()
@@ -198,8 +198,8 @@ impl Tokens<'_> {
             inside: brackets.map(|(open, close)| self.tokens[open].end..self.tokens[close].start),
             comma: self.is(end, Kind::Comma).then(|| self.tokens[end].end),
         });
-        // Each level makes the path longer, so the limit of the length also limits the number of
-        // levels.
+        // Each level of brackets makes the path longer, so the limit of the length of paths also
+        // limits the number of levels.
         if let Some((open, close)) = brackets
             && path.len() < LONGEST_PATH
         {

@@ -191,8 +191,8 @@ fn escaped_end(text: &str, inside: usize, quote: char) -> Result<usize, &'static
         match c {
             _ if escaped => escaped = false,
             '\\' => escaped = true,
-            // In '' and ''' the first character after the quote is also a quote; for a character
-            // literal it is the character itself.
+            // A quote directly after the opening quote of a character, as in ''', is the character
+            // itself and does not end it.
             c if c == quote && !(quote == '\'' && offset == 0) => return Ok(inside + offset + 1),
             _ => {}
         }
