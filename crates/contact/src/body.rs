@@ -35,8 +35,8 @@ pub struct Body {
     leg: Leg,
     state: ContactState,
     samples: usize,
-    /// Extreme force so far on the present motion, of contact and instrument together; see
-    /// [`Leg::jump_energy`].
+    /// Extreme compression in m of contact and instrument together, so far on the present motion;
+    /// `None` at the beginning of a motion. See [`Leg::jump_energy`].
     extreme: Option<f64>,
     work: Work,
     curve_time: Duration,
@@ -199,8 +199,8 @@ impl Body {
         Ok(leg)
     }
 
-    /// Finds the leg of the motion to a target and the indentations between which it lies. Returns
-    /// `None` if the body is already at the target.
+    /// Finds the leg of the motion to a target and the indentations between which the motion lies.
+    /// Returns `None` if the body is already at the target.
     fn plan(&mut self, target: Move) -> Result<Option<Motion>, ContactError> {
         let stiffness = self.leg.contact().loading_stiffness;
         let Some((direction, goal)) = plan(target, self.point(), stiffness)? else {
@@ -251,7 +251,7 @@ impl Body {
         (Grid::new(low, high, intervals * stride), stride)
     }
 
-    /// Moves the body along a planned motion, and records it.
+    /// Moves the body along a planned motion, and returns the record of the motion.
     fn record(&mut self, target: Move, motion: Motion) -> Result<LegRecord, ContactError> {
         let clock = Instant::now();
         let before = self.point();
@@ -302,8 +302,8 @@ impl Body {
             self.grid(*low, *high)
         };
         // If the body is separated at the beginning, the springs of first touch attach exactly at
-        // the first point of the motion. If it separates, the last springs detach just below the
-        // last point. The sum must include these events.
+        // the first point of the motion. If the body separates, the last springs detach just below
+        // the last point. The sum of squared stretches must include these events.
         let from = if self.is_separated() || motion.separates() {
             f64::NEG_INFINITY
         } else {
@@ -339,7 +339,7 @@ impl Body {
         Ok(Some(loosest.point(contact.foundation)))
     }
 
-    /// Returns the contact at the end of a motion. If the body separates, it ends at the
+    /// Returns the contact at the end of a motion. If the body separates, the motion ends at the
     /// indentation that the target states, or else where the instrument lost the contact.
     fn end_state(
         &self,
@@ -412,8 +412,8 @@ impl Body {
         let leg = &motion.leg;
         let mut smallest = leg.extreme(Extreme::Smallest, &sampled.states, &mut self.work);
         if smallest.totals.springs == 0 {
-            // If no force of the unloading pulls, the smallest force is that of the last contact,
-            // and not the zero force of the separated body further on.
+            // If the unloading has no tensile force, its smallest force is the force of the last
+            // contact, and not the zero force of the separated body.
             smallest = leg.state(leg.end().min(motion.high))?;
         }
         Ok(Extremes {

@@ -328,7 +328,8 @@ impl Grid {
         if !self.is_even() {
             return self.points.partition_point(|&point| point < indentation);
         }
-        // On an even grid the guess differs from the result by at most two; the loops correct it.
+        // On an even grid, `guess` differs from the result by at most two. The loops correct this
+        // difference.
         let guess = ((indentation - self.points[0]) * self.intervals_per_metre) as usize;
         let mut index = guess.min(self.points.len() - 1);
         while self.points[index] < indentation {

@@ -53,7 +53,7 @@ fn enclose(
 ) -> (f64, f64) {
     let mut value_at_low = value(low);
     let mut value_at_high = value(high);
-    // 1 if the last guess moved the upper end, −1 if it moved the lower end.
+    // `moved_end` is 1 if the last guess moved the upper end, and −1 if it moved the lower end.
     let mut moved_end = 0_i32;
     for guess in 0..GUESSES {
         let middle = low + 0.5 * (high - low);

@@ -156,8 +156,9 @@ impl ContactError {
         }
     }
 
-    /// Adds the stage to the reason. Errors about memory, interruptions and defects remain
-    /// unchanged because they concern the whole loading.
+    /// Returns an error of the stage with the index `index`, with this error as the reason. Errors
+    /// about memory, interruptions and defects remain unchanged because they concern the whole
+    /// loading.
     pub(crate) fn in_stage(self, index: usize, target: Move) -> Self {
         match self {
             ContactError::Stage { .. }

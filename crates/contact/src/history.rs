@@ -160,7 +160,7 @@ impl LegRecord {
         }
         if after.springs == 0 && end.springs > 0 {
             curve.push(CurvePoint::free(end.indentation));
-            // After the contact is lost, the instrument relaxes and moves the separated body
+            // After the instrument has lost the contact, it relaxes and moves the separated body
             // further.
             if after.indentation < end.indentation {
                 curve.push(after);

@@ -37,8 +37,8 @@ pub struct Interval<R> {
     /// [`ContactState::beside`].
     instrument: f64,
     scale: GapScale,
-    /// The totals at the lowest indentation, then those after each event; [`Interval::sort`] puts
-    /// them in order.
+    /// Totals at the lowest indentation, followed by the totals after each event. The events are in
+    /// ascending order only after [`Interval::sort`].
     steps: Rc<Vec<Step>>,
     pieces: Vec<Piece<R>>,
     /// Contact at the lowest indentation (`low`) and at the highest (`high`).
@@ -292,8 +292,8 @@ impl<R: DetachmentRule> Interval<R> {
         if end <= level {
             return level * (to - from) - self.work(from, to);
         }
-        // The body jumps from the lower end to the indentation at which the compression is back at
-        // the largest one.
+        // The body jumps from the lower end to the indentation at which the compression has
+        // returned to its largest value so far.
         let back = crossing(from, to, |indentation| {
             self.compression(indentation) - level
         });

@@ -185,7 +185,8 @@ impl<'a> Stepwise<'a> {
                 let stretch = rule.largest_stretch((end - first) as f64);
                 for (place, &gap) in gaps[first..end].iter().enumerate() {
                     // If a patch cannot bear the stretch of this spring, the smaller patches into
-                    // which it splits cannot bear this stretch either.
+                    // which the patch splits cannot bear this stretch either. The spring therefore
+                    // detaches at once.
                     if indentation <= gap - stretch && indentation < gap {
                         self.change(first + place, false, held_until);
                     }

@@ -133,7 +133,8 @@ impl ContactTotals {
             patches: 1,
             ..Self::default()
         };
-        // Each cell lies between two springs.
+        // Springs are summed one by one. Cells are summed as pairs of springs, because each cell
+        // lies between two springs.
         let springs_of_part = if slides { 2 } else { 1 };
         for part in gaps.windows(springs_of_part) {
             let [quanta, squares] = sums_of_few(part, slides, scale);
@@ -171,8 +172,8 @@ impl ContactTotals {
         let low_quanta = (self.quanta - high_quanta as i128) as f64;
         let high = high_quanta * scale.quantum;
         let low = low_quanta * scale.quantum;
-        // Rounding error of product − high by Knuth's two-sum, which needs no order of the two
-        // numbers.
+        // `error` is the rounding error of product − high by Knuth's two-sum, which does not
+        // require that the first number is the larger one.
         let difference = product - high;
         let subtracted = difference - product;
         let kept = difference - subtracted;

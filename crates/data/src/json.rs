@@ -34,8 +34,8 @@ pub fn write_json(
 /// might obey them.
 #[derive(Default)]
 struct Printable {
-    /// Entries to be written at the beginning of the outermost object. Empty as soon as they are
-    /// written.
+    /// Entries to be written at the beginning of the outermost object. The list is empty as soon as
+    /// the entries are written.
     head: Vec<u8>,
     /// True if the next key needs a comma before it because the entries of `head` precede it.
     follows: bool,

@@ -11,8 +11,8 @@ use thiserror::Error;
 /// A buffer is released if its capacity is more than this multiple of the number of values needed.
 const MOST_SPARE: usize = 4;
 
-/// Number of values that is too small to be worth a release. A buffer for at most [`MOST_SPARE`]
-/// times this number of values is never released.
+/// Number of values below which memory is too small to be worth a release. A buffer for at most
+/// [`MOST_SPARE`] times this number of values is never released.
 const SMALL: usize = 1 << 16;
 
 /// Number of bytes that [`check_room`] adds to the requested bytes, for stacks of threads and small

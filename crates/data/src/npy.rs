@@ -40,7 +40,7 @@ mod tests {
         let mut array = Vec::new();
         write_header(&mut array, "'<f8'", "3,").unwrap();
         assert_eq!(array.len() % ALIGNMENT, 0);
-        // `numpy.save` writes these bytes.
+        // `numpy.save` writes the same bytes for an array of three real numbers.
         let expected =
             b"\x93NUMPY\x01\x00v\x00{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }";
         assert!(

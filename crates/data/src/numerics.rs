@@ -177,8 +177,8 @@ fn gauss_node(degree: usize, index: usize) -> (f64, f64) {
 }
 
 thread_local! {
-    /// Degrees of freedom and value of the last quantile that was computed. They are kept because
-    /// most successive samples have the same size.
+    /// Degrees of freedom and value of the last quantile that this thread computed. They are stored
+    /// because most successive samples have the same size.
     static LAST_QUANTILE: Cell<(u32, f64)> = const { Cell::new((0, f64::NAN)) };
 }
 

@@ -126,8 +126,8 @@ pub fn in_parallel<A: Send, B>(
             .spawn_scoped(scope, || take().map(|task| task()))
             .ok();
         let second_result = second();
-        // If the second thread has not begun `first` yet, or could not be started, `first` runs
-        // here.
+        // If the second thread has not begun `first` yet, or could not be started, the present
+        // thread runs `first`.
         if let Some(task) = take() {
             return (task(), second_result);
         }
@@ -167,8 +167,8 @@ mod tests {
                 current().id()
             };
             let second = || {
-                // Wait until the other function has begun, because otherwise this thread could run
-                // both functions before the second thread starts.
+                // The second function waits until the first one has begun, because otherwise this
+                // thread could run both functions before the second thread starts.
                 let clock = Instant::now();
                 while !begun.load(Ordering::SeqCst) && clock.elapsed() < Duration::from_secs(30) {
                     std::thread::yield_now();

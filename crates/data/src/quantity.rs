@@ -391,8 +391,8 @@ fn decimal(mantissa: &str, exponent: i32) -> String {
 fn shifted(mantissa: &str, power: i32) -> String {
     let sign = if mantissa.starts_with('-') { "-" } else { "" };
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
-    // If the decimal point comes before the first digit, zeros are put in front. If it comes after
-    // the last digit, zeros are appended.
+    // If the decimal point comes before the first digit, zeros are put before the digits. If the
+    // decimal point comes after the last digit, zeros are appended.
     let zeros_before = usize::try_from(-power).unwrap_or(0);
     let zeros_after = usize::try_from(power + 1 - digits.len() as i32).unwrap_or(0);
     let digits = "0".repeat(zeros_before) + &digits + &"0".repeat(zeros_after);
@@ -573,7 +573,8 @@ mod tests {
         }
     }
 
-    /// Each SI prefix is the power of a thousand that its place in the list says.
+    /// The power of ten of each SI prefix is three times its place in the list of prefixes, counted
+    /// from the prefix for one (`_`).
     #[test]
     fn prefixes_are_powers_of_a_thousand() {
         for (place, prefix) in "y z a f p n µ m _ k M G T P E".split(' ').enumerate() {

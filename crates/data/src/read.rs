@@ -39,7 +39,7 @@ pub enum ReadError {
     Failed(#[from] io::Error),
 }
 
-/// Message of the system, but in plain words if the file does not exist.
+/// Returns the message of the system, but plain words if the file does not exist.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),

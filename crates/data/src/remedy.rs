@@ -135,7 +135,7 @@ impl Remedied for String {
     }
 }
 
-/// Returns the words for remedies; `None` without remedies.
+/// Returns the words for all remedies as one text; `None` if there are no remedies.
 fn joined(remedies: &[Remedy], wording: Wording) -> Option<String> {
     let words: Vec<String> = remedies.iter().map(wording).collect();
     (!words.is_empty()).then(|| words.join("; "))

@@ -154,7 +154,7 @@ pub fn per_cent(error: f64) -> String {
     }
 }
 
-/// Units, without prefixes, before which a line is not broken if a number precedes them.
+/// Units, without prefixes. A line is not broken between a number and one of these units.
 const UNITS: [&str; 9] = ["m", "N", "J", "J/m²", "Pa", "s", "B", "N/m", "%"];
 
 /// Returns true for one of the [`UNITS`], with or without a prefix. Punctuation after the unit is

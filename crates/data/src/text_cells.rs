@@ -200,7 +200,7 @@ impl Decimal {
     }
 }
 
-/// Returns true for a number such as `1,234`, in which the comma can separate thousands.
+/// Returns true for a number such as `1,234`, in which the comma may separate thousands.
 fn may_be_grouped(cell: &str) -> bool {
     Grouped::read(cell, Some(',')).is_some_and(|number| number.group == ',')
 }
@@ -336,8 +336,7 @@ mod tests {
                 "\"1,234.5\",\"2,345\"",
                 vec![Number(1234.5), Number(2345.0)],
             ),
-            // The comma contradicts a decimal mark that was found in an earlier number or is found
-            // in a later one.
+            // In each line, the comma of one number contradicts the decimal mark of another number.
             ("0.5;1,234", vec![Number(0.5), OtherMark]),
             ("1,234;1,234.5", vec![Number(1.234), OtherMark]),
             ("1,234.5;0,5", vec![Number(1234.5), OtherMark]),

@@ -109,8 +109,9 @@ impl HeadLines {
                     continue;
                 }
             }
-            // Often the column of the indices has no name, or its name is a sign that begins a
-            // comment.
+            // The column of the indices often has no name, or its name is a character that begins a
+            // comment and was removed. The first column is therefore the column of the indices if
+            // it has no name and other columns have known names.
             if let [first, _, ..] = &mut columns[..]
                 && first.name.is_empty()
                 && has_known_names
@@ -152,11 +153,10 @@ pub fn is_one_of(word: &str, words: &str) -> bool {
 }
 
 /// Returns the cells of a line that may contain the names of `count` columns; `None` if the line
-/// cannot be split into so many cells. The line is split in one of these ways, the first that fits:
-/// 1. at the separator of the numbers, where `count` to `most` cells are allowed and the excess is
-///    dropped,
-/// 2. at the separator of the line itself,
-/// 3. after closing brackets.
+/// cannot be split into so many cells. The function tries three ways to split the line and takes
+/// the first that fits: 1. at the separator of the numbers, where `count` to `most` cells are
+/// allowed and cells beyond `count` are dropped, 2. at the separator of the line itself, 3. after
+/// closing brackets.
 fn cells_of(line: &str, count: usize, most: usize, separator: Separator) -> Option<Vec<String>> {
     let line = without_key(line)?.trim();
     // There may be a blank between a name and its unit.
@@ -225,7 +225,7 @@ fn bare(cell: &str) -> &str {
 struct Division<'a> {
     name: &'a str,
     unit: &'a str,
-    /// True if the notation alone shows that this is a unit, even if the unit is not known.
+    /// True if the notation alone shows that `unit` is a unit, even if the unit is not known.
     is_stated: bool,
 }
 

@@ -438,7 +438,7 @@ impl Warning {
     }
 }
 
-/// Consequences of the warnings for stated errors.
+/// Effects of the warnings on stated errors.
 impl Warning {
     /// Returns true if the results do not belong to the stated body, so that their errors are
     /// unknown.
@@ -463,7 +463,7 @@ impl Warning {
     }
 }
 
-/// Words of the warnings.
+/// Texts of the warnings.
 impl Warning {
     /// Returns the name of the premise in `snake_case`, for counting warnings and for tables. The
     /// name is the same in every version.

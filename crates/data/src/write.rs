@@ -141,7 +141,7 @@ fn is_abandoned(path: &Path) -> bool {
     is_old && file.try_lock().is_ok()
 }
 
-/// File that is being written. It is removed if it never gets its final name.
+/// File that is being written. The file is removed if it never gets its final name.
 struct Temporary {
     file: File,
     /// Temporary path of the file; `None` on Linux, where the file has no name while it is written,
@@ -268,7 +268,8 @@ pub fn sync_folder(path: &Path) -> io::Result<()> {
     };
     match File::open(path).and_then(|folder| folder.sync_all()) {
         // Some systems cannot open a folder, some folders may not be read, and some file systems
-        // cannot synchronise a folder. In these cases nothing more can be done for the names.
+        // cannot synchronise a folder. In these cases nothing more can be done, so the function
+        // returns no error.
         Err(error) if matches!(error.kind(), PermissionDenied | InvalidInput | Unsupported) => {
             Ok(())
         }
@@ -345,7 +346,8 @@ impl Target {
         if !overwrite && fs::symlink_metadata(path).is_ok() {
             return Err(WriteError::Exists(path.into()));
         }
-        // Other errors are returned, for example a circle of symbolic links.
+        // An error other than a missing file is returned, for example the error for a circle of
+        // symbolic links.
         if reason.kind() != io::ErrorKind::NotFound {
             return Err(WriteError::failed(path)(reason));
         }
@@ -396,7 +398,8 @@ mod tests {
         let in_folder = || names_in(folder.path());
         let broken = |out: &mut (dyn Write + Send)| {
             out.write_all(&[b'x'; 2 * BUFFER])?;
-            // If the process ended here, no temporary file would remain.
+            // The content is being written here. If the process ended now, no temporary file would
+            // remain on Linux.
             assert!(
                 !cfg!(target_os = "linux")
                     || !in_folder().iter().any(|name| name.ends_with(".tmp"))
@@ -525,7 +528,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::set_permissions(folder.path(), Permissions::from_mode(0o500)).unwrap();
         let refused = check_writable(&folder.path().join("curve.csv"), false);
-        // If the user of the test is the administrator, every folder can be written.
+        // If the administrator runs the test, every folder can be written, and there is no error to
+        // check.
         if let Err(refused) = refused {
             let message = refused.to_string();
             assert!(

@@ -108,7 +108,7 @@ impl AdhesiveSquare {
         let mut grid = Grid::new(ringed, Boundary::Free)?;
         let highest = highest(square)?;
         for index in 0..ringed * ringed {
-            // The cells of the ring have the heights of the cells beside them.
+            // The ring of cells around the body has the heights of the nearest cells of the body.
             let row = (index / ringed).clamp(1, cells) - 1;
             let column = (index % ringed).clamp(1, cells) - 1;
             grid.depths[index] = (highest - heights[row * cells + column]) / side_with_ring;
@@ -363,7 +363,7 @@ mod tests {
     #[test]
     fn a_sphere_pulls_off_as_johnson_kendall_and_roberts_say() {
         check_spheres(&[(32, 6.0, 4, 0.04, 0.08), (64, 13.0, 4, 0.02, 0.03)]);
-        // These spheres take minutes of computing.
+        // The computation of these spheres takes minutes.
         if effort() >= 100 {
             check_spheres(&[(128, 26.0, 1, 0.02, 0.02), (128, 38.0, 1, 0.02, 0.02)]);
         }
@@ -386,8 +386,9 @@ mod tests {
                 let of = |place| pulled(sphere(cells, critical, place, closing), unit, 8);
                 let found: Vec<[f64; 2]> = places[..count].iter().map(|place| of(*place)).collect();
                 println!("{critical} cells, closing {closing}: {found:.4?}");
-                // An edge that closes a whole ring at once would give a wrong force at first touch.
-                // By JKR theory this force is 8/9 of the pull-off force.
+                // The force at first touch is checked too, because an edge that closes a whole ring
+                // at once would give a wrong force. By the theory of Johnson, Kendall and Roberts
+                // (JKR) this force is 8/9 of the pull-off force.
                 if closing == 1.0 && critical > 10.0 {
                     let touch = found.iter().map(|[touch, _]| touch * 9.0 / 8.0);
                     touch.for_each(|touch| {
@@ -466,8 +467,9 @@ mod tests {
     }
 
     /// In each step the dissipated energy is the work of the force minus the change of the elastic
-    /// energy and plus the change of γA. It is never negative, except for the deviation of the
-    /// trapezoidal rule at jumps and the hysteresis of the lattice.
+    /// energy and plus the change of γA, where A is the contact area. The dissipated energy is
+    /// never negative, except for the deviation of the trapezoidal rule at jumps and the hysteresis
+    /// of the lattice.
     #[test]
     fn no_step_gains_energy() {
         let (mut body, work) = sphere(64, 13.0, (0.3, 0.2), 1.0);

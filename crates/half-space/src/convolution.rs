@@ -8,8 +8,8 @@ use asperity_fourier::{
 };
 use std::sync::Arc;
 
-/// Number of bytes of each row that are transformed together as columns. Memory is read row by row,
-/// and each column is computed in contiguous memory.
+/// Number of bytes of each row that are transformed together as columns. With such blocks, memory
+/// is read row by row, and each column is computed in contiguous memory.
 const BLOCK: usize = 128;
 
 /// Number of rows of a block that are gathered together, so that their values stay in the cache of
@@ -31,7 +31,7 @@ pub struct Convolution<T> {
     /// Half spectra of the rows of the grid. Neighbouring spectra have the distance
     /// [`Convolution::stride`].
     spectra: Vec<Complex<T>>,
-    /// A padded row.
+    /// Memory for one padded row.
     row: Vec<T>,
     /// Padded columns of a block. Neighbouring columns have the distance [`Convolution::apart`].
     block: Vec<Complex<T>>,
@@ -101,8 +101,8 @@ impl<T: FftNum + Default> Convolution<T> {
     ) -> Result<Self, OutOfMemory> {
         let mut planned = Convolution::plan(cells, padded)?;
         let half = padded / 2 + 1;
-        // The transform of an even kernel is real. Its rows above the half are the mirrored rows
-        // below the half.
+        // The transform of an even kernel is real. The rows of the transform above the half are
+        // equal to the mirrored rows below the half.
         let mut rows = resized(Vec::new(), half * half, 0.0)?;
         let mut row = vec![0.0; padded];
         let mut spectrum = vec![Complex::default(); half];

@@ -152,7 +152,8 @@ impl HalfSpace {
         Ok(self.pressed(square, ended))
     }
 
-    /// Sets the depths of the finest grid, and returns the rms height in units of the side.
+    /// Sets the depth of each cell of the finest grid below the highest cell. Returns the rms
+    /// height of the square in units of its side.
     fn set_depths(&mut self, square: &Square<'_>) -> Result<f64, HalfSpaceError> {
         let Some(grid) = self.grids.last_mut() else {
             return Ok(0.0);
@@ -422,8 +423,8 @@ mod tests {
     }
 
     /// At light loads the area of contact is about 2F/(E*h′), where h′ is the rms gradient. The
-    /// cells at the edge of the contact are only partly in contact. This is corrected by a tenth of
-    /// a cell for each side of a cell along the edge.
+    /// cells at the edge of the contact are only partly in contact. For each side of a cell along
+    /// the edge, the area is therefore corrected by a tenth of a cell.
     #[test]
     fn the_area_at_light_loads_is_proportional_to_the_force() {
         let (cells, last) = (128, 8.0);

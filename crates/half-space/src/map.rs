@@ -27,8 +27,8 @@ pub fn random_map(
     for shell in 1..half {
         for (x, y) in half_shell(shell) {
             let phase = TAU * (generator.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-            // A pair of opposite waves is one cosine. Its mean square is half of its squared
-            // amplitude.
+            // A pair of opposite waves is one cosine, and the mean square of a cosine is half of
+            // its squared amplitude.
             let amplitude = 2.0 * variance((x as f64).hypot(y as f64)).sqrt();
             let column = x.rem_euclid(cells as i64) as usize;
             let row = y.rem_euclid(cells as i64) as usize;

@@ -146,7 +146,8 @@ impl<V: FnMut(usize, &[f32])> Extension<'_, V> {
     /// Computes a row of the extended residuals. The rows must be computed in order.
     fn extend(&mut self, row: usize, extended: &mut [f32]) {
         let cells = self.sweeps.cells;
-        // The first row needs all rows that its sweeps reach. Each further row needs one more row.
+        // The first extended row needs all rows that its sweeps reach. Each following row needs one
+        // more row.
         let first = if row == 0 { 0 } else { row + SWEEPS };
         for time in first..=row + SWEEPS {
             if let Some(residual) = self.residual.chunks_exact(cells).nth(time) {
@@ -269,8 +270,8 @@ impl Around<'_> {
         };
         to[0] = swept(0, 0, 1);
         to[last] = swept(last, last - 1, last);
-        // The compiler makes instructions for several values at once only of iterators without
-        // indices.
+        // The loop uses iterators without indices, because only then the compiler makes
+        // instructions for several values at once.
         let vertical = self.above[1..].iter().zip(&self.below[1..]);
         let horizontal = self.middle[..last - 1].iter().zip(&self.middle[2..]);
         let own = self.fixed[1..].iter().zip(&self.outside[1..]);
@@ -296,7 +297,8 @@ impl PaddedSides {
                 displacement: cells,
                 stiffness: cells,
             },
-            // On the grids that are used, multiples of 16 have no large prime factor.
+            // The sides are multiples of 16, because such numbers have no large prime factor on the
+            // grids that are used.
             Boundary::Free => PaddedSides {
                 displacement: (2 * cells).next_multiple_of(16),
                 stiffness: (cells + cells / 4).next_multiple_of(16),
@@ -338,7 +340,7 @@ mod tests {
     #[test]
     fn a_cell_displaces_by_the_integral_over_it() {
         assert!((displacement_by_cell(0.0, 0.0) - OWN_DISPLACEMENT).abs() < 1e-7);
-        // The expected value is the sum over small parts of the cell.
+        // The expected value is the sum of the displacements by small parts of the cell.
         let parts = 200;
         for (x, y) in [(1.0, 0.0), (3.0, 2.0), (0.0, 7.0), (40.0, 9.0)] {
             let mut sum = 0.0;

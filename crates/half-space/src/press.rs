@@ -16,7 +16,7 @@ use std::mem::swap;
 /// Number of cells along the side of the coarsest grid.
 pub const COARSEST: usize = 32;
 
-/// Residual at which the solution on a coarser grid ends, in rms heights.
+/// Residual at which the solution on a coarser grid ends, divided by the rms height.
 const COARSE: f64 = 1e-3;
 
 /// Ratio of the violations of the set to the residual on the contact. When the ratio exceeds this
@@ -69,9 +69,9 @@ pub struct Grid {
     /// Residual before the last step.
     former_residual: Vec<f32>,
     gradient: Vec<f32>,
-    /// Change of the pressures by a step, up to the factor that is the length of the step.
+    /// Direction of a step: the change of the pressures divided by the length of the step.
     direction: Vec<f64>,
-    /// Displacements that the direction causes as pressures.
+    /// Displacements that the values of `direction` cause if they act as pressures.
     image: Vec<f64>,
 }
 
@@ -92,7 +92,7 @@ struct Step {
     violations: Violations,
 }
 
-/// Sums over the contact that contain the gradient of a step.
+/// Sums over the contact of products with the gradient of a step.
 struct GradientSums {
     /// Scalar product of gradient and residual.
     with_residual: f64,
@@ -101,13 +101,13 @@ struct GradientSums {
     total: f64,
 }
 
-/// Sums that contain the direction of a step.
+/// Sums over the contact of products with the direction of a step.
 struct DirectionSums {
     /// Scalar product of direction and residual.
     with_residual: f64,
     /// Scalar product of the direction and its image.
     with_image: f64,
-    /// Sum of the image over the contact.
+    /// Sum of the values of the image over the contact.
     image_on_contact: f64,
 }
 
@@ -205,8 +205,8 @@ impl Grid {
             }
         }
         if !has_contact && matches!(given, Given::MeanPressure(_)) {
-            // If a contact has so few cells that interpolation would open all of them, the finer
-            // cells copy the coarser ones.
+            // If a contact has so few cells that interpolation would open all of them, each finer
+            // cell gets the values of the coarser cell that contains it.
             for index in 0..cells * cells {
                 let parent = index / cells / 2 * half + index % cells / 2;
                 self.pressure[index] = coarse.pressure[parent];
@@ -341,7 +341,7 @@ impl Grid {
         self.load(given);
         self.find_level(given);
         let mut violations = self.advance(0.0);
-        // Without the product of a former step, the next step goes along the steepest descent.
+        // The first step has no product of a former step, so it goes along the steepest descent.
         let mut last_product = None;
         let mut steps = 0;
         loop {
@@ -407,7 +407,7 @@ impl Grid {
     }
 
     /// Makes one step of the conjugate gradients on the present contact. `last_product` is the
-    /// product of the step before.
+    /// product in the [`Step`] before; `None` for the first step.
     fn step(&mut self, given: Given, last_product: Option<f64>) -> Step {
         let gradient = self.find_gradient();
         let product = gradient.with_residual;
@@ -527,8 +527,8 @@ impl Grid {
     }
 }
 
-/// Returns the index of a neighbour of a cell in a row of `half` cells. If `is_upper` is true, it
-/// is the cell after the given one; otherwise the cell before.
+/// Returns the index of a neighbour of a cell in a row of `half` cells. If `is_upper` is true, the
+/// neighbour is the cell after the given cell; otherwise the cell before.
 fn neighbour(index: usize, is_upper: bool, half: usize, boundary: Boundary) -> usize {
     match (is_upper, boundary) {
         (true, Boundary::Periodic) => (index + 1) % half,
@@ -548,7 +548,8 @@ fn interpolated(corners: [f64; 4]) -> f64 {
 /// Number of separate partial sums. The processor computes them at the same time.
 const LANES: usize = 4;
 
-/// Divides values into groups. The values of a grid leave no rest because its side is even.
+/// Divides values into groups of [`LANES`] values. No value of a grid is left over, because the
+/// side of a grid is even.
 fn groups<T>(numbers: &[T]) -> &[[T; LANES]] {
     numbers.as_chunks().0
 }

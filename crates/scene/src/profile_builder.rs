@@ -50,8 +50,8 @@ pub struct ProfileBuilder {
     seed: u64,
 }
 
-/// Changes a member of the self-affine roughness. If there is no roughness yet, the macro begins
-/// one without a Hurst exponent.
+/// Changes a member of the self-affine roughness. If the builder has no roughness yet, the macro
+/// first adds one without members.
 macro_rules! with_member {
     ($builder:expr, $member:ident, $value:expr) => {{
         let (mut builder, value) = ($builder, $value);
@@ -63,7 +63,7 @@ macro_rules! with_member {
     }};
 }
 
-/// Self-affine roughness without any member. A scene with this roughness is refused.
+/// Self-affine roughness without any member. A scene with this roughness is invalid.
 const WITHOUT_MEMBERS: Roughness = Roughness::SelfAffine {
     hurst: f64::NAN,
     rms_height: None,
@@ -358,7 +358,7 @@ impl ProfileBuilder {
         Ok(self.simulation().compute(&scene)?)
     }
 
-    /// Returns the roughness with its seed; `None` for a smooth body.
+    /// Returns the roughness of the body with the seed of the builder; `None` for a smooth body.
     fn roughness(&self) -> Result<Option<Roughness>, SceneErrors> {
         if self.spectrum.is_none() {
             let mut self_affine = self.self_affine.clone();

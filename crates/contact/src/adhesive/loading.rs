@@ -19,7 +19,8 @@ use std::ops::Range;
 /// is in equilibrium at a given level; see the module `run`.
 #[derive(Debug)]
 pub struct Closing {
-    /// Indentation in m at which each node closes.
+    /// Indentation in m at which each node closes: all springs of its subtree then belong to one
+    /// patch.
     closes: Vec<f64>,
     /// First and last spring that certainly attach when each node closes. The range widens while
     /// the branches above the node are followed.
@@ -41,12 +42,12 @@ struct Loading<'a, const SLIDES: bool, R> {
 struct BranchStart {
     /// Indentation in m at which the branch begins.
     closes: f64,
-    /// First and last spring that certainly attach at this indentation.
+    /// First and last spring that certainly attach at the indentation `closes`.
     known: [u32; 2],
     gap: f64,
 }
 
-/// Result of a walk up a branch to the spring at which the branch merges.
+/// Result of a walk up a branch to the spring at which the branch merges with another branch.
 struct Reached {
     /// Indentation in m at which the branch attaches the spring at which it merges.
     closes: f64,
@@ -60,9 +61,9 @@ struct Visit {
     branch: Branch,
     /// Indentation in m at which the branch becomes part of a larger patch.
     merges: f64,
-    /// Spring at which the branch merges.
+    /// Spring at which the branch merges with another branch.
     parent: usize,
-    /// Indices of the held patches on and below the branch.
+    /// Indices of those held patches that lie on this branch or on a branch below.
     held: Range<usize>,
 }
 
@@ -74,8 +75,8 @@ struct Ascent {
     span: Span,
     /// Smallest indentation in m at which the springs of `span` are in contact.
     closes: f64,
-    /// Height in m of the pinned edges above the largest gap, if the walk begins with a held patch
-    /// that is pinned.
+    /// Height in m of the pinned edges of a held patch above its largest gap; `None` unless the
+    /// walk begins with a held patch whose edges are pinned.
     pin: Option<f64>,
     /// Length of the patch as a function of its level, before the patch attached its last spring;
     /// `None` if the present springs begin a new run.
@@ -179,7 +180,8 @@ impl Closing {
 }
 
 impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
-    /// Splits a range of held patches into the patches left and right of a spring.
+    /// Splits a range of indices of held patches into the patches to the left and to the right of a
+    /// spring.
     fn split(&self, held: &Range<usize>, spring: usize) -> [Range<usize>; 2] {
         let inside = &self.held[held.clone()];
         let left_count = inside.partition_point(|patch| (patch.first as usize) < spring);
@@ -286,7 +288,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Loading<'_, SLIDES, R> {
             if start.closes < visit.merges {
                 self.climb(&visit, start, held.and_then(|patch| patch.pin))?;
             }
-            // The parts of a branch with a held patch have no runs of their own.
+            // A held patch contains the springs of both parts of its branch, so these parts have no
+            // runs of their own.
             let (Some(node), None) = (node, held) else {
                 continue;
             };

@@ -53,7 +53,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
     /// Returns the springs of the leftmost and of the rightmost patch at an indentation in m.
     /// Returns `None` if no patch is in contact.
     pub fn outermost(&self, indentation: f64) -> Option<[Span; 2]> {
-        // If two runs are separate, the right one comes first in the list.
+        // In the list of runs, the right one of two separate runs comes first.
         let rightmost = self.runs.iter().find(|run| run.is_at(indentation));
         let leftmost = self.runs.iter().rfind(|run| run.is_at(indentation));
         let outermost = [leftmost?, rightmost?];
@@ -107,7 +107,7 @@ impl<const SLIDES: bool, R: DetachmentRule> Runs<'_, SLIDES, R> {
         tally.finish(&ground.tree.scale)
     }
 
-    /// Returns the runs that have indentations above `low` and up to `high` in m.
+    /// Returns the runs that exist at any indentation above `low` and up to `high` in m.
     #[inline]
     fn runs_between(&self, low: f64, high: f64) -> impl Iterator<Item = &Run> {
         let runs = self.runs.iter();

@@ -121,8 +121,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         let first = ends[0] as usize;
         let last = ends[1] as usize;
         let gap_at_ends = larger(self.gaps[first], self.gaps[last]);
-        // If the patch has grown beyond its smallest size on the branch, its largest gap is the gap
-        // of the outermost spring that attached last.
+        // The largest gap of a patch is the gap of the node at which its branch begins. If the
+        // patch has grown since then, it is the gap of the outermost spring that attached last.
         let gap = match branch.origin() {
             Ok(node) => larger(gap_at_ends, self.tree.nodes[node].gap),
             Err(_) => gap_at_ends,
@@ -177,12 +177,12 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         }
     }
 
-    /// Returns the upper end, in m, of the indentations at which the patch of a run has exactly the
-    /// springs of `span`. Above this indentation it has the springs of `above`.
+    /// Returns the largest indentation in m at which the patch of a run has exactly the springs of
+    /// `span`. At larger indentations the patch has the springs of `above`.
     #[inline]
     fn upper_end(&self, span: &Span, above: &Span) -> f64 {
-        // On unloading, the patch loses a spring when it no longer bears the stretch of its
-        // outermost spring. Its springs are then those of `span`.
+        // On unloading, the patch with the springs of `above` loses a spring when it no longer
+        // bears the stretch of its outermost spring. The patch then has the springs of `span`.
         if self.unloading {
             self.holds_to(&self.levels(above))
         } else {

@@ -106,8 +106,9 @@ impl Pending {
 }
 
 impl ContactTree {
-    /// Builds the tree from 1 to 2^28 `gaps` (in m, finite, at least zero), with the sums that the
-    /// edge model needs, in the memory of the former tree. `deepest` is the largest gap.
+    /// Builds the tree of the gaps `gaps`, with the sums that the edge model needs, and reuses the
+    /// memory of this tree. There must be 1 to 2^28 gaps, which are in m, finite and at least zero.
+    /// `deepest` is the largest gap.
     pub(crate) fn rebuild(
         mut self,
         gaps: &[f64],

@@ -43,8 +43,8 @@ struct Descent {
     /// Indentation in m at which the patch of the previous step of the walk loses a spring or
     /// splits. Below this indentation the present springs form the patch.
     opens: f64,
-    /// True for a patch that is in contact at the beginning of the unloading, until it has been
-    /// listed once.
+    /// True for a patch that is in contact at the beginning of the unloading, until its run has
+    /// been added to the list of runs.
     is_whole: bool,
     /// Height in m of pinned edges above the largest gap of a patch that is in contact at the
     /// beginning of the unloading; `None` if the edges are free.
@@ -113,10 +113,10 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
         Ok(listed)
     }
 
-    /// Returns false if no patch within a range of `springs` springs can bear the stretch of a
-    /// spring with this `gap` (m) at indentations below `opens` (m). `gap` is the smallest or the
-    /// largest gap of the patch. A patch within the range has at most the length of these springs
-    /// plus two edge cells.
+    /// Returns false if a spring with the gap `gap` (m) certainly detaches at indentations below
+    /// `opens` (m), whatever patch contains the spring. The patch must lie within a range of
+    /// `springs` springs, so that it is at most as long as this range plus two edge cells. `gap`
+    /// must be the smallest or the largest gap of the patch.
     #[inline]
     fn may_hold(&self, gap: f64, opens: f64, springs: usize) -> bool {
         let need = gap - opens;
@@ -233,7 +233,8 @@ impl<const SLIDES: bool, R: DetachmentRule> Ground<'_, SLIDES, R> {
                 to = released;
             }
         }
-        // If pinned edges jump as soon as they are released, there is no run with free edges.
+        // If pinned edges jump as soon as they are released, `leaves` equals `to`, and there is no
+        // run with free edges.
         if leaves != to {
             match (listed.runs.last_mut(), descent.above) {
                 (Some(run), Some(upper)) if self.slides_on(&levels, &upper) => {

@@ -14,7 +14,8 @@ use crate::history::Patch;
 use crate::interval::Intervals;
 use proptest::prelude::*;
 
-/// A rule Δl = s ℓ^p that states only the largest stretch and its slope.
+/// A rule Δl = s ℓ^p that states only the largest stretch and its slope. The trait computes all
+/// other results by searches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct PowerRule {
     stretch: f64,
@@ -31,7 +32,7 @@ impl DetachmentRule for PowerRule {
     }
 }
 
-/// The rule of Hess without its closed-form results.
+/// The rule of Hess without its closed-form results, so that the trait computes them by searches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct SearchedHess(HessRule);
 
@@ -283,7 +284,7 @@ fn gaps(most: usize) -> impl Strategy<Value = Vec<f64>> {
     })
 }
 
-/// Gaps that differ so much from each other that steps of the level find each of them.
+/// Generates gaps that differ so much from each other that steps of the level find each gap.
 fn distinct_gaps() -> impl Strategy<Value = Vec<f64>> {
     let order = Just((0..9_usize).collect::<Vec<usize>>()).prop_shuffle();
     (order, prop::collection::vec(0.0..0.06_f64, 9)).prop_map(|(order, shifts)| {

@@ -253,8 +253,8 @@ impl Leg {
         }
     }
 
-    /// Returns the intervals between these ends, which are in ascending order, with the events
-    /// inside each interval.
+    /// Returns one interval for each pair of `ends`, with the events inside the interval. The pairs
+    /// must be in ascending order of the indentation.
     fn events(&self, ends: &[[ContactState; 2]], work: &mut Work) -> Vec<Interval<ContactRule>> {
         if ends.is_empty() {
             return Vec::new();
@@ -282,7 +282,7 @@ impl Leg {
         work: &mut Work,
     ) -> ContactState {
         let mut best = extreme.among(leg);
-        // Without adhesion the force never falls, so an extreme lies at one of the points.
+        // Without adhesion the force never falls, so an extreme lies at one of the sampled points.
         if self.contact.has_adhesion() {
             let chosen = intervals(leg, |low, high| extreme.may_lie(low, high, &best));
             for interval in &self.events(&chosen, work) {

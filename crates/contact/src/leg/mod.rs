@@ -90,7 +90,8 @@ pub struct PatchState {
     pub most_stretched: f64,
 }
 
-/// A patch. If its edges are pinned, `pin` is their height in m above the largest gap of the patch.
+/// A patch whose edges may be pinned. If they are pinned, `pin` is their height in m above the
+/// largest gap of the patch.
 #[derive(Clone, Copy)]
 struct PinnedPatch {
     springs: Patch,

@@ -235,8 +235,8 @@ pub fn choose(
 }
 
 /// Solves a scene with `points` springs and each edge model. Returns `None` if an edge model has no
-/// solution with so few springs, or if the memory or the time is not sufficient. `refused` then
-/// gets the error.
+/// solution with so few springs, or if the memory or the time is not sufficient. In these cases the
+/// error is stored in `refused`.
 fn solve_with_both_edges(
     scene: &CheckedScene,
     points: u64,
@@ -395,7 +395,8 @@ mod tests {
         assert_eq!((choice.points, choice.edges), (64, Edges::SubCell));
         let choice = judge(&known(solutions(5, [(0.5, 1), (0.1, 2)])), 0.0, 0.01).unwrap();
         assert_eq!((choice.points, choice.edges), (64, Edges::Grid));
-        // If no choice reaches the tolerance, the best confirmed choice is returned.
+        // If no choice reaches the tolerance, the choice with the smallest error that finer
+        // solutions confirm is returned.
         let choice = judge(&known(tried(4)), 0.0, 1e-6).unwrap();
         assert_eq!((choice.points, choice.edges), (32, Edges::SubCell));
         assert!((choice.error - 0.025).abs() < 1e-12);

@@ -184,8 +184,8 @@ pub fn estimate(
     })
 }
 
-/// Returns the relative difference between two solutions. Each of them serves as the reference
-/// once, and the larger result counts.
+/// Returns the relative difference between two solutions. Each solution serves as the reference
+/// once, and the larger of the two differences is returned.
 fn difference(target: Target, solution: &Solution, own: &Solution) -> Option<f64> {
     let from_own = target.difference(solution, own)?;
     Some(from_own.max(target.difference(own, solution)?))
@@ -279,10 +279,10 @@ fn with_springs(scene: &CheckedScene, ratio: Ratio) -> Option<CheckedScene> {
     refined(scene, points, Edges::SubCell).ok()
 }
 
-/// Returns the smallest number of springs, at least `least`, with which a Fourier transform is
-/// fast. It has no prime factor above 13. For few springs the number is odd. For many springs it is
-/// twice an odd number, because the transform takes most of the time and would take twice as long
-/// with an odd number.
+/// Returns the smallest suitable number of springs that is at least `least`. A suitable number has
+/// no prime factor above 13, so that a Fourier transform is fast. For few springs the number is
+/// odd. For many springs it is twice an odd number, because the transform takes most of the time
+/// and would take twice as long with an odd number.
 ///
 /// The positions of the springs then hardly coincide with those of the scene, wherever the axis of
 /// a form is. An even and an odd number have no position in common, and a power of two and twice an

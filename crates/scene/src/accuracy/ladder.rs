@@ -18,9 +18,10 @@ use asperity_fourier::plan_real_forward;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Smallest ratio of the remaining time to the time of the last rung for which another rung is
-/// begun. The next rung takes about twice the time of the last one, and the error estimate of the
-/// finest solution about the same time as the last one. The rest is a reserve for a busy machine.
+/// Smallest ratio of the remaining time to the time of the last rung at which another rung is
+/// begun. The next rung takes about twice the time of the last rung. The error estimate of the
+/// finest solution takes about the same time as the last rung. The rest is a reserve for a busy
+/// machine.
 const LATER: f64 = 4.0;
 /// Number of points of a force curve that is compared, for all loading stages together. With so
 /// many points, the distance of the points does not affect the measured errors.
@@ -34,8 +35,8 @@ const STEPWISE_SPRINGS: u64 = 256;
 /// Number of steps with which the coarsest solution of the stepwise solver passes the range of
 /// indentations.
 const FEWEST_STEPS: f64 = 16.0;
-/// Largest number of computations that time one setting, and the time in s after which no further
-/// computation begins.
+/// Two limits for timing one setting: the largest number of computations, and the time in s after
+/// which no further computation begins.
 const MOST_RUNS: usize = 9;
 const ENOUGH_RUNS: f64 = 0.05;
 /// Number of points of the Fourier transform that serves as the unit of computing time.
@@ -67,7 +68,8 @@ struct Setting {
     scene: CheckedScene,
 }
 
-/// One solution and its row of the table. The row has the setting and the times, but no errors yet.
+/// One solution and its row of the table. The row states the setting and the times, but no errors
+/// yet.
 struct Rung {
     row: Row,
     solution: Solution,
@@ -162,8 +164,8 @@ fn compared_samples(scene: &Scene) -> u64 {
 }
 
 impl Ladder<'_> {
-    /// Adds rungs while there is time. If a scene was refused because it had too few springs,
-    /// returns this error.
+    /// Adds rungs to the ladder while there is time. If the scene was refused because it had too
+    /// few springs, returns this error.
     fn climb(
         &mut self,
         clock: &Clock<'_>,
@@ -225,8 +227,9 @@ impl Ladder<'_> {
         own_errors(&compared(self.scene).ok()?, finest, &mut runs)
     }
 
-    /// Returns the settings of the rung with `points` springs. The step of the stepwise solver is
-    /// halved from rung to rung; this begins when the exact solution for comparison is known.
+    /// Returns the settings of the rung with `points` springs. As soon as the exact solution for
+    /// comparison is known, the settings include a step of the stepwise solver, which is halved
+    /// from rung to rung.
     fn settings(&self, points: u64) -> Vec<Setting> {
         let mut settings = Vec::new();
         for (knob, edges) in [
@@ -323,10 +326,10 @@ impl Ladder<'_> {
         Some([&rungs.next()?.solution, &rungs.next()?.solution])
     }
 
-    /// Computes the errors of all rows. They are relative to the closed form or the finest
-    /// solution; the errors of steps are relative to the exact solution. `own` has the errors of
-    /// the reference itself. If it is `None`, twice the differences between the two finest
-    /// solutions are used instead. Returns false if there are fewer than two solutions.
+    /// Computes the errors of all rows, relative to the closed form or the finest solution. The
+    /// errors of steps are relative to the exact solution. `own` has the errors of the reference
+    /// itself; if it is `None`, twice the differences between the two finest solutions are used
+    /// instead. Returns false if there are fewer than two solutions.
     fn count(&mut self, own: Option<Errors>) -> bool {
         let Some([finest, last]) = self.finest() else {
             return false;
@@ -372,7 +375,7 @@ impl Ladder<'_> {
     }
 }
 
-/// Returns the errors of a setting and their orders of convergence relative to the row before. An
+/// Returns the errors of a setting and their orders of convergence relative to the coarser row. An
 /// error that does not exceed the error of the reference is marked as not resolved.
 fn resolved(
     errors: Errors,

@@ -68,8 +68,8 @@ impl Solution {
         }
     }
 
-    /// Returns this solution as a reference. If it has an adhesion force in closed form, this force
-    /// replaces the computed one.
+    /// Returns this solution as a reference. If the scene has an adhesion force in closed form,
+    /// this force replaces the computed one.
     pub(super) fn reference(&self) -> Solution {
         let mut reference = self.clone();
         if self.closed_form.is_some() {
@@ -105,8 +105,8 @@ impl Solution {
     }
 }
 
-/// Returns the value if a relative error can refer to it, which means that it is finite and not
-/// zero.
+/// Returns the value if it is finite and not zero, so that a relative error can be divided by it;
+/// otherwise `None`.
 fn unless_zero(value: f64) -> Option<f64> {
     (value != 0.0 && value.is_finite()).then_some(value)
 }
@@ -223,7 +223,8 @@ pub(super) fn allowed_points(scene: &CheckedScene) -> impl Iterator<Item = u64> 
         .take_while(move |&points| is_allowed(points))
 }
 
-/// Computes scenes one after the other. If the profile does not change, it is used again.
+/// Computes scenes one after the other. If a scene has the same profile as the scene before, the
+/// profile is used again.
 pub(super) struct Runs<'a> {
     simulation: Simulation,
     stop: &'a dyn Fn() -> bool,
@@ -463,8 +464,8 @@ mod tests {
         );
         assert!(closed_form("jkr-sphere", &[("loading", "[ToTouch, ToSeparation]")]).is_some());
         assert!(closed_form("kendall-punch", &[]).is_some());
-        // Four scenes without a closed form: not pulled off, profile too short, no adhesion, rough
-        // body.
+        // These four scenes have no closed form: one is not pulled off, one has a profile that is
+        // too short, one has no adhesion, and one has a rough body.
         let held = "[ToForce(1e-4), ToIndentation(0.0)]";
         assert_eq!(closed_form("jkr-sphere", &[("loading", held)]), None);
         assert_eq!(closed_form("jkr-sphere", &[("length", "2.0e-5")]), None);
@@ -501,7 +502,7 @@ mod tests {
         let flat = |force: f64| curve(&[[0.0, force], [2.0, force]]);
         let wrong = difference(&flat(-4.1), &flat(-4.0)).unwrap();
         assert!((wrong - 0.025).abs() < 1e-15, "{wrong}");
-        // Beyond its end, the shorter curve continues with its last force.
+        // Beyond the end of the shorter curve, its last force counts.
         let short = curve(&[[0.0, 0.0], [1.0, 1.0]]);
         let long = curve(&[[0.0, 0.0], [2.0, 2.0]]);
         let wrong = difference(&short, &long).unwrap();

@@ -260,7 +260,8 @@ impl CostTable {
         if points.len() < 3 {
             return None;
         }
-        // A smaller step or more springs reduce the error.
+        // More springs reduce the error, and so does a smaller step. The slope may therefore have
+        // either sign.
         slope(&points).map(f64::abs)
     }
 

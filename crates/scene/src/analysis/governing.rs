@@ -89,9 +89,9 @@ impl Governing {
         }
     }
 
-    /// Returns the value of κ or e_el/γ with the adhesion `adhesion`. If the adhesion states this
-    /// parameter, returns the stated value; otherwise the value that follows from the work of
-    /// adhesion.
+    /// Returns the value of κ or e_el/γ that a contact with the adhesion `adhesion` has. If the
+    /// adhesion states this parameter, returns the stated value; otherwise the value that follows
+    /// from the work of adhesion.
     fn parameter_of(&self, adhesion: Adhesion, parameter: RoughnessParameter) -> Option<f64> {
         if let Some((given, value)) = adhesion.parameter()
             && given == parameter
@@ -225,7 +225,7 @@ fn value_of(parameter: RoughnessParameter, energy: f64, work: f64) -> Option<f64
 /// A crest of a sphere with waves of amplitude A and wavelength λ has the curvature 1/R + 4π²A/λ².
 /// If a form is rough, the squares of the curvatures of form and roughness add.
 fn curvature_radius(form: Option<&Form>, governing: &Governing) -> Option<f64> {
-    // A flat face has the same curvature, zero, as the flat end of a punch.
+    // A nominally flat body without a form has the curvature zero, like the flat end of a punch.
     let of_form = form.map_or(Some(0.0), Form::summit_curvature)?;
     let of_roughness = governing
         .amplitude
@@ -276,7 +276,7 @@ impl SteepWaves {
         let stretch = governing.adhesive_work()? / governing.effective_modulus;
         let ratio = wavelength.powi(2) / (amplitude * radius);
         let jkr_factor = (1.0 + amplitude * (PI / (2.0 * wavelength * stretch)).sqrt()).powi(2);
-        // If the factor is not finite, there is almost no adhesion.
+        // If the factor is not finite, the scene has almost no adhesion, and no warning is needed.
         (ratio < Self::LEAST_RATIO && jkr_factor.is_finite())
             .then_some(SteepWaves { ratio, jkr_factor })
     }
@@ -319,7 +319,8 @@ mod tests {
 
     #[test]
     fn work_and_parameters_follow_from_each_other() {
-        // With h⟨∇z⟩E* = 72 J/m² and γ = 2 J/m², κ² is 36. E* h² q̄/4 is 4.5 J/m².
+        // The expected parameters follow from h⟨∇z⟩E* = 72 J/m², γ = 2 J/m², κ² = 72/2 = 36 and
+        // e_el = E* h² q̄/4 = 4.5 J/m².
         let expected = Governing {
             effective_modulus: 4.0,
             work_of_adhesion: Some(2.0),

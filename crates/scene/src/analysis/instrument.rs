@@ -48,13 +48,13 @@ pub struct DisplacementPoint {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct DisplacementCurve {
-    /// Points in the order of the stage. The displacement D never turns back along the points. If
-    /// two neighbours have the same D, the body jumps from one to the other.
+    /// Points in the order of the motion. The displacement D never turns back from point to point.
+    /// If two neighbouring points have the same D, the body jumps from one to the other.
     points: Vec<DisplacementPoint>,
-    /// 1 if D grows along the stage, −1 if D falls.
+    /// Sign of the change of D along the stage: 1 if D grows, −1 if D falls.
     sign: f64,
-    /// Two values: true if the body is separated before the first point, and true if it is
-    /// separated after the last point.
+    /// First value: true if the body is separated before the first point. Second value: true if the
+    /// body is separated after the last point.
     free: [bool; 2],
 }
 
@@ -76,8 +76,8 @@ impl DisplacementCurve {
                 points.push(next);
                 continue;
             };
-            // Distances by which a displacement lies behind the reached displacement, in the
-            // direction of the stage.
+            // Each of these two distances states how far a displacement lies behind the reached
+            // displacement, in the direction of the stage.
             let from_behind = sign * (reached.displacement - from.displacement);
             let next_behind = sign * (reached.displacement - next.displacement);
             if next_behind > 0.0 {

@@ -143,7 +143,8 @@ impl Scene {
             contact_length = contact_length.max(point.contact_length);
             deepest = deepest.max(point.indentation);
         }
-        // Two spheres share the contact length and the length of the profile.
+        // A scene with two spheres has two contacts, which share the contact length and the length
+        // of the profile.
         let bodies = match form {
             Form::TwoSpheres { .. } => 2.0,
             _ => 1.0,

@@ -217,7 +217,7 @@ impl Adhesion {
 
 impl Adhesion {
     /// Returns the adhesion with another value of the number `name`, such as `work`. If `adhesion`
-    /// is `None`, the contact had no adhesion, and the new adhesion has only this number.
+    /// is `None`, the new adhesion has only this number.
     pub(super) fn with_number(
         adhesion: Option<Adhesion>,
         name: &str,

@@ -309,15 +309,16 @@ impl Found<'_> {
         );
     }
 
-    /// Checks that the depth of the body at the ends of the profile is within the range of
+    /// Checks that the depth of the body at the ends of the profile is within the allowed range of
     /// indentations.
     fn check_depth(&mut self, form: &Form) {
         let scene = self.scene;
         let half = scene.length / 2.0;
         let depth = form.depth_within(scene.length);
         let wave_depth = form.wave_depth(half);
-        // The first number of a form determines its depth. For a wavy sphere, the waves may be
-        // deeper than the sphere.
+        // The field in the error message is the first number of the form, because this number
+        // determines the depth. For a wavy sphere it is the amplitude if the waves are deeper than
+        // the sphere.
         let is_size = |field: &&Field| {
             if wave_depth > depth {
                 field.path == "form.amplitude"
@@ -607,7 +608,8 @@ mod tests {
                 "requires youngs_modulus, which is missing",
             ),
             ("material=()", "give youngs_modulus with poisson_ratio, or"),
-            // For ν near −1, E* is out of its range although E and ν are within theirs.
+            // E and ν are within their ranges, but for ν near −1 the effective modulus E* is out of
+            // its range.
             (
                 "material=(youngs_modulus: 1e6, poisson_ratio: -0.999999999)",
                 "material = E* = 5.0",

@@ -31,7 +31,7 @@ fn built_in_scenes() -> Vec<Scene> {
         .collect()
 }
 
-/// Returns true if two scenes have the same solution.
+/// Returns true if the computation of two scenes gives the same solution.
 fn have_same_solution(first: &Scene, second: &Scene) -> bool {
     let mut first = first.clone();
     let mut second = second.clone();
@@ -49,7 +49,8 @@ fn has_changed(first: &Scene, second: &Scene, group: &str) -> bool {
         .any(|field| field.value(first) != field.value(second))
 }
 
-/// Title of a changed built-in scene. `name` is the name of its file or of the built-in scene.
+/// Returns the title of a changed built-in scene. `name` is the name of its file or of the built-in
+/// scene.
 fn title_of_changed(name: &str) -> String {
     format!("{name}, changed")
 }
@@ -70,8 +71,8 @@ impl Document {
         }
     }
 
-    /// Returns the text as it was opened, but with those changes on which the solution does not
-    /// depend. A default that the user has stated is also included.
+    /// Returns the text as it was opened, with those changes that do not affect the solution and
+    /// with each default that the user has stated.
     fn opened_with_descriptions(&self) -> Option<Text> {
         let mut text = Text::new(self.opened()).ok()?;
         for (path, value) in self.overrides() {
@@ -82,8 +83,8 @@ impl Document {
         Some(text)
     }
 
-    /// Returns the text without the descriptions that are false for its values. `opened` is the
-    /// scene as it was opened.
+    /// Returns the text without the descriptions that are false for the present values. `opened` is
+    /// the scene as it was opened.
     fn without_false_words(&self, opened: &Scene) -> Text {
         let mut text = self.indexed_text().clone();
         for (path, _) in self.overrides() {

@@ -45,20 +45,22 @@ pub struct Document {
     scene: CheckedScene,
     overrides: Vec<(String, String)>,
     table_head: String,
-    /// Effects that were switched off, with the values that changed at the same time.
+    /// Optional parts of the scene that were switched off, with the values that changed at the same
+    /// time.
     pub(super) removed: Vec<RemovedEffect>,
     /// Choices that a key of the explorer has replaced by other choices.
     pub(super) left: Vec<LeftChoice>,
 }
 
-/// An effect that was switched off, with the values that changed at the same time.
+/// An optional part of the scene that was switched off, with the values that changed at the same
+/// time.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RemovedEffect {
     pub(super) effect: Effect,
     pub(super) values: Vec<RemovedValue>,
 }
 
-/// A value that changed when an effect was switched off: its text before and after.
+/// A value that changed when an optional part was switched off: its text before and after.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RemovedValue {
     pub(super) path: String,
@@ -184,7 +186,8 @@ impl Document {
         Ok(new)
     }
 
-    /// Returns this document with the title, notice and comments that are true for its values.
+    /// Returns this document with only those descriptions (title, notice and comments) that are
+    /// true for its values.
     fn with_true_words(mut self) -> Document {
         if let Some(text) = self.text_with_true_words()
             && let Ok(scene) = read(text.as_str(), |_| Origin::Scene)
@@ -378,7 +381,8 @@ pub(super) fn pair(path: &str, value: impl Into<String>) -> (String, String) {
     (path.to_string(), value.into())
 }
 
-/// Adds an override. It replaces earlier overrides of the same field and of fields inside it.
+/// Adds a change of a field to the list of changes. Earlier changes of the same field and of fields
+/// inside it are removed from the list.
 fn remember(overrides: &mut Vec<(String, String)>, path: &str, value: &str) {
     overrides.retain(|(earlier, _)| !is_within(earlier, path));
     overrides.push(pair(path, value));

@@ -8,8 +8,8 @@ use super::text::edit::NOT_ONE_VALUE;
 use super::text::index::Text;
 use std::collections::BTreeSet;
 
-/// Returns the field at a path. If several choices have a field at this path, the choice in the
-/// text decides.
+/// Returns the field at a path. If several choices, such as the forms sphere and punch, have a
+/// field at this path, the choice in the text decides.
 pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
     let parent = path.rsplit_once('.').map_or("", |(parent, _)| parent);
     let variant = text.variant(parent);
@@ -32,7 +32,8 @@ pub(super) fn field_at(text: &Text, path: &str) -> Option<&'static Field> {
 pub(super) fn set(text: &Text, path: &str, value: &str) -> Result<Text, String> {
     let value = value.trim();
     let base = without_positions(path);
-    // Several fields have the same path if several choices have a field of this name.
+    // Several fields have the same path if several choices, such as the forms sphere and punch,
+    // have a field of this name.
     let fields: Vec<&Field> = FIELDS.iter().filter(|field| field.path == base).collect();
     let Some(field) = fields.first() else {
         return Err(no_such_field(path));

@@ -74,8 +74,8 @@ impl Effect {
         }
     }
 
-    /// Returns the scene with the effect switched on. The effect gets values that suit the rest of
-    /// the scene.
+    /// Returns the scene with this optional part. The part gets values that suit the rest of the
+    /// scene.
     pub(super) fn suited(self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         match self {
@@ -150,15 +150,16 @@ pub(super) fn pressing(loading: &[Move]) -> Move {
         .unwrap_or(Move::ToZeroForce)
 }
 
-/// Compares how much two stages press. Any force counts as more than any indentation.
+/// Compares how much two stages press the body. A stage that ends at a force counts as more than a
+/// stage that ends at an indentation.
 fn compare_pressure(stage: Move, other: Move) -> Ordering {
     let (rank, size) = pressure(stage);
     let (other_rank, other_size) = pressure(other);
     rank.cmp(&other_rank).then(size.total_cmp(&other_size))
 }
 
-/// Returns the rank of a stage among the stages that press, and its force in N or its indentation
-/// in m, which is positive. A stage that does not press has rank 0.
+/// Returns the rank of a stage among the stages that press the body, and the positive force in N or
+/// indentation in m at which the stage ends. A stage that does not press has rank 0.
 fn pressure(stage: Move) -> (u8, f64) {
     match stage {
         Move::ToForce(force) if force > 0.0 => (2, force),

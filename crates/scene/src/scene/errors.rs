@@ -7,7 +7,7 @@ use strsim::osa_distance;
 use super::text::index::{is_within, line_column};
 use asperity_data::shown;
 
-/// Number of errors that are listed; further errors are only counted.
+/// Largest number of errors that an error message lists. Further errors are only counted.
 pub(super) const MOST_LISTED: usize = 100;
 
 /// Where an invalid value comes from: a text, changes of fields, or a program.
@@ -84,7 +84,8 @@ impl SceneError {
         }
     }
 
-    /// Returns an error about the value of a field. Its origin is set later.
+    /// Returns an error about the value of a field. The origin of the error is set later by the
+    /// function [`at`](Self::at).
     pub(super) fn of(
         field: &str,
         value: impl Into<String>,
@@ -137,7 +138,8 @@ impl SceneError {
 pub struct SceneErrors(pub(super) Vec<SceneError>);
 
 impl SceneErrors {
-    /// Returns `Err` if there are errors. Each error gets its origin, and a long list is shortened.
+    /// Returns `Err` if there are errors. The function `origin` gives each error its origin, and a
+    /// long list is shortened.
     pub(super) fn result(
         mut errors: Vec<SceneError>,
         origin: impl Fn(&SceneError) -> Origin,
@@ -205,8 +207,9 @@ pub(super) fn origin_at(text: &str, name: &str, offset: usize) -> Origin {
     }
 }
 
-/// Returns the overrides that may have caused an error: overrides of its field, of a group around
-/// the field, or of a field inside it. If there are none, returns all overrides.
+/// Returns the changes of fields that may have caused an error: changes of the field of the error,
+/// of a group around this field, or of a field inside it. If there are no such changes, returns all
+/// changes.
 pub(super) fn overrides_behind(error: &SceneError, overrides: &[(String, String)]) -> Origin {
     let mut all = Vec::new();
     let mut behind = Vec::new();

@@ -99,7 +99,7 @@ pub(super) const fn row(path: &'static str, place: Place, range: Range) -> Field
     }
 }
 
-/// Methods that set one part of the description.
+/// Each of these methods returns the description with another value of one member.
 impl Field {
     pub(super) const fn name(self, name: &'static str) -> Field {
         Field { name, ..self }
@@ -280,8 +280,8 @@ pub fn target_field(stage: Move) -> Option<(&'static Field, f64)> {
     }
 }
 
-/// Numbers below this limit are exact if they are integers. Larger floating-point numbers may skip
-/// integers.
+/// Whole numbers below this limit are exact as floating-point numbers. Above the limit,
+/// floating-point numbers may skip whole numbers.
 const MOST_EXACT: f64 = 9.0e15;
 
 impl Field {
@@ -336,7 +336,8 @@ fn read_whole(field: &Field, typed: &str) -> Result<String, QuantityError> {
     if digits.parse::<u64>().is_ok() {
         return Ok(digits);
     }
-    // A seed can have more digits than a floating-point number, so it is not read as one.
+    // A seed can have more digits than a floating-point number holds, so a whole number is not read
+    // as one.
     if begins_as_number(typed) && ron::from_str::<u64>(typed).is_err() {
         let whole = whole_in_ron(parse_quantity(typed, field.unit)?);
         return Ok(whole.unwrap_or_else(|| typed.to_owned()));

@@ -84,21 +84,21 @@ const UNIT: Range = Text {
     lines: false,
 };
 
-/// Makes the place of a number of a form. The number is a member of the variant `$form`.
+/// Makes the `Place` of a number of a form: a member of the variant `$form`.
 macro_rules! form {
     ($form:ident, $member:ident) => {
         place!(form, Some(Form::$form { $member, .. }) => $member).of(stringify!($form))
     };
 }
 
-/// Makes the place of a member of a self-affine roughness.
+/// Makes the `Place` of a member of a self-affine roughness.
 macro_rules! self_affine {
     ($member:ident) => {
         place!(roughness, Some(Roughness::SelfAffine { $member, .. }) => $member).of("SelfAffine")
     };
 }
 
-/// Makes the place of a member of a measured surface.
+/// Makes the `Place` of a member of a measured surface.
 macro_rules! measured {
     ($member:ident) => {
         place!(roughness, Some(Roughness::Measured(Measured { $member, .. })) => $member)

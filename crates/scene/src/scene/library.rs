@@ -150,7 +150,7 @@ pub fn scenes(own: Option<&Path>, working: &Path) -> Vec<Entry> {
         entries.extend(list_folder(own, Source::Own));
         own_place = own.canonicalize().ok();
     }
-    // If `own` and `working` are the same folder, it is listed only once.
+    // If `own` and `working` are the same folder, the folder is listed only once.
     if own_place.is_none() || own_place != working.canonicalize().ok() {
         entries.extend(list_folder(working, Source::Working));
     }
@@ -253,7 +253,7 @@ fn list_folder(folder: &Path, origin: Source) -> Vec<Entry> {
     entries
 }
 
-/// Returns true if a text is the plan of a study. A plan contains a scene.
+/// Returns true if a text is the plan of a study, which contains a scene as its part `scene`.
 fn is_plan(text: &str) -> bool {
     Text::new(text).is_ok_and(|text| text.span("scene").is_some())
 }
@@ -266,8 +266,8 @@ fn scene_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
             continue;
         };
         let path = entry.path();
-        // For a link, its target decides. A link without a target is not a folder, so it is listed
-        // and gives an error message.
+        // `is_dir` follows links. A link without a target is not a folder, so the link is listed,
+        // and its entry has an error message.
         if path.extension().is_some_and(|ending| ending == "ron") && !path.is_dir() {
             paths.push(path);
         }

@@ -134,8 +134,8 @@ fn unit_name(text: &str) -> Result<String, asperity_surface::SurfaceError> {
 }
 
 impl Measured {
-    /// Returns the names of the files of each face: first the rough face, then the opposite face if
-    /// the scene has its file.
+    /// Returns the names of the files of each face of the contact: first the rough body, then the
+    /// opposite body if the scene names its file.
     pub(super) fn faces(&self) -> Vec<Vec<&str>> {
         let mut face = vec![self.file.as_str()];
         face.extend(self.further_files.iter().map(String::as_str));

@@ -48,8 +48,8 @@ impl Scene {
                 return Ok(());
             }
         }
-        // An adhesion contains either a work or a parameter, so its present values decide which
-        // values can be set.
+        // A number of the adhesion is set by its own function, because the present values of the
+        // adhesion decide which numbers can be set: an adhesion has either a work or a parameter.
         let name = path.strip_prefix("adhesion.").ok_or(NumberError::Missing)?;
         self.adhesion = Some(Adhesion::with_number(self.adhesion, name, number)?);
         Ok(())

@@ -43,7 +43,8 @@ pub fn open(name_or_path: &str) -> Result<Document, SceneErrors> {
     if let Some(own) = &own
         && own_names.iter().any(|name| name == name_or_path)
     {
-        // The file exists but is no regular file; the error message states this.
+        // The file exists, but it is not a regular file. The error message of `text_of_file` states
+        // this.
         let path = own.join(format!("{name_or_path}.ron"));
         return document_of(text_of_file(&path), &path.display().to_string());
     }

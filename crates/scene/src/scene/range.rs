@@ -170,7 +170,7 @@ fn listed(choices: &[&str], last: &str) -> String {
     }
 }
 
-/// A bound in the usual notation: `0.5`, `1e13`, `π/2`.
+/// A bound of a range. `Display` writes it in the usual notation: `0.5`, `1e13`, `π/2`.
 struct Number(f64);
 
 impl fmt::Display for Number {

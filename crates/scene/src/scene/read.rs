@@ -28,8 +28,9 @@ pub(super) fn read(text: &str, origin: impl Fn(usize) -> Origin) -> Result<Scene
 }
 
 /// Returns the byte offset and the error of a text that does not begin as a scene or has an
-/// unsupported version. An unsupported version may be the reason why the rest is unreadable.
-/// Returns `None` for any other text.
+/// unsupported version. The version is checked before other errors are explained, because an
+/// unsupported version may be the reason why the rest is unreadable. Returns `None` for any other
+/// text.
 fn no_scene(source: &str, error: &SpannedError) -> Option<(usize, SceneError)> {
     if !source.trim().is_empty() && !source[..place_of(source, error).1].contains('(') {
         let start = source.len() - source.trim_start().len();
@@ -136,7 +137,8 @@ fn explain_value(text: &Text, path: &str, offset: usize, error: &Error) -> (usiz
         return (offset, SceneError::of(path, "", "", &plain(error)));
     };
     let offset = text.nearest_value(path);
-    // A text without quotes is an error because of the missing quotes, not because of its content.
+    // The error of a text without quotes is the missing quotes and not its content, so no allowed
+    // values are stated for it.
     if let Some(field) = field_at(text, path)
         && !matches!(field.range, Range::Text { .. })
         && !value.is_empty()
@@ -191,7 +193,7 @@ fn plain(error: &Error) -> String {
     text.to_string()
 }
 
-/// Returns a text whose first letter is a small letter.
+/// Returns a text with its first letter changed to a small letter.
 fn with_small_letter(text: &str) -> String {
     let Some(first) = text.chars().next() else {
         return String::new();
@@ -234,8 +236,8 @@ mod tests {
 
     #[test]
     fn errors_are_stated_in_the_terms_of_the_scene() {
-        // Each row has the fifth line of a scene, and the column, the field, the value and a part
-        // of the message of its error.
+        // Each row has the fifth line of a scene, followed by the column, the field, the value and
+        // a part of the message of the error in this line.
         for row in [
             "lenght: 1,|5|lenght||did you mean length?",
             "length: 1.0,|5|length||given twice",

@@ -62,10 +62,10 @@ fn stage_index(inside: &str) -> Option<usize> {
     inside.strip_suffix(".0")?.parse().ok()
 }
 
-/// A slot: the member of a scene that stores the value of a field, or states that the scene leaves
-/// it out.
+/// A slot: the member of a scene that stores the value of a field. An optional slot may be empty,
+/// if the scene does not state the value.
 pub(super) trait Slot {
-    /// Returns the value; `None` if the scene leaves it out.
+    /// Returns the value; `None` if the scene does not state it.
     fn value(&self) -> Option<Value<'_>>;
 
     /// Sets the numerical value at a path inside this slot; [`Value::number`] describes such paths.
@@ -74,8 +74,8 @@ pub(super) trait Slot {
         false
     }
 
-    /// Returns a slot with this numerical value, if the slot can be left out and its value is
-    /// numerical; otherwise `None`.
+    /// Returns a slot with this numerical value. Returns `None` if the slot cannot be empty, or if
+    /// its value is not a number.
     fn of_number(_number: f64) -> Option<Self>
     where
         Self: Sized,
@@ -270,9 +270,9 @@ impl Slot for Numerics {
     }
 }
 
-/// The slot of a field in any scene, as two functions: one for reading and one for writing. They
-/// return `None` if the scene has another choice. The macro `place!` makes both functions from one
-/// expression.
+/// The slot of a field in any scene, as two functions: one for reading and one for writing. Both
+/// functions return `None` if the scene has another choice, such as another form. The macro
+/// `place!` makes both functions from one expression.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     /// Choice that has the field, such as `Cone` for an angle.
@@ -289,7 +289,7 @@ impl Place {
         slot_mut: |_| None,
     };
 
-    /// Returns this place, restricted to scenes with this choice.
+    /// Returns this place, restricted to scenes with the choice `choice`, such as the form `Cone`.
     pub(super) const fn of(self, choice: &'static str) -> Place {
         Place {
             choice: Some(choice),

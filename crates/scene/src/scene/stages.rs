@@ -80,7 +80,7 @@ impl StageKind {
     }
 }
 
-/// Examples of all kinds in RON.
+/// Examples of all kinds of loading stages in RON.
 pub(super) const STAGES: [&str; StageKind::ALL.len()] = {
     let mut examples = [""; StageKind::ALL.len()];
     let mut place = 0;
@@ -166,8 +166,8 @@ pub fn loading_text(loading: &[Move], format: fn(f64, &str) -> String) -> String
     items.join(", ")
 }
 
-/// Returns how many times the loading repeats the second stage and then the first stage, directly
-/// after its first stage.
+/// Returns the number of loops at the beginning of a loading. After the first stage, each loop
+/// consists of the second stage and then the first stage again.
 fn loops_at_start(loading: &[Move]) -> usize {
     loading[1..]
         .chunks_exact(2)
@@ -243,8 +243,8 @@ pub fn read_stage(text: &str, usual: Option<usize>) -> Result<Move, QuantityErro
             return Ok((kind.stage)(0.0));
         }
     }
-    // The text has no name of a kind, so the unit of the target value decides the kind. If no kind
-    // has this unit, the target is a force.
+    // The text does not begin with the name of a kind, so the unit of the target value decides the
+    // kind. If no kind has this unit, the target is a force.
     let mut kinds: Vec<&StageKind> = Vec::new();
     kinds.extend(usual.map(|usual| &StageKind::ALL[usual]));
     kinds.extend(

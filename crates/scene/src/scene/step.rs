@@ -5,7 +5,7 @@ use super::fields::fields_inside;
 use super::range::{Range, choice_key, choice_name};
 use super::text::ron_float;
 
-/// The Renard series R20 of ISO 3.
+/// Preferred numbers for small steps: the Renard series R20 of ISO 3.
 const FINE_SERIES: &[f64] = &[
     1.0, 1.12, 1.25, 1.4, 1.6, 1.8, 2.0, 2.24, 2.5, 2.8, 3.15, 3.55, 4.0, 4.5, 5.0, 5.6, 6.3, 7.1,
     8.0, 9.0,
@@ -107,9 +107,9 @@ impl Field {
         if !self.range.contains(*changed) {
             return None;
         }
-        // The numbers of waves are compared instead of the wavelengths, because a longest
-        // wavelength that is not a whole fraction of the length may round to the same number of
-        // waves as the shortest one.
+        // The numbers of waves are compared instead of the wavelengths. The longest wavelength may
+        // not be a whole fraction of the length and may round to the same number of waves as the
+        // shortest one.
         let is_ordered = (length / longest).round() <= (length / shortest).round();
         if !is_ordered {
             return None;
@@ -138,7 +138,7 @@ impl Field {
     }
 
     /// Returns the preferred number that is `steps` steps away from `value`. If the range of the
-    /// field ends before, returns the first preferred number outside the range.
+    /// field ends on the way, returns the first preferred number outside the range.
     fn preferred(&self, value: f64, steps: i32, coarse: bool) -> Option<f64> {
         let series = if coarse { COARSE_SERIES } else { FINE_SERIES };
         let mut next = preferred(value, series, steps > 0)?;
@@ -229,8 +229,8 @@ fn preferred(value: f64, series: &[f64], up: bool) -> Option<f64> {
     if value == 0.0 {
         return None;
     }
-    // Exponent and mantissa are read from the decimal text, because it is exact at powers of ten
-    // and `log10` is not.
+    // Exponent and mantissa are read from the decimal text, which is exact at powers of ten,
+    // whereas `log10` is not.
     let text = format!("{:e}", value.abs());
     let (mantissa, exponent) = text.split_once('e')?;
     let mantissa: f64 = mantissa.parse().ok()?;
@@ -360,7 +360,8 @@ mod tests {
             stepped("roughness.wavelengths", "(1.0e-4, 2.0e-7)", 1, false),
             None
         );
-        // Each step changes the contact, and steps in one direction end when one wave is left.
+        // Each step must change the number of waves on the profile, and the steps must end when one
+        // wave is left.
         let (mut value, mut counts) = ("(1.0e-4, 3.0e-7)".to_owned(), Vec::new());
         while let Some(next) = field("roughness.wavelengths", None)
             .unwrap()

@@ -71,9 +71,9 @@ impl Document {
         self.with_scene(&effect.suited(self.scene()))
     }
 
-    /// Returns this document with the values that an effect had before it was removed. Values that
-    /// were changed since then stay as they are. Returns `None` if the effect was not removed, or
-    /// if the scene does not allow its former values.
+    /// Returns this document with the values that an optional part had before it was removed.
+    /// Values that were changed since then stay as they are. Returns `None` if the part was not
+    /// removed, or if the scene does not allow its former values.
     fn restored(&self, effect: Effect) -> Option<Document> {
         let removed = self
             .removed
@@ -128,7 +128,7 @@ impl Document {
             return Ok(None);
         };
         let mut refused = None;
-        // The loop goes through all choices and `None`; the present choice need not be among them.
+        // The loop tries all choices and `None`. The present choice need not be one of them.
         for distance in 1..=choices.len() as i32 + 1 {
             let steps = if forwards { distance } else { -distance };
             let Some(next) = field.stepped(&here, steps, false) else {
@@ -150,8 +150,8 @@ impl Document {
         refused.map_or(Ok(None), Err)
     }
 
-    /// Returns the choices that keys have replaced, including `here`, the present choice of
-    /// `field`.
+    /// Returns the list of choices that keys of the explorer have replaced, with `here`, the
+    /// present choice of `field`, added to it.
     fn left_choices(&self, field: &Field, here: String) -> Vec<LeftChoice> {
         let mut left = self.left.clone();
         if here != "None" {
@@ -164,7 +164,8 @@ impl Document {
         left
     }
 
-    /// Returns this document with the choice `choice` of a field. The choice may be `None`.
+    /// Returns this document with the choice `choice` of a field, such as the form `Cone`. The
+    /// choice may be `None`.
     fn with_chosen(&self, field: &Field, choice: &str) -> Result<Document, SceneErrors> {
         let Some(effect) = effect_at(field.path) else {
             return self.with_choice(field.path, choice);
@@ -177,7 +178,7 @@ impl Document {
             };
         }
         // If the removed part had this choice, its former values come back. Otherwise the user has
-        // passed other choices since then.
+        // gone through other choices since the part was removed.
         let back = self.with(effect)?;
         let is_this_choice = back
             .value(field.path)
@@ -209,7 +210,7 @@ impl Document {
         {
             return Ok(suited);
         }
-        // A new adhesion keeps the range of the attraction.
+        // If another adhesion is chosen, the range of the attraction stays the same.
         if path == "adhesion"
             && let Some(Adhesion { range, .. }) = self.scene().adhesion
             && let Ok(usual) = read_ron::<Adhesion>(choice)
@@ -229,8 +230,8 @@ fn is_same_choice(one: &str, other: &str) -> bool {
     choice_key(one) == choice_key(other)
 }
 
-/// Returns the overrides that turn one scene into another. If the new scene no longer states a
-/// field, the whole group of the field is replaced.
+/// Returns the changes of fields that turn one scene into another. If the new scene no longer
+/// states a field, the whole group of the field is replaced.
 fn overrides_to(from: &Scene, to: &Scene) -> Vec<(String, String)> {
     differing(from, to, |before, after| after || !before)
         .into_iter()

@@ -35,7 +35,7 @@ fn pair_around(path: &str) -> Option<&'static Field> {
         .filter(|field| matches!(field.range, Range::Band(..) | Range::Wavelengths(..)))
 }
 
-/// A value as a user types it.
+/// A change of a field as a user types it.
 struct Typed<'t> {
     path: &'t str,
     value: &'t str,

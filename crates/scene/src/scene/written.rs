@@ -8,14 +8,14 @@ use super::stages::stages_in_ron;
 use super::text::{real_in_ron, ron_string};
 
 impl Field {
-    /// Returns the value of this field. Returns `None` if the scene leaves it out or has another
-    /// choice.
+    /// Returns the value of this field. Returns `None` if the scene does not state the value or has
+    /// another choice, such as another form.
     pub(super) fn value<'s>(&self, scene: &'s Scene) -> Option<Value<'s>> {
         (self.place.slot)(scene)?.value()
     }
 
     /// Returns true if the scene has the group and the choice to which this field belongs. The
-    /// scene may still leave out the value.
+    /// scene need not state the value of the field.
     pub(super) fn is_in(&self, scene: &Scene) -> bool {
         if self.parent().is_empty() {
             return true;
@@ -37,8 +37,8 @@ impl Field {
         }
     }
 
-    /// Returns the default of this field in RON: the value if the scene leaves the field out. The
-    /// text is empty if the field is required.
+    /// Returns the default of this field in RON, which is its value if the scene does not state the
+    /// field. The text is empty if the field is required.
     pub(super) fn default_in(&self, scene: &Scene) -> &'static str {
         if self.path == "numerics.edges" {
             scene.numerics.solver.usual_edges().name()
@@ -47,8 +47,8 @@ impl Field {
         }
     }
 
-    /// Returns the value of this field in RON, or its default if the scene leaves it out. Returns
-    /// `None` if the scene has another choice.
+    /// Returns the value of this field in RON, or its default if the scene does not state the
+    /// value. Returns `None` if the scene has another choice, such as another form.
     pub(super) fn written(&self, scene: &Scene) -> Option<String> {
         let Some(value) = self.value(scene) else {
             return self.is_in(scene).then(|| self.default_in(scene).to_owned());
@@ -111,10 +111,10 @@ pub fn to_ron(scene: &Scene) -> String {
     text + ")\n"
 }
 
-/// Returns the fields that differ between two scenes. The fields of a group are compared one by one
-/// if both scenes have the same choice and `splits` is true for each field; otherwise the whole
-/// group counts as one field. The arguments of `splits` state whether the first and the second
-/// scene state the field.
+/// Returns the fields that differ between two scenes. A group of fields is compared field by field
+/// if two conditions hold: both scenes have the same choice for the group, and `splits` is true for
+/// each field. The arguments of `splits` are true if the first and the second scene state the
+/// field. Otherwise the whole group counts as one field.
 pub(super) fn differing(
     first: &Scene,
     second: &Scene,

@@ -13,8 +13,8 @@ use crate::scene::model::{Scene, Solver as SolverChoice};
 use asperity_contact::motion::Body;
 use asperity_contact::{ContactError, Move, Reversal};
 
-/// Largest number of grid points below the first turning point of a map, divided by the number of
-/// turning points.
+/// Limit for the grid of a map: the number of grid points below the first turning point is at most
+/// this factor times the number of turning points.
 const MOST_BELOW: usize = 4;
 
 /// Function that receives each unloading and the index of its turning point.

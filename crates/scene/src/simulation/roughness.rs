@@ -19,7 +19,7 @@ const LONG_WAVES: f64 = 0.1;
 /// Waves count as long if at most this number of them fits on a scan.
 const LONG_WAVES_PER_SCAN: f64 = 4.0;
 
-/// Everything that determines the heights of a roughness.
+/// Key of a roughness: everything that determines its heights.
 #[derive(Clone, PartialEq)]
 pub(super) struct RoughnessKey {
     source: Source,
@@ -57,7 +57,7 @@ pub(super) struct Rough {
     pub facts: Option<MeasuredFacts>,
 }
 
-/// Spectrum of measured files, with everything that determines it.
+/// Spectrum that was estimated from measured files, with the files and options that determine it.
 pub(super) struct KeptSpectrum {
     /// Paths of the files of each face of the contact: the rough body, and the opposite body if it
     /// has a file.
@@ -200,9 +200,9 @@ impl RoughnessMaker {
         })
     }
 
-    /// Returns the measured surface of the files `faces`. It is the surface in memory if there is
-    /// one, otherwise the spectrum kept from the last call if the files are the same, and otherwise
-    /// a newly read surface.
+    /// Returns the measured surface of the files `faces`. If a measured surface is in memory,
+    /// returns this surface. Otherwise, if the files are the same as in the last call, returns the
+    /// surface of the last call. Otherwise reads the files.
     fn surface(
         &mut self,
         faces: &[Vec<PathBuf>],
@@ -286,9 +286,9 @@ fn long_wave_share(
     (longest.rms_height / rms_height).powi(2)
 }
 
-/// Returns the smallest mode up to which the waves have together a tenth of the mean squared
-/// height. `length` is the length of the profile in m, `modes` are its modes, and `rms_height` is
-/// its rms height in m.
+/// Returns the smallest mode such that the waves up to this mode have together at least a tenth of
+/// the mean squared height. `length` is the length of the profile in m, `modes` are its modes, and
+/// `rms_height` is its rms height in m.
 fn long_waves(line: &EquivalentLine, length: f64, modes: ModeRange, rms_height: f64) -> f64 {
     let mut squared_height = 0.0;
     for mode in modes.first..=modes.last {

@@ -74,7 +74,7 @@ impl Simulation {
     }
 
     /// Returns the profile of a form without roughness. If the last scene had the same form, length
-    /// and number of springs, its profile is used again.
+    /// and number of springs, the profile of the last scene is used again.
     fn smooth_profile(&mut self, scene: &Scene, form: &Form) -> Result<Profile, RunError> {
         let length = scene.length;
         let points = scene.numerics.points;

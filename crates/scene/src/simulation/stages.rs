@@ -61,7 +61,8 @@ pub struct Simulation {
     histogram: Option<Histogram>,
     /// The last profile in the type that a contact needs, with its contact tree.
     profile: Option<Profile>,
-    /// Profile of the form without roughness; `None` until F_smooth needs it.
+    /// Profile of the form without roughness, for the adhesion force of the smooth body; `None`
+    /// until it is needed.
     pub(super) smooth: Option<SmoothProfile>,
     /// Contact tree of a former profile. The next tree uses its memory.
     former_tree: ContactTree,
@@ -203,7 +204,8 @@ impl Simulation {
         let rms_height = governing
             .amplitude
             .map_or(0.0, |amplitude| amplitude.rms_height);
-        // The heights of a measured surface are already in metres.
+        // The heights of a measured surface are already in metres. Other heights are scaled to the
+        // rms height.
         let scale = if measured.is_some() { 1.0 } else { rms_height };
         let modes = rough
             .and_then(|rough| rough.modes)
@@ -338,9 +340,9 @@ impl Simulation {
         Ok(binned)
     }
 
-    /// Checks that there is enough memory for a computation, before anything is allocated. Kept
-    /// memory counts as available. It is released if it is far larger than needed or if the
-    /// remaining memory is too small.
+    /// Checks that there is enough memory for a computation, before anything is allocated. Memory
+    /// from former computations counts as available. This memory is released if it is far larger
+    /// than needed or if the remaining memory is too small.
     fn make_room(&mut self, bytes: u64) -> Result<(), RunError> {
         if self.kept / MOST_SPARE > bytes && self.kept > SMALL {
             self.give_back();

@@ -27,11 +27,13 @@ const SAMPLED: u64 = 64;
 const SAMPLED_WITH_EDGES: u64 = 120;
 /// Largest number of points besides the samples at which a stage is searched for its extreme force.
 const SEARCHED: u64 = 256;
-/// Number of bytes for each spring, for the search between two points of the curve at which a
-/// compliant instrument loses the contact, as measured. All springs may detach there.
+/// Number of bytes for each spring, as measured, for a search between two points of the curve. The
+/// search finds where a compliant instrument loses the contact. In the worst case all springs
+/// detach between the two points.
 const DISPLACED: u64 = 320;
-/// Number of bytes for each spring, for the events between two neighbouring points of the curve if
-/// all events lie there, as measured. These events are sorted together, so more samples need less.
+/// Number of bytes for each spring, as measured, for the events between two neighbouring points of
+/// the curve. In the worst case all events lie between two points. With more points, fewer events
+/// are sorted together, and less memory is needed.
 const EVENTS_TOGETHER: u64 = 256;
 /// Number of bytes for each spring of a rough profile without adhesion, for the gaps at which the
 /// springs touch, as measured.
@@ -53,8 +55,8 @@ const LARGE_CURVE: u64 = 1 << 20;
 /// Number of records of a loading stage for which memory is needed at the same time for each stage:
 /// while the list of records grows, its former memory and new memory of twice the size both exist.
 const RECORDS: u64 = 3;
-/// Largest prime factor of a number of springs for which the Fourier transform needs no
-/// convolution.
+/// If the number of springs has a prime factor above this limit, the Fourier transform needs a
+/// convolution and more memory.
 const LARGEST_FACTOR: u64 = 31;
 
 /// Reasons why parts of the computation are skipped.
@@ -441,11 +443,12 @@ impl Planner<'_> {
             (false, true) => Err("roughness: Measured, as the line"),
             (false, false) => Err("no roughness: smooth"),
         };
-        // Memory of coefficients, scratch space and twiddle factors, as measured. With an odd
-        // number of springs the transform has twice the length.
+        // The Fourier transform needs memory for coefficients, scratch space and twiddle factors,
+        // as measured. With an odd number of springs the transform has twice the length.
         let points = self.points;
         let transform = points * (HEIGHT + if points.is_multiple_of(2) { 20 } else { 56 });
-        // Memory of the convolution that the transform needs for a large prime factor, as measured.
+        // If the number of springs has a large prime factor, the transform needs further memory for
+        // a convolution, as measured.
         let factor = largest_prime_factor(points);
         let convolution = if factor > LARGEST_FACTOR {
             152 * factor
@@ -494,7 +497,8 @@ impl Planner<'_> {
         } else {
             Ok("adhesion with a loading that goes back")
         };
-        // If the form has no closed form, F_smooth needs the springs of another profile.
+        // The adhesion force of the smooth body needs a further profile with its springs, unless
+        // the form has a closed form.
         let has_smooth = self.scene.roughness.is_some()
             && self
                 .scene

@@ -7,7 +7,7 @@ use super::index::{Text, TextSpan};
 /// Characters that can separate the entries on one line.
 const BLANKS: [char; 2] = [' ', '\t'];
 
-/// Error message for a text that is not exactly one value.
+/// Error message for a new value whose text is not exactly one value in RON.
 pub(in crate::scene) const NOT_ONE_VALUE: &str =
     "not one RON value by itself, such as 1.0e-3 or (1, 512)";
 
@@ -257,8 +257,8 @@ struct Part<'t> {
     end: usize,
 }
 
-/// Returns the entry after which a new entry `name` belongs: among the entries whose names are
-/// before `name` in `order`, the last in this order.
+/// Returns the entry after which a new entry `name` belongs. Of all entries whose names are before
+/// `name` in `order`, it is the one that comes last in `order`.
 fn entry_before<'t>(entries: &[&'t TextSpan], name: &str, order: &[&str]) -> Option<&'t TextSpan> {
     let rank = |name: &str| order.iter().position(|other| *other == name);
     entries

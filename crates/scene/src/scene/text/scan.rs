@@ -50,7 +50,7 @@ const BLANKS: [char; 11] = [
 pub(super) fn scan(text: &str) -> Result<Scan, Unreadable> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut comments = Vec::new();
-    // Brackets that are still open: the index of the token and the bracket.
+    // Brackets that are still open, each with the index of its token.
     let mut open: Vec<(usize, char)> = Vec::new();
     let mut at = skip_blank(text, 0, &mut comments)?;
     while let Some(c) = text[at..].chars().next() {
