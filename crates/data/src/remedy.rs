@@ -83,7 +83,7 @@ pub enum Remedy {
     Preload,
     /// State the range of a search.
     Range,
-    /// State a form in a scene with the roughness of a measured surface.
+    /// State a form, such as a paraboloid, in a scene whose roughness is a measured surface.
     FormOfScene,
     /// Choose the axes of a figure.
     FigureAxes,

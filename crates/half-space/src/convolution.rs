@@ -76,7 +76,7 @@ impl<T: FftNum + Default> Convolution<T> {
 
     /// Plans the convolution with a kernel that is given by its transform. `transform` gets the
     /// wave numbers (k_x, k_y), in waves on the padded grid. Wave numbers above half of the number
-    /// of padded cells stand for negative wave numbers.
+    /// of padded cells mean negative wave numbers.
     pub fn by_transform(
         cells: usize,
         padded: usize,

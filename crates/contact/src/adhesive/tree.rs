@@ -46,8 +46,8 @@ pub struct Node {
     pub right: u32,
 }
 
-/// A patch while the level rises: from the local minimum or the merger at which the patch appears
-/// up to the next merger.
+/// Branch of the contact tree: one patch while the level rises, from the local minimum or the
+/// merger at which the patch appears up to the next merger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch(u32);
 

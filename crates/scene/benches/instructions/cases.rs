@@ -15,7 +15,7 @@ pub const RADIUS: f64 = 1.0e-3;
 pub const HURST: f64 = 0.7;
 /// Rms height h of the roughness in m.
 pub const RMS_HEIGHT: f64 = 1.0e-7;
-/// Last mode of the roughness.
+/// Last mode of the roughness, as the number of waves on the length of the profile.
 pub const LAST_MODE: u64 = POINTS as u64 / 4;
 /// Seed of the random phases.
 pub const SEED: u64 = 1;
