@@ -48,8 +48,9 @@ pub enum Message {
 #[derive(Clone, Debug)]
 pub struct View {
     pub pane: Pane,
-    /// Pane that has the main place on the screen. The force curve is then below this pane, and
-    /// replaces the profile and the close-up there. `None` if the force curve has the main place.
+    /// Pane that has the main place on the screen. In this case the force curve is drawn below this
+    /// pane, where the profile and the close-up would be. `None` if the force curve has the main
+    /// place.
     pub large: Option<Pane>,
     pub zoomed: bool,
     pub size: (u16, u16),

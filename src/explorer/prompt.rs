@@ -62,7 +62,7 @@ pub enum Purpose {
 #[derive(Clone, Debug)]
 pub struct Topic {
     pub section: &'static str,
-    /// Names of keys, or name of a pane, a parameter or a scene.
+    /// Name of the entry: its keys, or the name of a pane, a parameter or a scene.
     pub name: String,
     pub text: String,
     /// Further, everyday words with which a search finds the entry.

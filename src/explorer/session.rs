@@ -37,8 +37,9 @@ const REMOTE_FRAMES: u32 = 12;
 /// Longest time for which a frame over SSH is delayed to include an answer of the solver.
 const ANSWER_TIME: Duration = Duration::from_millis(30);
 
-/// Time without input after which unsaved changes are written to a file. The explorer waits for the
-/// disk then. If home folders are on another computer, this takes longer than a frame.
+/// Time without input after which unsaved changes are written to a file. While the explorer writes,
+/// it waits for the disk, which takes longer than a frame if the home folder is on another
+/// computer.
 const KEEPING_PAUSE: Duration = Duration::from_secs(1);
 
 /// Largest number of input events that wait for the main loop. Further input waits in the terminal.
@@ -278,8 +279,8 @@ enum Interruption {
 }
 
 impl Session<'_> {
-    /// Runs the loop of the session until it ends. Returns the number of the signal that ended it;
-    /// `None` if no signal did.
+    /// Runs the main loop of the session until the session ends. Returns the number of the signal
+    /// that ended the session; `None` if no signal did.
     fn run(&mut self) -> io::Result<Option<i32>> {
         self.runtime.perform(vec![Task::Ask]);
         while !self.runtime.app.finished {

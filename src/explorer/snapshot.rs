@@ -68,8 +68,8 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// Reads profile and contact at a position along the profile, from 0 to 1. `None` if the
-    /// profile has no springs.
+    /// Returns the heights at a position along the profile, where 0 is the left end and 1 the right
+    /// end. `None` if the profile has no springs.
     pub fn at(contact: &SectionContact<'_>, position: f64) -> Option<Self> {
         let last = contact.gaps.len().checked_sub(1)?;
         let spring = ((position * contact.gaps.len() as f64) as usize).min(last);
