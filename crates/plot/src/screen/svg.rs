@@ -84,7 +84,8 @@ fn stroke(colour: &str, width: f64, cap: &str) -> String {
     format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"{cap}\"")
 }
 
-/// Returns the backgrounds and the drawn characters as path data, grouped by kind and colour.
+/// Returns the path data of backgrounds and of characters that are drawn as shapes. Shapes of the
+/// same kind and colour share a path.
 fn paths(buffer: &Buffer, palette: &Palette) -> BTreeMap<(Kind, Rgb), String> {
     let mut paths = BTreeMap::<_, String>::new();
     for glyph in glyphs(buffer) {
