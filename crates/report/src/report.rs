@@ -142,7 +142,7 @@ pub enum Format {
     Json,
     /// Table with a comma between its columns (CSV).
     Csv,
-    /// Table as a NumPy array (NPY).
+    /// Table as an array of NumPy (NPY).
     Npy,
     /// Vector graphic for the web (SVG).
     Svg,
