@@ -66,7 +66,7 @@ pub fn option(remedy: &Remedy) -> String {
     words.to_owned()
 }
 
-/// Returns the sentences of a note, with the options that help.
+/// Returns the sentences of a note, with the options that are remedies.
 pub fn note(note: &Note) -> String {
     note.in_words(option)
 }

@@ -20,7 +20,7 @@ const MOST_STAGES: usize = 8;
 #[derive(Clone, Copy)]
 pub(crate) struct Summary<'a> {
     pub(crate) scene: &'a Scene,
-    /// Results on the own profile of the scene.
+    /// Results on the profile with the seed of the scene.
     pub(crate) outcome: &'a Outcome,
     /// Estimated error of the adhesion force; `None` if it is unknown.
     pub(crate) estimate: Option<&'a Estimate>,
