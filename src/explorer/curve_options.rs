@@ -374,8 +374,8 @@ impl CurveOptionRow {
     }
 }
 
-/// Returns the differences between two sets of options as text, such as `noise by the curve → 2
-/// nN`.
+/// Returns the differences between two sets of options as text, such as
+/// `noise by the curve → 2 nN`.
 pub fn changes(from: &CurveOptions, to: &CurveOptions) -> Vec<String> {
     let mut changes = Vec::new();
     for option in &OPTIONS {

@@ -32,21 +32,23 @@ enum Pending {
     Nothing,
     /// The first bytes of a character in UTF-8.
     Character { bytes: Vec<u8>, is_alt: bool },
-    /// ESC: either the escape key, or the beginning of a sequence.
+    /// `ESC`, which is either the escape key or the beginning of a sequence.
     Escape,
-    /// ESC O: a key of the application mode.
+    /// `ESC O`, the beginning of a key in the application mode.
     Application,
-    /// ESC [ followed by parameters. The value contains the parameters read so far.
+    /// `ESC [`, which parameters follow. The value contains the parameters read so far.
     Control(Vec<u8>),
-    /// ESC [ [: a function key of the Linux console.
+    /// `ESC [ [`, the beginning of a function key on the Linux console.
     Console,
-    /// ESC [ M: a gesture of the mouse, which consists of three more bytes.
+    /// `ESC [ M`, the beginning of a gesture of the mouse. The value contains those of the three
+    /// following bytes that have been read.
     Gesture(Vec<u8>),
-    /// ESC ], ESC P or ESC _: an answer of the terminal, which ends with BEL or ESC \.
+    /// `ESC ]`, `ESC P` or `ESC _`, the beginning of an answer of the terminal. The answer ends
+    /// with `BEL` or `ESC \`.
     Answer,
-    /// ESC inside an answer of the terminal.
+    /// `ESC` inside an answer of the terminal, which may be the beginning of its end.
     EscapeInAnswer,
-    /// ESC [ 200 ~: a pasted text. The value contains the text read so far.
+    /// `ESC [ 200 ~`, the beginning of a pasted text. The value contains the text read so far.
     Paste(Vec<u8>),
 }
 
@@ -194,7 +196,7 @@ impl Decoder {
     }
 
     /// Handles a byte that does not fit the incomplete sequence. A printable byte is dropped,
-    /// because it probably belongs to this sequence. A control character or ESC begins a new key.
+    /// because it belongs to this broken sequence. A control character or ESC begins a new key.
     fn begin_unless_text(&mut self, byte: u8) {
         if byte < b' ' {
             self.begin(byte, false);

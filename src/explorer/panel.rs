@@ -206,7 +206,7 @@ pub fn shades(chart: &Chart, look: Appearance, width: usize) -> Vec<Part> {
     parts
 }
 
-/// Calls `draw` with the colours and markers of charts in this appearance.
+/// Calls `draw` with the styles in which charts are drawn in this appearance.
 pub fn in_theme<R>(look: Appearance, draw: impl FnOnce(&CellStyle<'_>) -> R) -> R {
     draw(&CellStyle {
         ink: &|ink| look.theme.style(meaning(ink)),

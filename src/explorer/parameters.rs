@@ -121,7 +121,8 @@ impl Parameter {
             // Numbers of segments and of points are stored as text, but the user types them as
             // numbers.
             Setting::CurveOption(_) => !matches!(self.field.range, Range::Choice(_)),
-            // For a stage without a number, a typed number replaces it by a stage with this number.
+            // A stage without a number takes one as well: it is then replaced by a stage with this
+            // number.
             _ => self.leg.is_some() || !is_text,
         }
     }

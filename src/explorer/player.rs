@@ -11,8 +11,8 @@ const LIFT: f64 = 0.12;
 pub enum At {
     Start,
     Indentation(f64),
-    /// The pull-off of the loading. When the animation is not played, it shows this position; if
-    /// there is no pull-off, it shows the end of the stage.
+    /// The pull-off of the loading, to which the animation returns after it has been played to its
+    /// end. If there is no pull-off, this is the end of the stage.
     PullOff,
     /// The end of the stage. After a stage to separation, nothing is in contact.
     End,
@@ -32,8 +32,8 @@ impl Player {
         playing: true,
     };
 
-    /// Returns the position of the animation while it is not played: the pull-off or, if there is
-    /// none, the end of the last loading stage.
+    /// Returns the position of the animation after it has been played to its end: the pull-off or,
+    /// if there is none, the end of the last loading stage.
     pub fn at_rest(legs: &[LegRecord]) -> Player {
         let (leg, at) = match pull_off(legs) {
             Some((leg, _)) => (leg, At::PullOff),

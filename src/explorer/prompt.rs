@@ -42,7 +42,7 @@ pub enum Purpose {
         then_quit: bool,
     },
     Export,
-    /// Search for a scene, or the path of a scene or a study.
+    /// Words of a search for a scene in this list, or the path of a scene or a study.
     Scene(Vec<Entry>),
     Parameter {
         before: Pane,

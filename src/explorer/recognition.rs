@@ -8,7 +8,7 @@ use asperity_surface::files::content;
 use asperity_surface::{ReadOptions, SurfaceError, read};
 use std::path::Path;
 
-/// Content of a measured file.
+/// Kind of data that a measured file contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasuredFile {
     Curve,

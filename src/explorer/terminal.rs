@@ -79,8 +79,7 @@ impl Drop for TerminalGuard {
     fn drop(&mut self) {
         // If the terminal is gone, it cannot be restored, so the error is ignored.
         let _ = give_back(self.mouse);
-        // The hook cannot be removed during a panic. This does no harm, because the process then
-        // ends.
+        // The hook cannot be removed during a panic, and this is not necessary.
         if !std::thread::panicking() {
             let _ = std::panic::take_hook();
         }

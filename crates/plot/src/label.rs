@@ -296,8 +296,8 @@ pub fn value_label(name: &str, symbol: &str, unit: &str, value: f64) -> Label {
     statement(name, symbol, &text)
 }
 
-/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or `Hurst
-/// exponent 0.3` if `symbol` is empty.
+/// Creates a label from a quantity and its value, which is given as text: `H = 0.3`, or
+/// `Hurst exponent 0.3` if `symbol` is empty.
 pub fn statement(name: &str, symbol: &str, value: &str) -> Label {
     let value = value.replace(' ', "\u{a0}");
     if symbol.is_empty() {

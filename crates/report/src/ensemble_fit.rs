@@ -395,7 +395,7 @@ fn relative_change(change: f64) -> String {
     format!("{:+.0} %", 100.0 * change.exp_m1())
 }
 
-/// Returns text such as `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
+/// Returns an estimate with its interval as text: `51.6 mJ/m², 38.5 to 71.0 mJ/m² (95 %)`.
 fn with_interval(estimate: &IntervalEstimate, unit: &str) -> String {
     let value = format_rounded(estimate.value, 3, unit);
     let interval = format_range((estimate.low, estimate.high), 3, unit);
@@ -419,7 +419,7 @@ fn row(curve: &CurveOfEnsemble) -> [String; 6] {
     ]
 }
 
-/// Returns text such as `pull-off force larger by 12 % (3.1 standard errors)`.
+/// Returns a deviation as text: `pull-off force larger by 12 % (3.1 standard errors)`.
 fn deviation_in_words(deviation: &SummaryDeviation) -> String {
     let direction = if deviation.logarithm > 0.0 {
         "larger"

@@ -482,9 +482,9 @@ fn preload_axis(staircase: &Staircase) -> ChartAxis {
 struct Turn {
     symbol: &'static str,
     protocol: &'static str,
-    /// Force at which the loading turns, N.
+    /// Force in N at which the loading turns.
     force: f64,
-    /// Adhesion force after this turn, N.
+    /// Adhesion force in N of the unloading from this turning point.
     adhesion_force: f64,
     sign: Sign,
     ink: Ink,

@@ -252,8 +252,8 @@ fn vanishing(grid: &Grid, quantity: Quantity) -> Option<Quantity> {
         .find(|share| grid.layer(*share).is_some())
 }
 
-/// Returns the name in the legend for the boundary at which adhesion vanishes: `F_a(F=0) = 0.05
-/// F_a,max`.
+/// Returns the name in the legend for the boundary at which adhesion vanishes:
+/// `F_a(F=0) = 0.05 F_a,max`.
 fn vanishing_label(share: Quantity) -> Label {
     let symbol = share.symbol();
     let (force, ideal) = symbol.split_once('/').unwrap_or((symbol, ""));
@@ -608,7 +608,7 @@ mod tests {
         study_figure(title, grid, [SHARE, COEFFICIENT].map(charts).concat())
     }
 
-    /// Returns the estimates of a quantity in all cells.
+    /// Returns the estimates in all cells of the quantity with the index `layer`.
     fn estimates(study: &mut Study, layer: usize) -> impl Iterator<Item = &mut Option<Statistics>> {
         study
             .grid

@@ -437,8 +437,8 @@ mod tests {
         let mut outcome = Simulation::default()
             .run(scene, &|| false, &mut |_, _, _| Ok(()))
             .unwrap();
-        // Computing times and counts of work differ between machines and versions. Therefore fixed
-        // ones replace them.
+        // Computing times and counts of work may vary. Fixed numbers replace them, so that the text
+        // of the summary is always the same.
         outcome.timings = Timings {
             line: 1.5e-3,
             ..Timings::default()

@@ -15,15 +15,15 @@ pub fn counted_section(sheet: &mut Sheet, warnings: &[CountedWarning], profiles:
     sentences_section(sheet, &counted_texts(warnings, profiles));
 }
 
-/// Returns texts on the premises that are not met on some of `profiles` random profiles: `On 12 of
-/// 16 profiles: ` and then the warning. If a premise is met on none of the profiles, the number is
-/// left out.
+/// Returns texts on the premises that are not met on some of `profiles` random profiles:
+/// `On 12 of 16 profiles: ` and then the warning. If a premise is met on none of the profiles, the
+/// number is left out.
 pub fn counted_texts(warnings: &[CountedWarning], profiles: u64) -> Vec<String> {
     texts_with_shares(warnings, profiles, "profiles")
 }
 
-/// Returns texts on the premises that are not met in some of `records` records of a study: `On 12
-/// of 16 records: ` and then the warning, as in [`counted_texts`].
+/// Returns texts on the premises that are not met in some of `records` records of a study:
+/// `On 12 of 16 records: ` and then the warning, as in [`counted_texts`].
 pub fn counted_record_texts(warnings: &[CountedWarning], records: u64) -> Vec<String> {
     texts_with_shares(warnings, records, "records")
 }

@@ -92,7 +92,7 @@ pub fn restart(app: &mut App) {
 
 /// Moves the animation to the start of the loading stage that is `legs` stages after the present
 /// one. If `legs` is negative and the animation is inside a stage, moves to the start of this stage
-/// first.
+/// instead.
 pub fn go_to_leg(app: &mut App, legs: i32) {
     app.manual = None;
     // While the animation plays, it moves on between two presses of the key. Therefore a position
@@ -105,8 +105,8 @@ pub fn go_to_leg(app: &mut App, legs: i32) {
     app.play.at = At::Start;
 }
 
-/// Moves the animation to the pull-off, just before the contact is lost. The animation shows this
-/// state whenever it has not been moved.
+/// Moves the animation to the pull-off, just before the contact is lost. The animation also shows
+/// this state after it has been played to its end.
 pub fn go_to_pull_off(app: &mut App) {
     let rest = Player::at_rest(app.legs());
     if rest.at == At::End {

@@ -31,7 +31,7 @@ enum Run {
     Key(fn(&mut App, &KeyEvent)),
 }
 
-/// Runs a command, which changes the state.
+/// Runs a command on the state of the explorer.
 pub fn run(command: KeyCommand, app: &mut App) {
     let Some(entry) = entry_of(command.row) else {
         return;

@@ -32,7 +32,8 @@ pub struct PaneRow {
 }
 
 impl PaneRow {
-    /// A pane without content. The rows of other panes take from it what they do not set.
+    /// Row of a pane without content. The rows of all other panes begin with these properties and
+    /// replace some of them.
     pub const EMPTY: PaneRow = PaneRow {
         panel: |_, _| Panel::of_text(String::new(), ""),
         figure: |app, panel| {

@@ -304,7 +304,7 @@ mod tests {
         assert_eq!(drawn("a<b  漢c", Style::new()), words);
         let bold = text(8, 1, r##""#ff6b3d" font-weight="bold""##, "x");
         assert_eq!(drawn("x", Style::new().bold().red()), [bold]);
-        // 60 % of the foreground colour and 40 % of the background colour.
+        // The colour of dimmed text consists of 60 % foreground colour and 40 % background colour.
         assert_eq!(
             drawn("x", Style::new().dim()),
             [text(8, 1, r##""#8d9297""##, "x")]

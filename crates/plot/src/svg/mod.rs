@@ -428,7 +428,8 @@ mod tests {
                 .count();
             assert_eq!(dashes, 2, "a line and its sample");
         }
-        // An end of the band has no logarithm. It is drawn at the bottom of the chart.
+        // An end of the band has no logarithm. It is drawn at the bottom of the chart, so that all
+        // coordinates are finite.
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         assert!(small(Vec::new()).svg().len() < svg.len());
     }
