@@ -212,8 +212,8 @@ impl Editor {
             .parameter()
             .map(|parameter| parameter.path.clone())
             .unwrap_or_default();
-        // The user may have left the present scene earlier. If its content has not changed since,
-        // its unsaved changes need not be stored twice.
+        // The user may have left the present scene earlier, with the same content as now. Then its
+        // unsaved changes need not be stored twice.
         let document = &self.document;
         self.left
             .retain(|_, left| left.name() != document.name() || left.scene() != document.scene());

@@ -107,8 +107,8 @@ impl Runtime {
     }
 
     /// Runs the command with this name if it is valid in the present context. If no prompt is open,
-    /// commands that are valid in any other pane run too. Returns the tasks that only the owner of
-    /// the terminal can perform.
+    /// the commands of the context [`Context::Explore`] run as well. Returns the tasks that only
+    /// the owner of the terminal can perform.
     pub fn command(&mut self, name: &str) -> Vec<Task> {
         let bindings = &self.app.config.bindings;
         let mut command = bindings.named(name, self.app.keys());

@@ -25,8 +25,8 @@ use std::path::{Path, is_separator};
 
 /// Writes a regular file; its path is relative to `folder`. Pipes are refused, because writing
 /// could wait for ever. A scene file without an extension gets the extension `.ron`, unless its
-/// path leads to an existing file or to a folder. Returns the file with its final name, and the
-/// result.
+/// path leads to something other than a file, such as a folder. Returns the file with its final
+/// name, and the result.
 pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     let is_scene = file.content == Content::Scene;
     if is_scene && file.path.extension().is_none() && can_be_file(&folder.join(&file.path)) {
@@ -39,8 +39,8 @@ pub(super) fn write(app: &App, folder: &Path, mut file: OutputFile) -> Action {
     Action::Written(file, result)
 }
 
-/// Returns true if the path leads to a file, or if nothing exists there and it does not end like
-/// the path of a folder.
+/// Returns true if the path leads to a file, or if nothing exists at the path and the path does not
+/// end like the path of a folder.
 fn can_be_file(path: &Path) -> bool {
     let ends_as_folder = path.to_string_lossy().ends_with(is_separator);
     path.is_file() || !path.exists() && !ends_as_folder

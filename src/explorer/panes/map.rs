@@ -137,9 +137,9 @@ fn curves(app: &App, grid: &Grid) -> Vec<Chart> {
     charts
 }
 
-/// Returns the figure of the pane. If the grid has two axes, the figure contains the map; a map of
-/// regimes is followed by maps of the quantities that decide the regime. If the grid has one axis,
-/// the figure contains curves.
+/// Returns the figure of the pane. If the grid has two axes, the figure contains the map. In place
+/// of a map of regimes, it contains maps of the quantities that decide the regime; markers on these
+/// maps show the regimes. If the grid has one axis, the figure contains curves.
 fn figure(app: &App, grid: &Grid) -> Figure {
     let charts = match grid.up {
         None => curves(app, grid),
@@ -363,8 +363,9 @@ fn deciding(regime: Quantity) -> [Quantity; 2] {
     [share, Quantity::AdhesionCoefficient]
 }
 
-/// Returns the quantities that are shown together: for a regime, the quantities that decide the
-/// regime, as far as the grid contains them. Any other quantity is shown alone.
+/// Returns the quantities that are shown together. In place of a regime, these are the quantities
+/// that decide the regime or, if the grid contains none of them, its first other quantity. A
+/// quantity that is not a regime is shown alone.
 fn shown_quantities(mapped: Quantity, grid: &Grid) -> Vec<Quantity> {
     if !mapped.is_regime() {
         return vec![mapped];

@@ -397,9 +397,9 @@ fn add_warning(facts: &mut Vec<Fact>, warnings: &[String], width: usize) {
     }
 }
 
-/// Returns the difference between the loops of random square surfaces on an elastic half-space and
-/// those of the profiles, as far as it is computed. If the computation has failed, returns as much
-/// of the reason as fits.
+/// Returns the progress of the loops of random square surfaces on an elastic half-space and, after
+/// the first results, a comparison with the profiles. If the computation has failed, returns as
+/// much of the reason as fits.
 fn fact_of_squares(app: &App, width: usize) -> Fact {
     if let Some(why) = app.studies.failure::<SquareLoops>() {
         let text = format!("three dimensions: {why}");
