@@ -583,7 +583,7 @@ pub fn distribution(results: &Results, preload: f64, forces: Option<&ChartAxis>)
     let own = sorted[0];
     sorted.sort_by(f64::total_cmp);
 
-    // Returns which percentage of all profiles a number of profiles is.
+    // Returns the share of a number of profiles among all profiles, in per cent.
     let share = |profiles: usize| 100.0 * profiles as f64 / sorted.len() as f64;
     let mut steps = Vec::with_capacity(2 * sorted.len());
     for (index, &force) in sorted.iter().enumerate() {

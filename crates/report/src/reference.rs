@@ -119,8 +119,8 @@ impl ReferenceProgress {
                 self.squares_in_words()
             }
             ReferenceEvent::Loaded { share } => {
-                // The share of each load is an estimate. Therefore the sum of the shares may exceed
-                // 1 before the end.
+                // The number of loads is estimated in advance. Therefore the sum of the shares may
+                // exceed 1 before the end.
                 self.share = (self.share + share).min(0.99);
                 self.squares_in_words()
             }

@@ -189,7 +189,7 @@ impl Format {
     }
 
     /// Returns the format in which a result is written: the format of the extension of `file`;
-    /// without a file, the format `chosen` by the user; otherwise `usual`. `formats` are the
+    /// without an extension, the format `chosen` by the user; otherwise `usual`. `formats` are the
     /// formats that the result has.
     ///
     /// # Errors

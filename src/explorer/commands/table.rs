@@ -70,14 +70,14 @@ pub fn footer(app: &App) -> Vec<(String, &'static Row)> {
     })
 }
 
-/// Contexts in which all arrow keys act on the list of parameters. In other contexts the arrow keys
-/// move the mark on the map, or the crosshair.
+/// Contexts in which all arrow keys act on the list of parameters. In the other panes, the arrow
+/// keys move the mark on the map, or the crosshair.
 const LIST: &[Context] = &[Context::Explore, Context::Parameters];
 /// Contexts in which ↑ and ↓ select a parameter. In the pane of the map, they move the mark
 /// instead.
 const ROWS: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
-/// All contexts of panes except the list of parameters, in which the characters of these keys begin
-/// a value.
+/// All contexts of panes except that of the list of parameters, because there the characters of
+/// these keys begin a value.
 const OTHER_PANES: &[Context] = &[Context::Explore, Context::Map, Context::Crosshair];
 const OUTSIDE_MAP: &[Context] = &[Context::Explore, Context::Crosshair, Context::Parameters];
 const VALUES: &[Context] = &[Context::Parameters];

@@ -35,7 +35,8 @@ pub static ROW: PaneRow = PaneRow {
     ..PaneRow::EMPTY
 };
 
-/// Time limit of the whole measurement of errors and times. It is the default of `asperity cost`.
+/// Time limit of the whole measurement of errors and times. It is equal to the default of
+/// `asperity cost`.
 const BUDGET: Duration = Duration::from_secs(10);
 
 #[derive(Clone, Debug, Default)]
