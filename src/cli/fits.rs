@@ -37,8 +37,8 @@ const COMMAND: &str = "# command: ";
 /// Largest size in bytes of an existing table to which rows can be added.
 const LARGEST_TABLE: usize = 1 << 28;
 
-/// Returns the files that the arguments name. In place of a folder, it returns all files in the
-/// folder, sorted by their names.
+/// Returns the files that the arguments name. In place of a folder, it returns the files in the
+/// folder that may be curves, sorted by their names.
 pub(super) fn files_of(
     curves: &[PathBuf],
     output: Option<&Path>,
